@@ -34,6 +34,7 @@ inline constexpr std::size_t kind_count = 10;
 struct Tolerances {
     std::uint32_t color_codes = 0, depth_codes = 0;  // of the reference's type, at every pixel
     std::uint64_t coverage_pixels = 0;               // how many pixels may differ in coverage
+    friend bool operator==(const Tolerances&, const Tolerances&) = default;
 };
 
 struct TargetReport {

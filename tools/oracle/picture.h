@@ -5,6 +5,7 @@
 //          u4, f2 or f4, little endian; deep EXR parts as layers (read_deep.h); raw bytes with a stated layout. Nothing is scaled, premultiplied or decoded.
 // Tests    tests/tools/oracle/read_picture_test.cpp
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,6 +50,10 @@ struct Picture {
     std::string file{};
     std::vector<Target> targets{};  // at least one
 };
+
+[[nodiscard]] inline bool has_depth(const Picture& picture) {
+    return std::ranges::any_of(picture.targets, [](const Target& t) { return t.meaning == Meaning::depth; });
+}
 
 // The layout of a file of bare numbers: little endian, rows without padding.
 struct RawLayout {

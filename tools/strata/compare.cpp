@@ -14,6 +14,7 @@
 #include "tools/oracle/report.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
+#include "tools/strata/compare_scene.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
@@ -32,8 +33,14 @@ struct CompareOptions {
     oracle::Background background{};  // empty: read from the pictures
     std::string algorithm;            // of packs; empty: all
     std::string heat, side, junit, report;
-    bool json = false;
+    bool json = false, exact = false;
+    RunOptions run{};  // of a scene
 };
+
+// A scene or a pack is asked whether a picture is right. Pictures are told what differs, and so is a user who wants the bits or forgives some.
+bool asks_for_verdict(const CompareOptions& options) {
+    return is_scene(options.reference) && !options.exact && options.tolerances == oracle::Tolerances{};
+}
 
 ComparedPaths paths_of(const CompareOptions& options) { return {options.reference, options.candidate}; }
 
@@ -91,14 +98,26 @@ int compare_folders(const CompareOptions& options) {
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }
 
-// A pack stands for the picture of its only algorithm, or of the one that is asked for.
+// A pack stands for the picture of its only algorithm, or of the one that is asked for; a scene for the one that is drawn of it.
 oracle::Picture reference_of(const CompareOptions& options) {
-    if (!scenes::is_pack(options.reference)) return oracle::read_picture(options.reference, options.layout);
+    if (!is_scene(options.reference)) return oracle::read_picture(options.reference, options.layout);
+    if (!scenes::is_pack(options.reference))
+        return drawn_picture({options.run, options.algorithm}, oracle::read_picture(options.candidate, options.layout));
     auto all = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     if (all.size() != 1)
         throw CLI::ValidationError("--algorithm",
                                    "expected one of the pack's, for a picture to compare with it, found none");
     return std::move(all[0].picture);
+}
+
+// What a verdict does not write yet.
+void check_without_files(const CompareOptions& options) {
+    for (const auto& [name, path] : {std::pair{"--heat", &options.heat},
+                                     {"--side", &options.side},
+                                     {"--junit", &options.junit},
+                                     {"--report", &options.report}})
+        if (!path->empty())
+            throw CLI::ValidationError(name, "expected --exact beside it, or a picture as the reference");
 }
 
 // Files first: what stands on standard output has been written.
@@ -109,6 +128,11 @@ int compare(const CompareOptions& options) {
                    {"--report", options.report, {".html"}}});
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
+    if (asks_for_verdict(options)) {
+        check_without_files(options);
+        const oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
+        return compare_with_scene({options.run, options.algorithm, options.json}, picture);
+    }
     const oracle::Picture reference = reference_of(options);
     const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
     const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances, options.background);
@@ -120,13 +144,31 @@ int compare(const CompareOptions& options) {
     return found.accepted ? 0 : 1;
 }
 
+// Options of a scene fit no picture but --background, which is the reference's there.
+void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pictures, CompareOptions& options) {
+    if (app.count("--background") > 0) {
+        const pipeline::Rgba& color = options.run.render.background;
+        options.background = {color[0], color[1], color[2]};
+    }
+    if (is_scene(options.reference)) return;
+    for (const CLI::Option* option : app.get_options())
+        if (option->count() > 0 && option->get_name() != "--background" &&
+            std::ranges::find(of_pictures, option) == of_pictures.end())
+            throw CLI::ValidationError(option->get_name(), "expected a scene for it, found a picture as the reference");
+}
+
 }  // namespace
 
 Command add_compare(CLI::App& root) {
     auto* app = root.add_subcommand("compare", "tell how a picture differs from a reference, by kinds of mistakes");
     const auto options = std::make_shared<CompareOptions>();
-    app->add_option("REFERENCE", options->reference,
-                    "a pack, an .exr, .png or .npy file, or bare numbers with --layout")
+    app->add_option_function<std::string>(
+           "REFERENCE",
+           [options](const std::string& reference) {
+               options->reference = reference;
+               if (is_scene(reference)) take_scene(options->run, reference);
+           },
+           "a scene or a pack, an .exr, .png or .npy file, or bare numbers with --layout")
         ->required()
         ->type_name("");
     app->add_option("CANDIDATE", options->candidate,
@@ -135,16 +177,11 @@ Command add_compare(CLI::App& root) {
         ->type_name("");
     add_layout_option(*app, options->layout);
     add_tolerance_option(*app, options->tolerances);
-    add_option(*app, options->background,
-               {"--background", "R,G,B", "the reference's background, as its values are (default: read from its edge)",
-                "three numbers such as 0.2,0.2,0.3"},
-               [](std::string_view text) -> std::optional<oracle::Background> {
-                   const auto color = to_numbers<float>(text, 3);  // as a renderer has them
-                   if (!color) return std::nullopt;
-                   return oracle::Background(color->begin(), color->end());
-               });
+    app->add_flag("--exact", options->exact,
+                  "of a scene or a pack: hold the picture to every bit, and tell where it differs");
     add_path(*app, options->algorithm,
-             {"--algorithm", "NAME", "of a pack: compare this one alone (default: all)", "an algorithm of the pack"});
+             {"--algorithm", "NAME", "of a pack: compare this one alone (default: all); of a scene: what the port runs",
+              "an algorithm"});
     add_path(*app, options->heat, {"--heat", "FILE.png", "where which kind of difference is", "a file name"});
     add_path(*app, options->side,
              {"--side", "FILE.png",
@@ -155,14 +192,29 @@ Command add_compare(CLI::App& root) {
          "a test case a kind, or of a folder picture, layers and passes, for continuous integration", "a file name"});
     add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of text");
+    const std::vector<CLI::Option*> of_pictures = app->get_options();
+    add_reading_options(*app, options->run.scene_options);
+    add_profile_option(*app, options->run.profile);
+    add_machine_options(*app, options->run.render);
+    add_order_options(*app, options->run.render);
+    add_view_options(*app, options->run);
     app->footer(
         "Examples:\n"
         "  strata render teapot --size 64x64 -o teapot.exr && strata compare teapot.exr teapot.exr\n"
         "  strata render teapot --size 64x64 -o teapot.png && strata compare --json --side side.png teapot.png "
         "teapot.png\n"
-        "Exit status: 0 equal or within --tolerance, 1 different, 2 bad input or usage, 3 the system failed, 130 "
+        "  strata render teapot --size 64x64 --algorithm front_to_back -o teapot.png && strata compare teapot "
+        "teapot.png\n"
+        "With a scene as the reference the picture is right if some port that composites the right fragments in the "
+        "right order can make it, "
+        "whatever its formats, order of blending and rounding.\n"
+        "Exit status: 0 right, equal or within --tolerance, 1 wrong or different, 2 bad input or usage, 3 the system "
+        "failed, 130 "
         "interrupted.");
-    return {app, [options] { return compare(*options); }};
+    return {app, [app, options, of_pictures] {
+                check_for_scene(*app, of_pictures, *options);
+                return compare(*options);
+            }};
 }
 
 }  // namespace strata::tools

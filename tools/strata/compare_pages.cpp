@@ -35,6 +35,8 @@ struct Verdict {
     Paint paint;
 };
 constexpr Verdict verdicts[] = {{"equal", Paint::green},
+                                {"right", Paint::green},
+                                {"wrong", Paint::red},
                                 {"accepted", Paint::yellow},
                                 {"within the tolerance", Paint::yellow},
                                 {"different", Paint::red}};

@@ -35,11 +35,6 @@ struct DiagnoseOptions {
     bool json = false;
 };
 
-bool has_depth(const oracle::Picture& picture) {
-    return std::ranges::find(picture.targets, oracle::Meaning::depth, &oracle::Target::meaning) !=
-           picture.targets.end();
-}
-
 // A pack's own algorithm, if the user names none.
 void choose_algorithm(RunOptions& run) {
     if (!run.algorithms.empty() || scenes::is_procedural(run.scene) || !scenes::is_pack(run.scene)) return;
@@ -103,7 +98,8 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::
     opened->session = open_session(options.run);
     opened->laboratory.emplace(
         oracle::RunInput{opened->session.scene.list, opened->session.view, opened->session.profile, options.run.render},
-        algorithm, has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out, options.limit);
+        algorithm, oracle::has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out,
+        options.limit);
     opened->lineup.emplace(*opened->laboratory, progress);
     return opened;
 }

@@ -240,12 +240,20 @@ void add_reading_options(CLI::App& app, scenes::SceneOptions& options) {
         "--no-light", [&options] { options.light = false; }, "draw every material unlit");
 }
 
+void take_scene(RunOptions& options, const std::string& scene) {
+    options.scene = scene;
+    take_pack_state(options, scene);
+}
+
+const peeling::Algorithm* to_algorithm(const std::string& name) {
+    const auto chosen = to_algorithms(name);
+    if (chosen.size() != 1) throw CLI::ValidationError("--algorithm", "expected one algorithm, found several");
+    return chosen[0];
+}
+
 void add_picture_options(CLI::App& app, RunOptions& options) {
     // Options are read in the order in which they are added, so that those which are given change what a pack says.
-    add_scene(app, [&options](const std::string& scene) {
-        options.scene = scene;
-        take_pack_state(options, scene);
-    });
+    add_scene(app, [&options](const std::string& scene) { take_scene(options, scene); });
     add_reading_options(app, options.scene_options);
     add_algorithm_option(app, options);
     add_profile_option(app, options.profile);

@@ -43,6 +43,10 @@ void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& 
 
 // Adds SCENE and all options that a result bit depends on.
 void add_picture_options(CLI::App& app, RunOptions& options);
+// For a command that asks for a scene in its own way: SCENE is this one, and a pack's state is taken.
+void take_scene(RunOptions& options, const std::string& scene);
+// One algorithm by its name. Throws CLI::ValidationError.
+[[nodiscard]] const peeling::Algorithm* to_algorithm(const std::string& name);
 
 // Adds the options that no bit depends on (--execution, --fragment-memory, --simd, --effects, --tile, --threads).
 void add_execution_options(CLI::App& app, RunOptions& options);

@@ -1,0 +1,65 @@
+// Model: pictures that the command renders itself, and one that is stopped too early; exit statuses of tools/README.md.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+TEST_CASE("compare with a scene calls a picture right whatever its format and order of blending, and ends with 0") {
+    const Folder folder;
+    REQUIRE(
+        shell(
+            folder,
+            "strata render teapot --size 48x36 --background 0.2,0.3,0.5 --algorithm front_to_back,dual -q -o a.png && "
+            "strata render teapot --size 48x36 --background 0.2,0.3,0.5 --color-format rgba16f -q -o b.exr")
+            .status == 0);
+    for (const std::string picture : {"a.dual.png", "a.front_to_back.png", "b.exr"}) {
+        const Ended found = run_strata(folder, {"compare", "teapot", picture, "--background", "0.2,0.3,0.5"});
+        INFO(picture << found.out << found.err);
+        CHECK(found.status == 0);
+        CHECK(found.out.starts_with("right: structure exact at all 1728 pixels; rounding at most "));
+    }
+}
+
+TEST_CASE("compare with a scene names the mistake of a peel that stops early, and ends with 1") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render teapot --size 48x36 --algorithm front_to_back --max-passes 2 -q -o a.png && "
+                  "strata golden teapot --size 48x36 --algorithm front_to_back -q -o pack")
+                .status == 0);
+    const Ended text = run_strata(folder, {"compare", "teapot", "a.png"});
+    CHECK(text.status == 1);
+    CHECK(text.out.starts_with("wrong: only the nearest 2 layers of up to "));
+    // A pack's state stands for the options.
+    const Ended json = run_strata(folder, {"compare", "pack", "a.png", "--json"});
+    CHECK(json.status == 1);
+    const auto document = nlohmann::json::parse(json.out);
+    CHECK(document["verdict"] == "wrong");
+    CHECK(document["explanations"][0]["mistakes"][0]["kind"] == "nearest_alone");
+    CHECK(document["explanations"][0]["mistakes"][0]["n"] == 2);
+}
+
+TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render teapot --size 32x24 --algorithm dual,front_to_back -q -o a.png && "
+                  "strata golden teapot --size 32x24 --algorithm dual -q -o pack")
+                .status == 0);
+    CHECK(run_strata(folder, {"compare", "teapot", "a.dual.png", "--exact"}).out == "equal\n");
+    const Ended other = run_strata(folder, {"compare", "teapot", "a.front_to_back.png", "--exact"});
+    CHECK(other.status == 1);
+    CHECK(other.out.starts_with("different: "));
+    CHECK(run_strata(folder, {"compare", "teapot", "a.front_to_back.png", "--exact", "--algorithm", "front_to_back"})
+              .status == 0);
+    CHECK(run_strata(folder, {"compare", "pack", "a.dual.png", "--exact"}).status == 0);
+    CHECK(run_strata(folder, {"compare", "pack", "a.front_to_back.png", "--exact"}).status == 1);
+    CHECK(run_strata(folder, {"compare", "pack", "a.front_to_back.png"}).status == 0);
+}
+
+TEST_CASE("options of a scene fit no picture as the reference") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"compare", "a.png", "b.png", "--profile", "llvmpipe"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err == "strata: --profile: expected a scene for it, found a picture as the reference\n");
+}

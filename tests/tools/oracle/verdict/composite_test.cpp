@@ -1,0 +1,147 @@
+// Models: integers for blends of 8-bit codes; port_model.h, a port written step by step, for everything else.
+#include "tools/oracle/verdict/composite.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/tools/oracle/verdict/port_model.h"
+
+using namespace strata::oracle::verdict;
+using strata::test::PortModel;
+
+namespace {
+
+int code_of(double v) { return static_cast<int>(std::lround(v * 255)); }
+
+Hypothesis of_codes(Order order, Source source, Rounding rounding) {
+    const End end{Storage::unorm8, source, rounding};
+    return {
+        .order = order, .front = end, .back = end, .result = {Storage::unorm8, Source::unrounded, Rounding::nearest}};
+}
+
+float value(int code) { return static_cast<float>(code) / 255.0f; }
+
+Stack one_layer(int s, int a, int d) {
+    return {.layers = {{.color = {value(s), value(s), value(s), value(a)}}},
+            .background = {value(d), value(d), value(d), 1}};
+}
+
+// How many of all sources, alphas and targets, the latter `step` apart, one layer brings to anything but the code that integers give.
+std::uint64_t strays_of_one_layer(Rounding rounding, int step, int (*model)(int t)) {
+    const Compositor compositor{of_codes(Order::over, Source::stored, rounding)};
+    std::uint64_t strays = 0;
+    for (int s = 0; s < 256; ++s)
+        for (int a = 0; a < 256; ++a)
+            for (int d = 0; d < 256; d += step) {
+                const Reach reach = compositor.reach(one_layer(s, a, d));
+                const int wanted = model(s * a + d * (255 - a));
+                strays += code_of(reach[0].low) == wanted && code_of(reach[0].high) == wanted ? 0 : 1;
+            }
+    return strays;
+}
+
+int nearest_code(int t) { return (2 * t + 255) / 510; }
+int cut_code(int t) { return t / 255; }
+
+Stack random_stack(std::mt19937_64& random, std::size_t most) {
+    const auto unit = [&] {
+        // Every fourth number lies on a code or half way between two, where rounding decides.
+        const auto n = static_cast<float>(random() >> 40) * 0x1p-24f;
+        return random() % 4 == 0 ? static_cast<float>(random() % 511) / 510.0f : n;
+    };
+    Stack stack;
+    const std::size_t layers = random() % (most + 1);
+    for (std::size_t i = 0; i < layers; ++i) stack.layers.push_back({.color = {unit(), unit(), unit(), unit()}});
+    stack.background = {unit(), unit(), unit(), 1};
+    stack.near = (layers + 1) / 2;
+    stack.near_without_middle = layers / 2;
+    return stack;
+}
+
+struct Outside {
+    std::uint64_t pixels = 0;
+    std::string first{};
+};
+
+// Ports of every hypothesis on `lists` random lists each.
+Outside outside_of(Storage result, int lists, std::uint64_t seed) {
+    Outside outside;
+    std::mt19937_64 random{seed};
+    for (const Hypothesis& h : hypotheses(result)) {
+        const Compositor compositor{h};
+        PortModel port{h, seed};
+        for (int i = 0; i < lists; ++i) {
+            const Stack stack = random_stack(random, 12);
+            const auto value = port.composite(stack);
+            const Reach reach = compositor.reach(stack);
+            bool is_inside = true;
+            for (std::size_t c = 0; c < 4; ++c)
+                is_inside &= value[c] >= reach[c].low - 1e-12 && value[c] <= reach[c].high + 1e-12;
+            if (!is_inside && outside.pixels++ == 0) outside.first = describe(h);
+        }
+    }
+    return outside;
+}
+
+}  // namespace
+
+TEST_CASE("one layer of 8-bit codes reaches the code that integers give, and no other") {
+    CHECK(strays_of_one_layer(Rounding::nearest, 15, nearest_code) == 0);
+    CHECK(strays_of_one_layer(Rounding::cut, 15, cut_code) == 0);
+}
+
+TEST_CASE("one layer of 8-bit codes reaches the integers' code for every source, alpha and target", "[exhaustive]") {
+    CHECK(strays_of_one_layer(Rounding::nearest, 1, nearest_code) == 0);
+    CHECK(strays_of_one_layer(Rounding::cut, 1, cut_code) == 0);
+}
+
+TEST_CASE("two layers of 8-bit codes reach the code that integers give, and no other") {
+    const Compositor over{of_codes(Order::over, Source::stored, Rounding::nearest)};
+    std::uint64_t strays = 0;
+    for (int s = 0; s < 256; s += 17)
+        for (int a = 0; a < 256; a += 17)
+            for (int t = 0; t < 256; t += 17)
+                for (int b = 0; b < 256; b += 17)
+                    for (int d = 3; d < 256; d += 50) {
+                        Stack stack = one_layer(s, a, d);
+                        stack.layers.push_back({.color = {value(t), value(t), value(t), value(b)}});
+                        const int behind = nearest_code(t * b + d * (255 - b));
+                        const int wanted = nearest_code(s * a + behind * (255 - a));
+                        const Reach reach = over.reach(stack);
+                        strays += code_of(reach[0].low) == wanted && code_of(reach[0].high) == wanted ? 0 : 1;
+                    }
+    CHECK(strays == 0);
+}
+
+TEST_CASE("no port of any format, order and rounding leaves the interval of its hypothesis") {
+    for (const Storage result : {Storage::unorm8, Storage::unorm16, Storage::half, Storage::single}) {
+        const Outside outside = outside_of(result, 20, 7);
+        INFO(name(result) << ": " << outside.first);
+        CHECK(outside.pixels == 0);
+    }
+}
+
+TEST_CASE("no port leaves the interval of its hypothesis: ten million lists", "[exhaustive]") {
+    for (const Storage result : {Storage::unorm8, Storage::unorm16, Storage::half, Storage::single}) {
+        const int lists = static_cast<int>(2'500'000 / hypotheses(result).size()) + 1;
+        const Outside outside = outside_of(result, lists, 8);
+        INFO(name(result) << ": " << outside.first);
+        CHECK(outside.pixels == 0);
+    }
+}
+
+TEST_CASE("the widest hypothesis of an order holds what any other one of that order reaches") {
+    std::mt19937_64 random{9};
+    const std::vector<Hypothesis> all = hypotheses(Storage::unorm8), wide = widest(all);
+    std::string first;
+    for (int i = 0; i < 20; ++i) {
+        const Stack stack = random_stack(random, 8);
+        for (const Hypothesis& h : all) {
+            const auto own = std::ranges::find(wide, h.order, &Hypothesis::order);
+            const Reach narrow = Compositor{h}.reach(stack), reach = Compositor{*own}.reach(stack);
+            for (std::size_t c = 0; c < 4; ++c)
+                if (narrow[c].low < reach[c].low - 1e-12 || narrow[c].high > reach[c].high + 1e-12) first = describe(h);
+        }
+    }
+    CHECK(first == "");
+}

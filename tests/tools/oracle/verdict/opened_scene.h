@@ -1,0 +1,43 @@
+// tests/tools/oracle/verdict/opened_scene.h - a scene with a view, a profile and options, and pictures of it.
+#pragma once
+#include <string>
+
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "pipeline/device/profile.h"
+#include "scenes/camera.h"
+#include "scenes/scene.h"
+#include "tools/oracle/picture.h"
+#include "tools/oracle/verdict/fragments.h"
+
+namespace strata::test {
+
+struct OpenedScene {
+    scenes::Scene scene;
+    pipeline::View view;
+    pipeline::DeviceProfile profile = *pipeline::find_profile("geforce8");
+    peeling::RenderOptions options{};
+
+    explicit OpenedScene(const std::string& name, int width, int height) : scene{scenes::load_scene(name, {})} {
+        options.width = width;
+        options.height = height;
+        options.background = {0.2f, 0.3f, 0.5f, 1};
+        view = scene.own_view.value_or(scenes::orbit_view(scene.bounds, 30, 20, double(width) / height));
+    }
+    [[nodiscard]] oracle::RunInput input() const { return {scene.list, view, profile, options}; }
+    [[nodiscard]] oracle::verdict::SceneFragments fragments() const {
+        return oracle::verdict::SceneFragments{input(), std::uint64_t{1} << 30};
+    }
+    // Nothing where the profile lacks something.
+    [[nodiscard]] std::optional<oracle::Target> picture(const std::string& algorithm, pipeline::Format format) const {
+        peeling::RenderOptions chosen = options;
+        chosen.color_format = format;
+        chosen.audit = false;
+        peeling::RenderResult result =
+            peeling::Renderer{scene.list, view, profile, chosen}.render(*peeling::find_algorithm(algorithm));
+        if (result.refusal) return std::nullopt;
+        return oracle::as_target(result.frame.color, "color");
+    }
+};
+
+}  // namespace strata::test

@@ -1,0 +1,137 @@
+// Model: ports of the test that change their lists by a loop of their own (wrong_ports.h); the machine's own peels that are stopped.
+#include "tools/oracle/verdict/search.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tests/tools/oracle/verdict/wrong_ports.h"
+#include "tools/oracle/verdict/verdict.h"
+
+using namespace strata;
+using namespace strata::oracle::verdict;
+using namespace strata::test;
+
+namespace {
+
+Verdict judged(const OpenedScene& opened, const oracle::Target& picture) {
+    return judge(opened.fragments(), Colors{picture});
+}
+
+std::set<std::string> found(const Verdict& verdict) {
+    std::set<std::string> names;
+    for (const Checked& c : verdict.explanations)
+        for (const Rule& rule : c.account.rules)
+            names.insert(std::string{name(rule.kind)} + " " + std::to_string(rule.n));
+    return names;
+}
+
+struct WrongPort {
+    const char* wanted;
+    ChangeList change;
+};
+
+void lose(PortList& list, std::size_t number) {
+    if (number < list.visible.size()) list.visible.erase(list.visible.begin() + static_cast<std::ptrdiff_t>(number));
+}
+
+const std::vector<WrongPort>& wrong_ports() {
+    static const std::vector<WrongPort> all{
+        {"nearest_alone 2", [](PortList& l) { l.visible.resize(std::min<std::size_t>(l.visible.size(), 2)); }},
+        {"farthest_alone 2",
+         [](PortList& l) {
+             while (l.visible.size() > 2) lose(l, 0);
+         }},
+        {"lost 1", [](PortList& l) { lose(l, 1); }},
+        {"lost_from_far 0", [](PortList& l) { lose(l, l.visible.size() - 1); }},
+        {"doubled 0",
+         [](PortList& l) {
+             if (!l.visible.empty()) l.visible.insert(l.visible.begin(), pipeline::CapturedFragment{l.visible[0]});
+         }},
+        {"swapped 0",
+         [](PortList& l) {
+             if (l.visible.size() > 1) std::swap(l.visible[0], l.visible[1]);
+         }},
+        {"reversed 0", [](PortList& l) { std::ranges::reverse(l.visible); }},
+        {"as_submitted 0",
+         [](PortList& l) {
+             std::ranges::sort(l.visible, std::ranges::greater{}, &pipeline::CapturedFragment::primitive);
+         }},
+        {"first_submitted 2",
+         [](PortList& l) {
+             std::ranges::sort(l.visible, {}, &pipeline::CapturedFragment::primitive);
+             l.visible.resize(std::min<std::size_t>(l.visible.size(), 2));
+             std::ranges::stable_sort(l.visible, {}, &pipeline::CapturedFragment::code);
+         }},
+        {"behind_submitted 0",
+         [](PortList& l) {
+             std::ranges::sort(l.visible, {}, &pipeline::CapturedFragment::primitive);
+             std::vector<pipeline::CapturedFragment> kept;
+             for (const auto& f : l.visible)
+                 if (kept.empty() || f.code < kept.back().code) kept.push_back(f);
+             std::ranges::reverse(kept);
+             l.visible = kept;
+         }},
+        {"hidden_shown 0", [](PortList& l) { l.visible.insert(l.visible.end(), l.hidden.begin(), l.hidden.end()); }},
+        {"alpha_squared 0",
+         [](PortList& l) {
+             for (auto& f : l.visible) f.color[3] *= f.color[3];
+         }},
+        {"premultiplied_twice 0",
+         [](PortList& l) {
+             for (auto& f : l.visible)
+                 for (int c = 0; c < 3; ++c) f.color[c] *= f.color[3];
+         }},
+        {"background_lost 0",
+         [](PortList& l) {
+             if (!l.has_opaque) l.background = {0, 0, 0, 0};
+         }},
+        {"opaque_in_front 0",
+         [](PortList& l) {
+             if (l.has_opaque) l.visible.clear();
+         }},
+    };
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("a port's mistake in the structure is found from its picture alone, whatever its order of blending") {
+    const OpenedScene opened{"showroom", 48, 48};
+    std::vector<std::string> missed;
+    std::size_t number = 0;
+    for (const WrongPort& port : wrong_ports()) {
+        // One order of blending a port, in turn: three times the pictures would find nothing more.
+        const Order orders[] = {Order::over, Order::under, Order::both_ends};
+        const Order order = orders[number++ % 3];
+        const Verdict verdict = judged(opened, picture_of_port(opened, port_of_codes(order), port.change));
+        if (verdict.is_right || !found(verdict).contains(port.wanted)) missed.emplace_back(port.wanted);
+    }
+    CHECK(missed == std::vector<std::string>{});
+}
+
+TEST_CASE("a port that changes nothing is right by every order of blending") {
+    const OpenedScene opened{"showroom", 48, 48};
+    for (const Order order : {Order::over, Order::under, Order::both_ends})
+        CHECK(judged(opened, picture_of_port(opened, port_of_codes(order), {})).is_right);
+}
+
+TEST_CASE("a peel that is stopped is told by the layers that it has composited") {
+    OpenedScene opened{"showroom", 48, 48};
+    opened.options.max_passes = 2;  // of three layers
+    CHECK(found(judged(opened, *opened.picture("front_to_back", pipeline::Format::rgba8))).contains("nearest_alone 2"));
+    // The first pass of a dual peel composites nothing.
+    CHECK(found(judged(opened, *opened.picture("dual", pipeline::Format::rgba8))).contains("ends_alone 1"));
+}
+
+TEST_CASE("what explains a part of the wrong pixels is a lead and no finding") {
+    const OpenedScene opened{"showroom", 48, 48};
+    std::size_t number = 0;
+    const auto change = [&](PortList& l) {
+        if (number++ % 2 == 0) lose(l, 0);  // by no rule that a pixel's list tells
+    };
+    const Verdict verdict = judged(opened, picture_of_port(opened, port_of_codes(Order::over), change));
+    CHECK_FALSE(verdict.is_right);
+    CHECK(verdict.explanations.empty());
+    REQUIRE(!verdict.leads.empty());
+    CHECK(verdict.leads[0].explained > 0);
+}

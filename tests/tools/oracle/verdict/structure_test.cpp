@@ -1,0 +1,78 @@
+// Model: lists of a few fragments, layers written down by hand as keys-and-counts.md 2.2 has them.
+#include "tools/oracle/verdict/structure.h"
+
+#include <catch2/catch.hpp>
+
+using namespace strata;
+using namespace strata::oracle::verdict;
+
+namespace {
+
+// Depths as codes; the red of each is its number.
+std::vector<Fragment> fragments(const std::vector<std::uint32_t>& codes) {
+    std::vector<Fragment> all;
+    for (const std::uint32_t code : codes)
+        all.push_back({.color = {static_cast<float>(all.size()), 0, 0, 0.5f},
+                       .code = code,
+                       .shader_z = static_cast<float>(code),
+                       .primitive = static_cast<std::uint32_t>(all.size())});
+    return all;
+}
+
+struct Layers {
+    std::vector<int> reds;
+    std::size_t near, near_without_middle;
+    bool operator==(const Layers&) const = default;
+};
+
+Layers layers(const std::vector<std::uint32_t>& codes, TieRule rule) {
+    const std::vector<Fragment> all = fragments(codes);
+    StackMaker maker{Rgba{0, 0, 0, 1}};
+    const Stack& stack = maker.right({.visible = all}, {rule, DepthKey::code});
+    Layers found{{}, stack.near, stack.near_without_middle};
+    for (const Layer& layer : stack.layers) found.reds.push_back(static_cast<int>(layer.color[0]));
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("of fragments at one depth a rule keeps the first, the last, or all in its order") {
+    const std::vector<std::uint32_t> codes{1, 1, 2, 3,
+                                           3};  // three depths: the middle one belongs to the near half, or not
+    CHECK(layers(codes, TieRule::first) == Layers{{0, 1, 2, 3, 4}, 3, 2});
+    CHECK(layers(codes, TieRule::last) == Layers{{1, 0, 2, 4, 3}, 3, 2});
+    CHECK(layers(codes, TieRule::unique) == Layers{{0, 2, 3}, 2, 1});
+    CHECK(layers(codes, TieRule::unique_last) == Layers{{1, 2, 4}, 2, 1});
+    CHECK(layers(codes, TieRule::first_then_last) == Layers{{0, 1, 2, 4, 3}, 3, 2});
+    CHECK(layers({}, TieRule::first) == Layers{{}, 0, 0});
+}
+
+TEST_CASE("fragments at one depth merge by MAX: premultiplied in the near half, straight in the far half") {
+    std::vector<Fragment> all = fragments({1, 1, 2, 2});
+    all[0].color = {1.0f, 0.25f, 0, 0.25f};
+    all[1].color = {0.5f, 0.5f, 0, 0.75f};
+    all[2].color = {1.0f, 0.25f, 0, 0.25f};
+    all[3].color = {0.5f, 0.5f, 0, 0.75f};
+    StackMaker maker{Rgba{0, 0, 0, 1}};
+    const Stack& stack = maker.right({.visible = all}, {TieRule::merged, DepthKey::code});
+    REQUIRE(stack.layers.size() == 2);
+    CHECK(stack.layers[0].color == Rgba{0.5f, 0.5f, 0, 0.75f});  // (0.375, 0.375, 0) times alpha
+    CHECK(stack.layers[1].color == Rgba{1.0f, 0.5f, 0, 0.75f});
+    CHECK(stack.near == 1);
+}
+
+TEST_CASE("depths are compared as stored or as a program sees them, and a pixel has ties if the two differ") {
+    std::vector<Fragment> all = fragments({5, 5});
+    all[0].shader_z = 0.75f;
+    all[1].shader_z = 0.5f;
+    StackMaker maker{Rgba{0, 0, 0, 1}};
+    CHECK(maker.right({.visible = all}, {TieRule::unique, DepthKey::code}).layers.size() == 1);
+    const Stack& by_z = maker.right({.visible = all}, {TieRule::unique, DepthKey::shader_z});
+    REQUIRE(by_z.layers.size() == 2);
+    CHECK(by_z.layers[0].color[0] == 1);
+    CHECK(has_ties(all));
+    CHECK(has_ties(fragments({1, 1})));
+    CHECK_FALSE(has_ties(fragments({1, 2, 3})));
+    all[1].code = 6;  // stored in the other order
+    CHECK(has_ties(all));
+}

@@ -1,0 +1,75 @@
+// Model: pictures of the machine itself are right by definition; pictures changed by hand are wrong where they were changed.
+#include "tools/oracle/verdict/verdict.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/oracle/verdict/opened_scene.h"
+
+using namespace strata;
+using namespace strata::oracle::verdict;
+using strata::test::OpenedScene;
+
+namespace {
+
+constexpr pipeline::Format formats[] = {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f};
+
+Verdict judged(const SceneFragments& fragments, const oracle::Target& picture) {
+    return judge(fragments, Colors{picture});
+}
+
+// Pictures of every exact algorithm in every format that are not called right: their names.
+std::vector<std::string> not_right(const OpenedScene& opened) {
+    const SceneFragments fragments = opened.fragments();
+    std::vector<std::string> names;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms())
+        for (const pipeline::Format format : formats) {
+            const auto picture = algorithm.exact ? opened.picture(algorithm.name, format) : std::nullopt;
+            if (picture && !judged(fragments, *picture).is_right)
+                names.push_back(algorithm.name + " in " + std::string{pipeline::info(format).name});
+        }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("every exact algorithm's own picture is right by structure, in every format") {
+    CHECK(not_right(OpenedScene{"showroom", 40, 30}).empty());
+    OpenedScene ties{"random:seed=7,triangles=60", 24, 24};
+    CHECK(not_right(ties).empty());
+    ties.profile = *pipeline::find_profile("llvmpipe");
+    CHECK(not_right(ties).empty());
+}
+
+TEST_CASE("a pixel changed beyond what rounding may do is wrong, and it alone") {
+    const OpenedScene opened{"teapot", 48, 36};
+    oracle::Target picture = *opened.picture("dual", pipeline::Format::rgba8);
+    const SceneFragments fragments = opened.fragments();
+    const Verdict right = judged(fragments, picture);
+    CHECK(right.is_right);
+    CHECK(right.right.pixels == 48 * 36);
+    picture.codes[4 * (20 * 48 + 24)] += 4;
+    const Verdict wrong = judged(fragments, picture);
+    CHECK_FALSE(wrong.is_right);
+    CHECK(wrong.right.wrong_pixels == std::vector<std::uint32_t>{20 * 48 + 24});
+}
+
+TEST_CASE("a picture blended in the order of submission is wrong") {
+    const OpenedScene opened{"teapot", 48, 36};
+    const Verdict found = judged(opened.fragments(), *opened.picture("unsorted", pipeline::Format::rgba8));
+    CHECK_FALSE(found.is_right);
+    CHECK(found.right.wrong_pixels.size() > 50);
+}
+
+TEST_CASE("the hypothesis that is named has the formats that the picture was made with") {
+    const OpenedScene opened{"showroom", 64, 64};
+    const SceneFragments fragments = opened.fragments();
+    const Verdict codes = judged(fragments, *opened.picture("front_to_back", pipeline::Format::rgba8));
+    CHECK(codes.right.account.hypothesis.order == Order::under);
+    CHECK(codes.right.account.hypothesis.front == End{Storage::unorm8, Source::premultiplied, Rounding::nearest});
+    CHECK(codes.right.ties.rule == TieRule::unique);
+    const Verdict floats = judged(fragments, *opened.picture("a_buffer", pipeline::Format::rgba8));
+    CHECK(floats.right.account.hypothesis.front.storage == Storage::single);
+    CHECK(floats.right.observed <= floats.right.possible);
+    CHECK(floats.right.ties.rule == TieRule::first);
+    CHECK(floats.right.has_one_tie_rule);
+}

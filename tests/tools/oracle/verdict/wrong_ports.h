@@ -1,0 +1,69 @@
+// tests/tools/oracle/verdict/wrong_ports.h - pictures of ports that composite other fragments than they should: lists of Renderer::fragments, changed
+// by a function of the test, blended step by step by port_model.h.
+#pragma once
+#include <functional>
+
+#include "tests/tools/oracle/verdict/opened_scene.h"
+#include "tests/tools/oracle/verdict/port_model.h"
+
+namespace strata::test {
+
+// A pixel's fragments as a port has them: near to far, equal depths as submitted.
+struct PortList {
+    std::vector<pipeline::CapturedFragment> visible{}, hidden{};
+    Rgba background{};  // the opaque surface's colour, or what the frame was cleared to
+    bool has_opaque = false;
+};
+using ChangeList = std::function<void(PortList&)>;
+
+// 8-bit accumulators, rounded to nearest, in this order.
+inline oracle::verdict::Hypothesis port_of_codes(oracle::verdict::Order order) {
+    using namespace oracle::verdict;
+    const End end{Storage::unorm8, Source::stored, Rounding::nearest};
+    return {
+        .order = order, .front = end, .back = end, .result = {Storage::unorm8, Source::unrounded, Rounding::nearest}};
+}
+
+// The picture of a port that changes every list. `seed` decides where a port is free.
+inline oracle::Target picture_of_port(const OpenedScene& opened, const oracle::verdict::Hypothesis& hypothesis,
+                                      const ChangeList& change, std::uint64_t seed = 1) {
+    peeling::RenderOptions options = opened.options;
+    options.audit = false;
+    peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, options};
+    const peeling::FrameFragments all = renderer.fragments(*peeling::find_algorithm("front_to_back"));
+    // The opaque scene is what is left of a frame whose layers are all cut away: one pass of an empty peel.
+    pipeline::DrawList opaque = opened.scene.list;
+    std::erase_if(opaque.instances, [&](const pipeline::Instance& i) {
+        return opaque.materials[i.material].alpha_mode == pipeline::AlphaMode::blend;
+    });
+    options.color_format = pipeline::Format::rgba32f;
+    const pipeline::Image behind = peeling::Renderer{opaque, opened.view, opened.profile, options}
+                                       .render(*peeling::find_algorithm("unsorted"))
+                                       .frame.color;
+    const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    std::vector<PortList> lists(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        for (std::size_t c = 0; c < 4; ++c)
+            lists[p].background[static_cast<int>(c)] = std::bit_cast<float>(behind.codes[4 * p + c]);
+        lists[p].has_opaque = std::bit_cast<float>(all.opaque[p]) < 1.0f;
+    }
+    for (const pipeline::CapturedFragment& f : all.all)
+        (f.code < all.opaque[f.pixel] ? lists[f.pixel].visible : lists[f.pixel].hidden).push_back(f);
+    PortModel port{hypothesis, seed};
+    oracle::Target picture{
+        .name = "color", .code = oracle::Code::unorm8, .width = options.width, .height = options.height, .channels = 4};
+    for (PortList& list : lists) {
+        std::ranges::stable_sort(list.visible, {}, &pipeline::CapturedFragment::code);
+        std::ranges::stable_sort(list.hidden, {}, &pipeline::CapturedFragment::code);
+        if (change) change(list);
+        oracle::verdict::Stack stack{.background = list.background};
+        for (const pipeline::CapturedFragment& f : list.visible) stack.layers.push_back({.color = f.color});
+        stack.near = (stack.layers.size() + 1) / 2;
+        stack.near_without_middle = stack.layers.size() / 2;
+        for (const double v : port.composite(stack))
+            picture.codes.push_back(static_cast<std::uint32_t>(std::lround(v * 255)));
+    }
+    return picture;
+}
+
+}  // namespace strata::test

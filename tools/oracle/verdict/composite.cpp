@@ -1,0 +1,267 @@
+#include "tools/oracle/verdict/composite.h"
+
+#include <cmath>
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+constexpr double single_error = 0x1p-22;  // of a blend's terms (composite.h, Numbers)
+
+// Exact for |x| < 2^51: binary64 has no finer numbers beyond 2^52.
+double nearest_whole(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
+double floor_of(double x) noexcept {
+    const double whole = nearest_whole(x);
+    return whole > x ? whole - 1 : whole;
+}
+double ceil_of(double x) noexcept {
+    const double whole = nearest_whole(x);
+    return whole < x ? whole + 1 : whole;
+}
+
+double scale_of(Storage storage) noexcept {
+    switch (storage) {
+        case Storage::unorm8: return 255;
+        case Storage::unorm10: return 1023;
+        case Storage::unorm16: return 65535;
+        case Storage::half:
+        case Storage::single: break;
+    }
+    return 0;
+}
+
+// Whether operands of a blend are codes, so that its exact result is a whole number over scale^2.
+bool has_stored_source(Source source) noexcept {
+    return source == Source::stored || source == Source::stored_either_way || source == Source::premultiplied ||
+           source == Source::premultiplied_either_way;
+}
+
+Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
+    Keeper k;
+    k.scale = scale_of(storage);
+    k.has_codes = k.scale > 0;
+    if (!k.has_codes) {
+        const bool cuts = rounding != Rounding::nearest && rounding != Rounding::held;
+        k.relative = storage == Storage::half ? (cuts ? 0x1p-10 : 0x1p-11) : (cuts ? 0x1p-23 : 0x1p-24);
+        k.relative += single_error;
+        k.least = storage == Storage::half ? 0x1p-24 : 0x1p-120;  // subnormals, flushed or not
+        return k;
+    }
+    k.inverse = 1 / k.scale;
+    // A quotient of codes is off by less than half of the least distance of two of them; a blend in binary32 by its error.
+    const double error = operands_are_codes ? 0x1p-30 : k.scale * single_error;
+    switch (rounding) {
+        case Rounding::nearest: k.minus = k.plus = 0.5 + error; break;
+        case Rounding::products: k.minus = k.plus = 1 + 1.0 / 64 + error; break;  // blend_unorm8.h: product()
+        case Rounding::held:
+            k.minus = k.plus = 0.5 + error;
+            k.snaps = false;
+            break;
+        case Rounding::any:
+            k.minus = k.plus = 1 + 1.0 / 64 + error;
+            k.snaps = false;
+            break;
+        case Rounding::cut:
+            k.cuts = true;
+            k.cut_low = operands_are_codes ? 0.25 / k.scale : -error;
+            k.cut_high = operands_are_codes ? 0.25 / k.scale : error;
+            break;
+    }
+    return k;
+}
+
+// A colour that becomes a code: halves go up, or may go either way.
+Keeper conversion(Storage storage, Source source) {
+    if (source == Source::any) return keeper(storage, Rounding::any, false);
+    const bool goes_up = source == Source::stored || source == Source::premultiplied;
+    return keeper(storage, Rounding::nearest, goes_up);
+}
+
+Interval clamped(Interval x) noexcept {
+    return {std::min(std::max(x.low, 0.0), 1.0), std::min(std::max(x.high, 0.0), 1.0)};
+}
+
+}  // namespace
+
+Interval Keeper::kept(Interval exact, double magnitude) const noexcept {
+    if (!has_codes) return exact.widened(magnitude * relative + least);
+    double low = below(exact.low * scale), high = above(exact.high * scale);
+    low = cuts ? floor_of(low + cut_low) : snaps ? ceil_of(low - minus) : low - minus;
+    high = cuts ? floor_of(high + cut_high) : snaps ? floor_of(high + plus) : high + plus;
+    return {std::min(std::max(low, 0.0), scale) * inverse, std::min(std::max(high, 0.0), scale) * inverse};
+}
+
+namespace {
+
+// A code's value: halves up, as `stored` has it. Both ends of the interval are the same code if those of `exact` are.
+Interval stored_up(const Keeper& keeper, Interval exact) noexcept {
+    const auto code = [&](double v) {
+        return std::min(std::max(floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) * keeper.inverse;
+    };
+    return {code(exact.low), code(exact.high)};
+}
+
+}  // namespace
+
+Compositor::Means Compositor::means_of(const End& end, double slack) {
+    Means m{.end = end, .slack = slack};
+    m.source = conversion(end.storage, end.source);
+    m.blend = keeper(end.storage, end.rounding, has_stored_source(end.source));
+    m.weight = m.blend;
+    // UNDER multiplies three codes where its sources are straight; and what is let through may be kept as coverage, which is cut the other way.
+    const bool has_three = end.source == Source::stored || end.source == Source::stored_either_way;
+    m.under = keeper(end.storage, end.rounding, has_stored_source(end.source) && !has_three);
+    if (m.weight.cuts) m.weight = keeper(end.storage, Rounding::products, false), m.weight.minus = m.weight.plus = 1;
+    return m;
+}
+
+Compositor::Operand Compositor::operand(const Means& means, const Layer& layer) noexcept {
+    const bool has_codes = means.blend.has_codes;
+    const Source source = means.end.source;
+    Operand o;
+    const double slack = means.slack + layer.slack;
+    const auto given = [&](float v) {
+        Interval x = Interval::of(v);
+        if (slack > 0) x = x.widened(slack * std::max(1.0, std::fabs(double{v})));
+        return has_codes ? clamped(x) : x;
+    };
+    const auto stored = [&](Interval x) {
+        if (source == Source::unrounded) return x;
+        if (!has_codes) return source == Source::any ? means.source.kept(x, x.magnitude()) : x;
+        if (source == Source::any) return clamped(means.source.kept(x, 1));
+        const bool goes_up = source == Source::stored || source == Source::premultiplied;
+        return goes_up ? stored_up(means.source, x) : means.source.kept(x, 1);
+    };
+    if (layer.is_premultiplied) {
+        for (std::size_t c = 0; c < 3; ++c) o.color[c] = stored(given(layer.color[c]));
+        o.alpha = stored(given(layer.color[3]));
+        o.color[3] = Interval::of(1);
+        o.is_premultiplied = true;
+        return o;
+    }
+    const Interval alpha = clamped(given(layer.color[3]));
+    o.alpha = clamped(stored(alpha));
+    o.color[3] = Interval::of(1);
+    o.is_premultiplied = source == Source::premultiplied || source == Source::premultiplied_either_way;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Interval color = given(layer.color[c]);
+        if (!o.is_premultiplied) {
+            o.color[c] = stored(color);
+            continue;
+        }
+        // The product is rounded to binary32 first; without slack it is known to the bit.
+        Interval product = color * alpha;
+        if (slack == 0 && source == Source::premultiplied) {
+            const float clamped_color = has_codes ? std::min(std::max(layer.color[c], 0.0f), 1.0f) : layer.color[c];
+            product = Interval::of(clamped_color * layer.color[3]);
+        } else {
+            product = product.widened(product.magnitude() * 0x1p-23);
+        }
+        o.color[c] = stored(product);
+    }
+    return o;
+}
+
+Compositor::Channels Compositor::under(const Means& means, std::span<const Layer> near_to_far) noexcept {
+    Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(1)};
+    const bool may_be_rounded = means.end.source == Source::any;
+    for (const Layer& layer : near_to_far) {
+        const Operand o = operand(means, layer);
+        const Interval through = sum[3];
+        for (std::size_t c = 0; c < 3; ++c) {
+            Interval premultiplied = o.is_premultiplied ? o.color[c] : o.color[c] * o.alpha;
+            // A product that may be stored as a layer on the way.
+            if (may_be_rounded) premultiplied = means.source.kept(premultiplied, premultiplied.magnitude());
+            const Interval added = through * premultiplied;
+            sum[c] = means.under.kept(sum[c] + added, sum[c].magnitude() + added.magnitude());
+        }
+        // It may be kept as coverage, 1 - t, whose error is one of 1.
+        sum[3] = clamped(means.weight.kept(through * rest_of(o.alpha), 1));
+    }
+    return sum;
+}
+
+void Compositor::over(const Means& means, std::span<const Layer> near_to_far, Channels& onto) noexcept {
+    const bool may_be_rounded = means.end.source == Source::any;
+    for (std::size_t i = near_to_far.size(); i-- > 0;) {
+        const Operand o = operand(means, near_to_far[i]);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double magnitude = o.color[c].magnitude() + onto[c].magnitude();
+            Interval exact;
+            if (o.is_premultiplied && c < 3) {
+                exact = o.color[c] + rest_of(o.alpha) * onto[c];
+            } else {
+                exact = mixed(o.alpha, o.color[c], onto[c]);
+                if (may_be_rounded && c < 3) {
+                    const Interval product = o.alpha * o.color[c];
+                    const Interval layer = means.source.kept(product, product.magnitude());
+                    const Interval other = layer + rest_of(o.alpha) * onto[c];
+                    exact = {std::min(exact.low, other.low), std::max(exact.high, other.high)};
+                }
+            }
+            onto[c] = means.blend.kept(exact, magnitude);
+        }
+    }
+}
+
+Compositor::Channels Compositor::background_of(const Means& means, const Rgba& background) noexcept {
+    Channels channels;
+    for (std::size_t c = 0; c < 4; ++c) {
+        Interval x = Interval::of(background[c]);
+        if (means.slack > 0) x = x.widened(means.slack * std::max(1.0, x.magnitude()));
+        const Source source = means.end.source;
+        if (!means.blend.has_codes)
+            channels[c] = means.blend.kept(x, x.magnitude());
+        else if (source == Source::stored || source == Source::premultiplied)
+            channels[c] = stored_up(means.source, clamped(x));
+        else
+            channels[c] = means.source.kept(clamped(x), 1);
+    }
+    return channels;
+}
+
+Compositor::Compositor(const Hypothesis& h)
+    : hypothesis_{h},
+      front_{means_of(h.front, h.slack)},
+      back_{means_of(h.back, h.slack)},
+      result_{keeper(h.result.storage, h.result.rounding, false)},
+      converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held} {}
+
+Reach Compositor::reach(const Stack& stack) const noexcept {
+    const Order order = hypothesis_.order;
+    const std::span<const Layer> near_to_far = stack.layers;
+    std::size_t near = 0;
+    if (order == Order::under) near = near_to_far.size();
+    if (order == Order::both_ends || order == Order::both_ends_apart) near = stack.near;
+    if (order == Order::both_ends_far) near = stack.near_without_middle;
+    const Channels behind = background_of(back_, stack.background);
+    const bool is_apart = order == Order::over_apart || order == Order::both_ends_apart;
+    Channels back = is_apart ? Channels{} : behind;
+    over(back_, near_to_far.subspan(near), back);
+    const auto published = [&](Interval exact, double magnitude) { return result_.kept(exact, magnitude); };
+    Reach reach;
+    if (is_apart) {
+        const Interval through = clamped(rest_of(back[3]));
+        for (std::size_t c = 0; c < 4; ++c) {
+            const Interval added = through * behind[c];
+            back[c] = has_front(order) ? back[c] + added
+                                       : published(back[c] + added, back[c].magnitude() + added.magnitude());
+        }
+        if (!has_front(order)) return back;
+    }
+    if (!has_front(order)) {
+        for (std::size_t c = 0; c < 4; ++c) reach[c] = converts_ ? published(back[c], back[c].magnitude()) : back[c];
+        return reach;
+    }
+    const Channels front = under(front_, near_to_far.first(near));
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Interval added = front[3] * back[c];
+        reach[c] = published(front[c] + added, front[c].magnitude() + added.magnitude());
+    }
+    // Alpha is 1 less what is let through, and the background's share of that.
+    const Interval alpha = mixed(front[3], back[3], Interval::of(1));
+    reach[3] = published(alpha, 1);
+    return reach;
+}
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,86 @@
+// tools/oracle/verdict/composite.h - the values that a pixel can have if a list of layers is composited as a hypothesis says.
+//
+// Rule     `reach` holds every result of every implementation that the hypothesis describes: sources, blends and conversions take all
+//          values that their rounding allows, colours and alpha all within the slack. Channels are bounded one by one.
+// Numbers  Intervals of binary64 with outward rounding (interval.h). Blends in binary32 are off by at most 2^-22 of the sum of their terms:
+//          at most five operations, 2^-24 each. Codes are whole numbers times 1 / (2^n - 1), rounded once.
+// Source   GL 4.6 17.3.6; fragment-stages.md 8 and 9; algorithms.md 4 (UNDER), 5 (both ends).
+// Tests    tests/tools/oracle/verdict/composite_test.cpp: every 8-bit source and target of one layer and of two; random lists by a model of
+//          each rounding
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rasterizer/base/vector.h"
+#include "tools/oracle/verdict/hypothesis.h"
+#include "tools/oracle/verdict/interval.h"
+
+namespace strata::oracle::verdict {
+
+struct Layer {
+    Rgba color{};                   // straight, alpha within [0, 1]
+    bool is_premultiplied = false;  // colours are times alpha already, or stand for a sum; alpha may be anything
+    float slack = 0;                // beside the hypothesis' own: of colours that come out of sums
+    friend bool operator==(const Layer&, const Layer&) = default;
+};
+
+// A pixel's layers, near to far, over its background.
+struct Stack {
+    std::vector<Layer> layers{};
+    Rgba background{};
+    // Of peels from both ends: how many layers the near half of the depths has, with the middle depth and without it.
+    std::size_t near = 0, near_without_middle = 0;
+    friend bool operator==(const Stack&, const Stack&) = default;
+};
+
+// Red, green, blue and alpha of the finished pixel, as values (not codes) of the result's storage.
+using Reach = std::array<Interval, 4>;
+
+// How a storage rounds what it gets: a hypothesis' rounding turned into numbers once.
+struct Keeper {
+    bool has_codes = true;  // false: a float
+    double scale = 255, inverse = 1.0 / 255;
+    double minus = 0, plus = 0;  // codes: how far a stored one may lie below and above the exact result
+    bool snaps = true;           // false: codes are not all that may be kept
+    double cut_low = 0, cut_high = 0;
+    bool cuts = false;               // whole codes below the exact result, moved by the two numbers above
+    double relative = 0, least = 0;  // floats
+
+    [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept;
+};
+
+class Compositor {
+  public:
+    Compositor(const Hypothesis& hypothesis);  // what it describes
+    [[nodiscard]] Reach reach(const Stack& stack) const noexcept;
+    [[nodiscard]] const Hypothesis& hypothesis() const noexcept { return hypothesis_; }
+
+  private:
+    // How one end takes its sources, and what it keeps of a blend.
+    struct Means {
+        End end{};
+        Keeper source{}, blend{}, under{}, weight{};  // weight: of what is let through
+        double slack = 0;
+    };
+    struct Operand {
+        std::array<Interval, 4> color{};  // straight or times alpha; the fourth: of 1
+        Interval alpha{};
+        bool is_premultiplied = false;
+    };
+    using Channels = std::array<Interval, 4>;
+
+    [[nodiscard]] static Means means_of(const End& end, double slack);
+    [[nodiscard]] static Operand operand(const Means& means, const Layer& layer) noexcept;
+    // UNDER: the fourth channel is what is let through.
+    [[nodiscard]] static Channels under(const Means& means, std::span<const Layer> near_to_far) noexcept;
+    static void over(const Means& means, std::span<const Layer> near_to_far, Channels& onto) noexcept;
+    [[nodiscard]] static Channels background_of(const Means& means, const Rgba& background) noexcept;
+
+    Hypothesis hypothesis_;
+    Means front_, back_;
+    Keeper result_;
+    bool converts_ = false;  // what `over` leaves is not yet of the result's storage
+};
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,199 @@
+#include "tools/oracle/verdict/fragments.h"
+
+#include <algorithm>
+#include <bit>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+#include "peeling/render.h"
+#include "pipeline/region/region.h"
+#include "rasterizer/base/parallel.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+using pipeline::FragmentBatch;
+using pipeline::Loads;
+using pipeline::Outputs;
+using pipeline::Region;
+
+struct Captured {
+    std::uint32_t pixel = 0;  // of the region
+    Fragment fragment{};
+};
+
+constexpr rasterizer::FragmentNeeds all_values{
+    .shader_z = true, .code = true, .exact_code = false, .color = true, .texcoord = false, .facing = true};
+
+// The region's fragments in submission order, behind MASK and before any test.
+std::vector<Captured> capture(Region& region, std::span<const std::uint32_t> instance_of,
+                              const std::vector<pipeline::Instance>& instances) {
+    std::vector<Captured> all;
+    pipeline::PassState state;
+    state.needs = all_values;
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            if (out.alive[i] == 0) continue;
+            const std::uint32_t primitive = in.primitive[i];
+            all.push_back({in.pixel[i],
+                           {.color = {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]},
+                            .code = in.code[i],
+                            .shader_z = in.shader_z[i],
+                            .primitive = primitive,
+                            .instance = instance_of[primitive],
+                            .material = instances[instance_of[primitive]].material,
+                            .is_front_facing = in.front_facing[i] != 0}});
+        }
+    }));
+    return all;
+}
+
+// Into the lists of their pixels: visible ones first, each part by code.
+TileLists sorted_into_lists(const Region& region, const std::vector<Captured>& captured) {
+    const rasterizer::Rect rect = region.rect(), frame = region.frame().rect();
+    TileLists tile{.rect = {rect.x0 - frame.x0, rect.y0 - frame.y0, rect.x1 - frame.x0, rect.y1 - frame.y0}};
+    const std::size_t pixels = tile.rect.area();
+    const std::uint32_t* const opaque = region.storage(region.opaque_depth()).depth(0);
+    tile.opaque.assign(opaque, opaque + pixels);
+    tile.start.assign(pixels + 1, 0);
+    tile.hidden.assign(pixels, 0);
+    const auto is_visible = [&](const Captured& c) { return c.fragment.code < opaque[c.pixel]; };
+    for (const Captured& c : captured) {
+        ++tile.start[c.pixel + 1];
+        tile.hidden[c.pixel] += is_visible(c) ? 1 : 0;
+    }
+    std::partial_sum(tile.start.begin(), tile.start.end(), tile.start.begin());
+    for (std::size_t p = 0; p < pixels; ++p) tile.hidden[p] += tile.start[p];
+    std::vector<std::uint32_t> visible(tile.start.begin(), tile.start.end() - 1), hidden = tile.hidden;
+    tile.fragments.resize(captured.size());
+    for (const Captured& c : captured)
+        tile.fragments[is_visible(c) ? visible[c.pixel]++ : hidden[c.pixel]++] = c.fragment;
+    const auto sort = [&](std::uint32_t first, std::uint32_t last) {
+        const auto at = [&](std::uint32_t i) { return tile.fragments.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::stable_sort(at(first), at(last), [](const Fragment& a, const Fragment& b) { return a.code < b.code; });
+    };
+    for (std::size_t p = 0; p < pixels; ++p) {
+        sort(tile.start[p], tile.hidden[p]);
+        sort(tile.hidden[p], tile.start[p + 1]);
+    }
+    return tile;
+}
+
+// The instance of every triangle, in the order of submission.
+std::vector<std::uint32_t> instances_of(const RunInput& input) {
+    std::vector<std::uint32_t> instances;
+    const pipeline::DrawList& list = input.list;
+    for (std::uint32_t i = 0; i < list.instances.size(); ++i) {
+        const pipeline::Instance& instance = list.instances[i];
+        const bool is_drawn = input.options.alpha.has_value() ||
+                              list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
+        if (is_drawn) instances.insert(instances.end(), list.meshes[instance.mesh].indices.size() / 3, i);
+    }
+    return instances;
+}
+
+// The pixels of a frame that no tile holds, in rectangles.
+std::vector<rasterizer::Rect> rest_of_frame(int width, int height, std::span<const rasterizer::Rect> tiles) {
+    std::vector<bool> is_held(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const auto at = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
+    for (const rasterizer::Rect& tile : tiles)
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x) is_held[at(x, y)] = true;
+    std::vector<rasterizer::Rect> rest;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (is_held[at(x, y)]) continue;
+            const int begin = x;
+            while (x < width && !is_held[at(x, y)]) ++x;
+            const auto above = std::ranges::find_if(
+                rest, [&](const rasterizer::Rect& r) { return r.y1 == y && r.x0 == begin && r.x1 == x; });
+            if (above != rest.end())
+                ++above->y1;
+            else
+                rest.push_back({begin, y, x, y + 1});
+        }
+    return rest;
+}
+
+}  // namespace
+
+SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
+    : input_{input}, instance_of_{instances_of(input)} {
+    std::mutex mutex;
+    std::vector<rasterizer::Rect> rects;
+    behind_ = draw([&](TileLists&& tile) {
+        const std::scoped_lock lock{mutex};
+        rects.push_back(tile.rect);
+        count_ += tile.fragments.size();
+        for (std::size_t p = 0; p + 1 < tile.start.size(); ++p)
+            most_visible_ = std::max<std::size_t>(most_visible_, tile.hidden[p] - tile.start[p]);
+        keeps_ = keeps_ && count_ * sizeof(Fragment) <= bytes;
+        if (keeps_)
+            kept_.push_back(std::move(tile));
+        else
+            kept_.clear();
+    });
+    // Tiles come as threads finish them.
+    std::ranges::sort(kept_, {}, [](const TileLists& t) { return std::pair{t.rect.y0, t.rect.x0}; });
+    blank_ = rest_of_frame(behind_.width, behind_.height, rects);
+    rasterizer::DepthFormat format = input.options.depth.value_or(
+        input.profile.has_d32f ? rasterizer::DepthFormat::d32f : rasterizer::DepthFormat::d24);
+    far_code_ = rasterizer::max_code(format);
+}
+
+// Blank tiles do not run one by one: the first stands for the others, and what it takes is no tile of its own twice.
+pipeline::Image SceneFragments::draw(const std::function<void(TileLists&&)>& take) const {
+    pipeline::DeviceProfile profile = input_.profile;
+    profile.has_float_targets = true;  // an unrounded opaque colour is asked for
+    peeling::RenderOptions options = input_.options;
+    options.color_format = pipeline::Format::rgba32f;
+    options.audit = options.keep_layers = options.nearest_depth = false;
+    options.execution = pipeline::Execution::replay;
+    options.max_passes = 0;
+    options.termination = {};
+    peeling::Algorithm fragments;
+    fragments.name = "fragments";
+    fragments.body = [&](Region& region) {
+        take(sorted_into_lists(region, capture(region, instance_of_, input_.list.instances)));
+        region.publish(region.opaque_color());
+    };
+    peeling::Renderer renderer{input_.list, input_.view, profile, options};
+    peeling::RenderResult result = renderer.render(fragments);
+    if (result.refusal) throw pipeline::Refused{profile, *std::move(result.refusal)};
+    return std::move(result.frame.color);
+}
+
+void SceneFragments::for_each_tile(const std::function<void(const TileLists&)>& visit) const {
+    if (keeps_)
+        parallel_for(kept_.size(), input_.options.threads, [&](std::size_t i) { visit(kept_[i]); });
+    else
+        static_cast<void>(draw([&](TileLists&& tile) { visit(tile); }));
+    for (const rasterizer::Rect& rect : blank_) {
+        TileLists tile{.rect = rect};
+        tile.start.assign(rect.area() + 1, 0);
+        tile.hidden.assign(rect.area(), 0);
+        tile.opaque.assign(rect.area(), far_code_);
+        visit(tile);
+    }
+}
+
+PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noexcept {
+    const auto width = static_cast<std::size_t>(tile.rect.width());
+    PixelList list{.x = tile.rect.x0 + static_cast<int>(pixel % width),
+                   .y = tile.rect.y0 + static_cast<int>(pixel / width)};
+    const std::uint32_t first = tile.start[pixel], hidden = tile.hidden[pixel], end = tile.start[pixel + 1];
+    list.visible = {tile.fragments.data() + first, hidden - first};
+    list.hidden = {tile.fragments.data() + hidden, end - hidden};
+    list.opaque = tile.opaque[pixel];
+    list.has_opaque = list.opaque != far_code_;
+    for (int c = 0; c < 4; ++c)
+        list.behind[static_cast<std::size_t>(c)] =
+            std::bit_cast<float>(behind_.codes[behind_.index(list.x, list.y, c)]);
+    return list;
+}
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,77 @@
+// tools/oracle/verdict/fragments.h - every transparent fragment of a scene, pixel by pixel, near to far, and what lies behind them.
+//
+// Rule     A pixel's list has its visible fragments by depth code, equal codes in the order of submission; then its hidden ones, those at or
+//          behind the opaque surface, likewise. Lists come tile by tile, each tile once; tiles without a fragment come, too.
+// Numbers  40 bytes a fragment. Tiles are kept while they fit into the memory that is stated, and drawn again for each walk where they do not.
+// Tests    tests/tools/oracle/verdict/fragments_test.cpp
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pipeline/formats/image.h"
+#include "tools/oracle/passes.h"
+
+namespace strata::oracle::verdict {
+
+struct Fragment {
+    Rgba color{};                 // straight
+    std::uint32_t code = 0;       // its depth as stored, less is nearer
+    float shader_z = 0;           // in [0, 1], less is nearer
+    std::uint32_t primitive = 0;  // submission number of its triangle
+    std::uint32_t instance = 0;   // of the draw list
+    std::uint32_t material = 0;
+    bool is_front_facing = true;
+};
+
+struct PixelList {
+    int x = 0, y = 0;  // in the frame
+    std::span<const Fragment> visible{}, hidden{};
+    Rgba behind{};             // the opaque surface's colour or the background's
+    std::uint32_t opaque = 0;  // its depth's code
+    bool has_opaque = false;   // false: the background lies behind
+};
+
+struct TileLists {
+    rasterizer::Rect rect{};  // pixels of the frame
+    std::vector<std::uint32_t> start{},
+        hidden{};  // of each pixel, row by row: where its lists begin; `start` has one more
+    std::vector<Fragment> fragments{};
+    std::vector<std::uint32_t> opaque{};  // each pixel's depth code of the opaque surface
+};
+
+class SceneFragments {
+  public:
+    // Draws the scene. `bytes`: what may be kept. Throws Refused and InputError as a renderer does. What `input` refers to must live as long.
+    SceneFragments(const RunInput& input, std::uint64_t bytes);
+
+    [[nodiscard]] int width() const noexcept { return behind_.width; }
+    [[nodiscard]] int height() const noexcept { return behind_.height; }
+    // Where nothing is drawn.
+    [[nodiscard]] const Rgba& cleared() const noexcept { return input_.options.background; }
+    [[nodiscard]] const pipeline::DrawList& list() const noexcept { return input_.list; }
+    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    [[nodiscard]] std::size_t most_visible() const noexcept { return most_visible_; }
+
+    // visit(tile) for every tile, from several threads.
+    void for_each_tile(const std::function<void(const TileLists&)>& visit) const;
+    [[nodiscard]] PixelList at(const TileLists& tile, std::size_t pixel) const noexcept;  // `pixel` counts in the tile
+
+  private:
+    // Draws the scene once; `take` gets the tiles that run: all that are not blank. Returns the opaque scene's colours.
+    pipeline::Image draw(const std::function<void(TileLists&&)>& take) const;
+
+    RunInput input_;
+    std::vector<std::uint32_t> instance_of_{};  // of a primitive
+    std::uint32_t far_code_ = 0;                // where no opaque surface is
+    pipeline::Image behind_{};                  // rgba32f
+    std::vector<TileLists> kept_{};
+    std::vector<rasterizer::Rect> blank_{};  // what no tile that ran holds
+    bool keeps_ = true;
+    std::uint64_t count_ = 0;
+    std::size_t most_visible_ = 0;
+};
+
+}  // namespace strata::oracle::verdict

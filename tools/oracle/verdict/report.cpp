@@ -1,0 +1,136 @@
+#include "tools/oracle/verdict/report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string pixels(std::uint64_t n) { return n == 1 ? "1 pixel" : fmt::format("{} pixels", n); }
+
+std::string rounding_of(const Checked& c) {
+    const bool is_in_codes = has_codes(c.account.hypothesis.result.storage);
+    const auto number = [&](double n) { return is_in_codes ? fmt::format("{:.0f}", n) : fmt::format("{:.2g}", n); };
+    if (c.possible == 0) return "no rounding is left open";
+    return fmt::format("rounding at most {}{} where {} {} possible", number(c.observed),
+                       !is_in_codes      ? " of 1/255"
+                       : c.observed == 1 ? " code"
+                                         : " codes",
+                       number(c.possible), is_in_codes && c.possible == 1 ? "is" : "are");
+}
+
+std::string ties_of(const Checked& c) {
+    return fmt::format("at {} fragments lie at one depth: {}", pixels(c.tied),
+                       c.has_one_tie_rule ? describe(c.ties) : "composited by no one rule");
+}
+
+std::string words(const std::vector<Rule>& rules, const Verdict& v, const pipeline::DrawList& list) {
+    std::string text;
+    for (const Rule& rule : rules) text += (text.empty() ? "" : "; ") + sentence(rule, v.facts, list);
+    return text;
+}
+
+std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
+    if (v.is_right)
+        return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
+    if (v.explanations.empty())
+        return fmt::format("wrong: {} of {} are beyond what a right port reaches, and no one mistake explains them all",
+                           v.right.wrong_pixels.size(), pixels(v.right.pixels));
+    if (v.explanations.size() == 1) return "wrong: " + words(v.explanations[0].account.rules, v, list);
+    return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
+}
+
+// Where a mistake shows.
+std::string reach_of(const Checked& c, const Verdict& v) {
+    const std::uint64_t decided = c.changed - c.undecided;
+    std::string text = fmt::format("so at all {} that it changes", pixels(c.changed));
+    if (c.undecided > 0) text += fmt::format(" ({} of them tell)", decided);
+    return text + fmt::format("; right at the other {}", v.right.pixels - c.changed);
+}
+
+std::string lead_of(const Lead& l, const Verdict& v, const pipeline::DrawList& list) {
+    return fmt::format(
+        "{} of {} wrong pixels that were looked at would come out so, and {} of {} right ones would not: {}",
+        l.explained, l.of, l.contradicted, l.right, sentence(l.rule, v.facts, list));
+}
+
+}  // namespace
+
+std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
+    std::string text = first_line(v, list) + '\n';
+    const auto add = [&](const std::string& line) { text += "  " + line + '\n'; };
+    for (const Checked& c : v.explanations) {
+        if (v.explanations.size() > 1) add(words(c.account.rules, v, list));
+        add((v.explanations.size() > 1 ? "  " : "") + reach_of(c, v));
+    }
+    const Checked& account = v.explanations.empty() ? v.right : v.explanations[0];
+    add((v.is_right || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
+    if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
+    if (account.tied > 0) add(ties_of(account));
+    if (!v.right.wrong_pixels.empty()) {
+        const std::uint32_t first = v.right.wrong_pixels[0], width = static_cast<std::uint32_t>(v.width);
+        add(fmt::format("the first wrong pixel is {},{}", first % width, first / width));
+    }
+    for (const Lead& lead : v.leads) add("lead: " + lead_of(lead, v, list));
+    if (v.is_right && !v.alike.empty())
+        add(fmt::format("on this scene {} of {} mistakes of structure would look the same", v.alike.size(), v.kinds));
+    return text;
+}
+
+namespace {
+
+ordered_json json_of(const Rule& rule, const Verdict& v, const pipeline::DrawList& list) {
+    ordered_json json{{"kind", name(rule.kind)}, {"n", rule.n}};
+    if (rule.value != 0) json["value"] = rule.value;
+    json["sentence"] = sentence(rule, v.facts, list);
+    return json;
+}
+
+ordered_json json_of(const Checked& c, const Verdict& v, const pipeline::DrawList& list) {
+    ordered_json json{{"mistakes", ordered_json::array()},
+                      {"rounding",
+                       {{"hypothesis", describe(c.account.hypothesis)},
+                        {"observed", c.observed},
+                        {"possible", c.possible},
+                        {"slack", c.account.hypothesis.slack}}},
+                      {"wrong", c.wrong_pixels.size()},
+                      {"changed", c.changed},
+                      {"undecided", c.undecided}};
+    for (const Rule& rule : c.account.rules) json["mistakes"].push_back(json_of(rule, v, list));
+    if (c.tied > 0) json["ties"] = {{"pixels", c.tied}, {"rule", ties_of(c)}};
+    return json;
+}
+
+}  // namespace
+
+std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
+    ordered_json document{{"verdict", v.is_right ? "right" : "wrong"},
+                          {"sentence", first_line(v, list)},
+                          {"pixels", v.right.pixels},
+                          {"covered", v.right.covered},
+                          {"right_structure", json_of(v.right, v, list)},
+                          {"explanations", ordered_json::array()},
+                          {"leads", ordered_json::array()}};
+    for (const Checked& c : v.explanations) document["explanations"].push_back(json_of(c, v, list));
+    for (const Lead& l : v.leads)
+        document["leads"].push_back({{"mistake", json_of(l.rule, v, list)},
+                                     {"explained", l.explained},
+                                     {"of", l.of},
+                                     {"contradicted", l.contradicted},
+                                     {"right", l.right}});
+    document["alike"] = ordered_json::array();
+    for (const Rule& rule : v.alike) document["alike"].push_back(name(rule.kind));
+    document["kinds"] = v.kinds;
+    document["first_wrong"] = ordered_json::array();
+    constexpr std::size_t most = 16;
+    const auto width = static_cast<std::uint32_t>(v.width);
+    for (std::size_t i = 0; i < std::min(most, v.right.wrong_pixels.size()); ++i)
+        document["first_wrong"].push_back({v.right.wrong_pixels[i] % width, v.right.wrong_pixels[i] / width});
+    return document.dump(2) + '\n';
+}
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,71 @@
+#include "tools/oracle/verdict/rule.h"
+
+namespace strata::oracle::verdict {
+
+std::string_view name(RuleKind kind) noexcept {
+    switch (kind) {
+        case RuleKind::right: return "right";
+        case RuleKind::nearest_alone: return "nearest_alone";
+        case RuleKind::farthest_alone: return "farthest_alone";
+        case RuleKind::ends_alone: return "ends_alone";
+        case RuleKind::nearest_lost: return "nearest_lost";
+        case RuleKind::farthest_lost: return "farthest_lost";
+        case RuleKind::rest_averaged: return "rest_averaged";
+        case RuleKind::rest_as_submitted: return "rest_as_submitted";
+        case RuleKind::first_submitted: return "first_submitted";
+        case RuleKind::last_submitted: return "last_submitted";
+        case RuleKind::lost: return "lost";
+        case RuleKind::lost_from_far: return "lost_from_far";
+        case RuleKind::doubled: return "doubled";
+        case RuleKind::doubled_from_far: return "doubled_from_far";
+        case RuleKind::swapped: return "swapped";
+        case RuleKind::swapped_from_far: return "swapped_from_far";
+        case RuleKind::merged: return "merged";
+        case RuleKind::mixed: return "mixed";
+        case RuleKind::color_of_next: return "color_of_next";
+        case RuleKind::color_of_previous: return "color_of_previous";
+        case RuleKind::all_doubled: return "all_doubled";
+        case RuleKind::reversed: return "reversed";
+        case RuleKind::as_submitted: return "as_submitted";
+        case RuleKind::as_submitted_reversed: return "as_submitted_reversed";
+        case RuleKind::by_instance: return "by_instance";
+        case RuleKind::by_instance_reversed: return "by_instance_reversed";
+        case RuleKind::back_faces_behind: return "back_faces_behind";
+        case RuleKind::back_faces_behind_as_submitted: return "back_faces_behind_as_submitted";
+        case RuleKind::averaged: return "averaged";
+        case RuleKind::added: return "added";
+        case RuleKind::weighted_sum: return "weighted_sum";
+        case RuleKind::nearest_of_instance: return "nearest_of_instance";
+        case RuleKind::instance_lost: return "instance_lost";
+        case RuleKind::instance_doubled: return "instance_doubled";
+        case RuleKind::material_lost: return "material_lost";
+        case RuleKind::material_doubled: return "material_doubled";
+        case RuleKind::back_faces_lost: return "back_faces_lost";
+        case RuleKind::front_faces_lost: return "front_faces_lost";
+        case RuleKind::alpha_below_lost: return "alpha_below_lost";
+        case RuleKind::alpha_below_kept: return "alpha_below_kept";
+        case RuleKind::behind_submitted: return "behind_submitted";
+        case RuleKind::before_submitted: return "before_submitted";
+        case RuleKind::close_lost: return "close_lost";
+        case RuleKind::within_lost: return "within_lost";
+        case RuleKind::close_merged: return "close_merged";
+        case RuleKind::close_swapped: return "close_swapped";
+        case RuleKind::hidden_shown: return "hidden_shown";
+        case RuleKind::at_opaque_shown: return "at_opaque_shown";
+        case RuleKind::near_opaque_lost: return "near_opaque_lost";
+        case RuleKind::opaque_lost: return "opaque_lost";
+        case RuleKind::opaque_ignored: return "opaque_ignored";
+        case RuleKind::opaque_in_front: return "opaque_in_front";
+        case RuleKind::background_lost: return "background_lost";
+        case RuleKind::background_twice: return "background_twice";
+        case RuleKind::surface_lost: return "surface_lost";
+        case RuleKind::alpha_squared: return "alpha_squared";
+        case RuleKind::alpha_inverted: return "alpha_inverted";
+        case RuleKind::alpha_ignored: return "alpha_ignored";
+        case RuleKind::premultiplied_twice: return "premultiplied_twice";
+        case RuleKind::not_premultiplied: return "not_premultiplied";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+}  // namespace strata::oracle::verdict

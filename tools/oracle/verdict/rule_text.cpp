@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include "tools/oracle/verdict/search.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+std::string ordinal(std::uint32_t n, std::string_view end) {
+    if (n == 0) return std::string{end};
+    constexpr std::string_view words[] = {"second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"};
+    const std::string number = n <= 7 ? std::string{words[n - 1]} : fmt::format("{}th", n + 1);
+    return fmt::format("{} {}", number, end);
+}
+
+std::string layers(std::uint32_t n) { return n == 1 ? "layer" : fmt::format("{} layers", n); }
+
+std::string instance_name(std::uint32_t n, const pipeline::DrawList& list) {
+    const std::string& mesh = list.meshes[list.instances[n].mesh].name;
+    return mesh.empty() ? fmt::format("instance {}", n) : fmt::format("instance {} (mesh {})", n, mesh);
+}
+
+std::string material_name(std::uint32_t n, const pipeline::DrawList& list) {
+    const std::string& material = list.materials[n].name;
+    return material.empty() ? fmt::format("material {}", n) : fmt::format("material {}", material);
+}
+
+}  // namespace
+
+std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list) {
+    const std::uint32_t n = rule.n;
+    const auto of = [&] { return fmt::format("of up to {}", facts.most_layers); };
+    switch (rule.kind) {
+        case RuleKind::right: return "all layers are composited in their order";
+        case RuleKind::nearest_alone:
+            return n == 0 ? "no layer is composited"
+                          : fmt::format("only the nearest {} {} are composited", layers(n), of());
+        case RuleKind::farthest_alone: return fmt::format("only the farthest {} {} are composited", layers(n), of());
+        case RuleKind::ends_alone:
+            return fmt::format(
+                "only the nearest {0} and the farthest {0} {1} are composited, as {2} of a dual peel leave them",
+                layers(n), of(), n == 1 ? "one pass" : fmt::format("{} passes", n));
+        case RuleKind::nearest_lost:
+            return fmt::format("the nearest {} missing", n == 1 ? "layer is" : layers(n) + " are");
+        case RuleKind::farthest_lost:
+            return fmt::format("the farthest {} missing", n == 1 ? "layer is" : layers(n) + " are");
+        case RuleKind::rest_averaged: return fmt::format("behind the nearest {} the others are averaged", layers(n));
+        case RuleKind::rest_as_submitted:
+            return fmt::format("behind the nearest {} the others are composited in the order of submission", layers(n));
+        case RuleKind::first_submitted:
+            return fmt::format("only the first {} submitted are composited: a buffer is full", layers(n));
+        case RuleKind::last_submitted: return fmt::format("only the last {} submitted are composited", layers(n));
+        case RuleKind::lost: return fmt::format("the {} layer is missing", ordinal(n, "nearest"));
+        case RuleKind::lost_from_far: return fmt::format("the {} layer is missing", ordinal(n, "farthest"));
+        case RuleKind::doubled: return fmt::format("the {} layer is composited twice", ordinal(n, "nearest"));
+        case RuleKind::doubled_from_far: return fmt::format("the {} layer is composited twice", ordinal(n, "farthest"));
+        case RuleKind::swapped:
+            return fmt::format("the {} layer is exchanged with the one behind it", ordinal(n, "nearest"));
+        case RuleKind::swapped_from_far:
+            return fmt::format("the {} layer is exchanged with the one before it", ordinal(n, "farthest"));
+        case RuleKind::merged:
+            return fmt::format("the {} layer and the one behind it are merged by MAX", ordinal(n, "nearest"));
+        case RuleKind::mixed:
+            return fmt::format("the {} layer and the one behind it are averaged", ordinal(n, "nearest"));
+        case RuleKind::color_of_next:
+            return fmt::format("the {} layer has the colour of the one behind it", ordinal(n, "nearest"));
+        case RuleKind::color_of_previous:
+            return fmt::format("the {} layer has the colour of the one before it", ordinal(n, "nearest"));
+        case RuleKind::all_doubled: return "every layer is composited twice";
+        case RuleKind::reversed: return "layers are composited in the reverse order";
+        case RuleKind::as_submitted: return "layers are composited in the order of submission: nothing is sorted";
+        case RuleKind::as_submitted_reversed: return "layers are composited in the reverse order of submission";
+        case RuleKind::by_instance: return "instances are composited as they are submitted, each one sorted by itself";
+        case RuleKind::by_instance_reversed:
+            return "instances are composited in the reverse order of submission, each one sorted by itself";
+        case RuleKind::back_faces_behind: return "all back faces are composited behind all front faces";
+        case RuleKind::back_faces_behind_as_submitted:
+            return "all back faces are composited behind all front faces, each in the order of submission";
+        case RuleKind::averaged: return "layers are averaged by their alpha: weighted average";
+        case RuleKind::added: return "layers are added to the background";
+        case RuleKind::weighted_sum:
+            return "layers are added up, and the background weighted by what all alphas leave: weighted sum";
+        case RuleKind::nearest_of_instance: return "only the nearest layer of each instance is composited";
+        case RuleKind::instance_lost: return fmt::format("{} is missing", instance_name(n, list));
+        case RuleKind::instance_doubled: return fmt::format("{} is composited twice", instance_name(n, list));
+        case RuleKind::material_lost: return fmt::format("what has {} is missing", material_name(n, list));
+        case RuleKind::material_doubled: return fmt::format("what has {} is composited twice", material_name(n, list));
+        case RuleKind::back_faces_lost: return "back faces are missing: culled";
+        case RuleKind::front_faces_lost: return "front faces are missing: culled";
+        case RuleKind::alpha_below_lost: return fmt::format("layers with alpha below {:.4g} are missing", rule.value);
+        case RuleKind::alpha_below_kept:
+            return fmt::format("layers with alpha of {:.4g} and more are missing", rule.value);
+        case RuleKind::behind_submitted:
+            return "a layer is missing where a nearer one was submitted before it: blended surfaces write depth";
+        case RuleKind::before_submitted: return "a layer is missing where a farther one was submitted before it";
+        case RuleKind::close_lost:
+            return fmt::format("of layers within {} of depth the farther one is missing",
+                               n == 1 ? "one code" : fmt::format("{} codes", n));
+        case RuleKind::within_lost:
+            return fmt::format("of layers within {:.0e} of the depth range the farther one is missing: an epsilon",
+                               rule.value);
+        case RuleKind::close_merged:
+            return fmt::format("layers within {} of depth are merged by MAX",
+                               n == 1 ? "one code" : fmt::format("{} codes", n));
+        case RuleKind::close_swapped:
+            return fmt::format("layers within {} of depth are exchanged",
+                               n == 1 ? "one code" : fmt::format("{} codes", n));
+        case RuleKind::hidden_shown: return "layers behind opaque surfaces are composited: they are not hidden";
+        case RuleKind::at_opaque_shown:
+            return n == 0 ? "layers at the depth of an opaque surface are composited: LEQUAL for LESS"
+                          : fmt::format("layers within {} behind an opaque surface are composited",
+                                        n == 1 ? "one code" : fmt::format("{} codes", n));
+        case RuleKind::near_opaque_lost:
+            return fmt::format("layers within {} before an opaque surface are missing",
+                               n == 1 ? "one code" : fmt::format("{} codes", n));
+        case RuleKind::opaque_lost: return "opaque surfaces are missing behind the layers";
+        case RuleKind::opaque_ignored: return "opaque surfaces are missing, and layers behind them are composited";
+        case RuleKind::opaque_in_front: return "opaque surfaces cover the layers before them";
+        case RuleKind::background_lost: return "the background is missing: black behind the layers";
+        case RuleKind::background_twice: return "what lies behind the layers is added twice";
+        case RuleKind::surface_lost: return "the background and opaque surfaces are missing: black behind the layers";
+        case RuleKind::alpha_squared: return "alpha is multiplied by itself";
+        case RuleKind::alpha_inverted: return "1 - alpha is taken for alpha";
+        case RuleKind::alpha_ignored: return "alpha is taken for 1: nothing is blended";
+        case RuleKind::premultiplied_twice: return "colours are multiplied by alpha twice";
+        case RuleKind::not_premultiplied: return "colours are not multiplied by alpha";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,70 @@
+#include "tools/oracle/verdict/sample.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace strata::oracle::verdict {
+
+Colors::Colors(const Target& target) : target_{&target} {}
+
+std::array<double, 4> Colors::at(int x, int y) const noexcept {
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(target_->width) + static_cast<std::size_t>(x);
+    std::array<double, 4> value{0, 0, 0, 1};
+    const int channels = target_->channels;
+    for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = target_->value_at(pixel, channels < 3 ? 0 : c);
+    if (has_alpha()) value[3] = target_->value_at(pixel, channels - 1);
+    return value;
+}
+
+Sample::Sample(const Sample& other) : cleared_{other.cleared_} {
+    for (const SampledPixel& pixel : other.pixels_) add(pixel.list, pixel.value);
+}
+
+void Sample::add(const PixelList& list, const std::array<double, 4>& value) {
+    SampledPixel& pixel = pixels_.emplace_back();
+    pixel.list = list;
+    pixel.value = value;
+    pixel.fragments.assign(list.visible.begin(), list.visible.end());
+    pixel.fragments.insert(pixel.fragments.end(), list.hidden.begin(), list.hidden.end());
+    const std::span<const Fragment> all{pixel.fragments};
+    pixel.list.visible = all.first(list.visible.size());
+    pixel.list.hidden = all.subspan(list.visible.size());
+}
+
+void Sample::sort() {
+    std::ranges::sort(pixels_, {}, [](const SampledPixel& p) { return std::pair{p.list.y, p.list.x}; });
+}
+
+namespace {
+
+// A number in [0, 1) that looks random, of a place alone.
+double lot_of(int x, int y) noexcept {
+    std::uint64_t h = static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint32_t>(y);
+    h = (h ^ h >> 33) * 0xff51afd7ed558ccdull;
+    h = (h ^ h >> 33) * 0xc4ceb9fe1a85ec53ull;
+    return static_cast<double>((h ^ h >> 33) >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+Sample sampled(const SceneFragments& scene, const Colors& candidate, std::size_t most) {
+    // A pixel's chance grows with its fragments; one without any has that of a quarter of a fragment.
+    const double pixels = static_cast<double>(scene.width()) * scene.height();
+    const double chance = static_cast<double>(most) / (static_cast<double>(scene.count()) + 0.25 * pixels);
+    Sample sample{scene.cleared()};
+    std::mutex mutex;
+    scene.for_each_tile([&](const TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = scene.at(tile, p);
+            const double weight = static_cast<double>(list.visible.size() + list.hidden.size()) + 0.25;
+            if (lot_of(list.x, list.y) >= weight * chance) continue;
+            const std::scoped_lock lock{mutex};
+            sample.add(list, candidate.at(list.x, list.y));
+        }
+    });
+    sample.sort();
+    return sample;
+}
+
+}  // namespace strata::oracle::verdict
