@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
-#include "peeling/render_options.h"
 #include "pipeline/frame/observer.h"
+#include "tools/oracle/run_input.h"
 #include "tools/oracle/target_parts.h"
 
 namespace strata::pipeline {
@@ -39,13 +39,6 @@ struct PassShown {
     std::uint64_t passed = 0, tallied = 0;  // fragments behind all tests; events that the program counts
     std::vector<NamedImage> targets{};      // all that there are, the opaque scene's first
     std::vector<Query> queries{};           // about it, answered before the next pass
-};
-
-struct RunInput {
-    const pipeline::DrawList& list;
-    const pipeline::View& view;
-    const pipeline::DeviceProfile& profile;
-    peeling::RenderOptions options;  // execution, audit and layers are set here
 };
 
 // `on_pass` is called with one pass after the other; it may keep the images. Throws Refused for what the profile lacks.

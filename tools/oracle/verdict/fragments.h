@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pipeline/formats/image.h"
-#include "tools/oracle/passes.h"
+#include "tools/oracle/run_input.h"
 
 namespace strata::oracle::verdict {
 
