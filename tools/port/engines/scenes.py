@@ -78,10 +78,12 @@ def stack(b):
 
 
 def ties(b):
+    """Three panes at one depth: nearest of all, farthest of all, and between others."""
     b.pane(-0.75, -0.5, 0.25, 0.5, 0.0, RED, 0.5)
     b.pane(-0.25, -0.75, 0.75, 0.25, 0.0, GREEN, 0.5)
     b.pane(-0.5, -0.25, 0.5, 0.75, 0.0, BLUE, 0.5)
     b.pane(-0.875, -0.875, 0.875, -0.125, -0.5, YELLOW, 0.5)
+    b.pane(0.0, -0.875, 0.875, 0.875, 0.5, WHITE, 0.25)
 
 
 def hidden(b):
