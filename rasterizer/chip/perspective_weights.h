@@ -1,17 +1,28 @@
 // rasterizer/chip/perspective_weights.h - the weights of NV2A's interpolator where w differs: colours, coordinates, w buffer.
 //
-// Rule     q_i = |1 / w_i| cut to 24 bits; p_i = |e'_i| q_i cut to 24 bits, e' cut like a weight's; S = (p0 + p1) + p2; r of S
-//          as in cut_weight.h; b_i = p_i r cut to 24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
+// Rule     q_i = |1 / w_i| cut to 24 bits; e' cut like a weight's; S = the sum of the whole products |e'_i| q_i, each cut to a
+//          multiple of 2^(ex - 28), ex the largest exponent of them; r of S as in cut_weight.h; p_i = |e'_i| q_i cut to 25 bits;
+//          b_i = p_i r cut to 24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
 // Source   chip-float-depth.md 4.1 and 7; the last bits of p, q or r are open (4.4 there).
-// Numbers  Products of 24 bits are exact in binary64, S and 1 - (b' + b'') are rounded there. A corner's edge value and its
+// Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded there. A corner's edge value and its
 //          w have one sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes do. |1 / w| is at least 2^-126
 //          and at most 2^126 (signs of w) and |e'| below 2^58: nothing overflows.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp, perspective_colors_test.cpp
 #pragma once
+#include <algorithm>
+
 #include "rasterizer/chip/cut_weight.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
+
+// The sum of three products, of which the adder keeps 29 bits from the largest one's first on.
+[[nodiscard]] constexpr double aligned_sum(const std::array<double, 3>& p) noexcept {
+    const double unit = power_of_two(std::max({exponent_of(p[0]), exponent_of(p[1]), exponent_of(p[2]), -500}) - 28);
+    std::int64_t sum = 0;
+    for (const double each : p) sum += static_cast<std::int64_t>(each / unit);
+    return static_cast<double>(sum) * unit;
+}
 
 class PerspectiveWeights {
   public:
@@ -22,9 +33,9 @@ class PerspectiveWeights {
     // Before the remainder.
     [[nodiscard]] constexpr std::array<double, 3> cut_at(const EdgeValues& e) const noexcept {
         std::array<double, 3> b{};
-        for (std::size_t i = 0; i < 3; ++i) b[i] = cut_bits(cut_edge(e[i] < 0 ? -e[i] : e[i]) * q_[i], 24);
-        const double r = cut_reciprocal((b[0] + b[1]) + b[2], hypothesis_);
-        for (double& each : b) each = cut_bits(each * r, 24);
+        for (std::size_t i = 0; i < 3; ++i) b[i] = cut_edge(e[i] < 0 ? -e[i] : e[i]) * q_[i];
+        const double r = cut_reciprocal(aligned_sum(b), hypothesis_);
+        for (double& each : b) each = cut_bits(cut_bits(each, 25) * r, 24);
         return b;
     }
     [[nodiscard]] constexpr std::array<double, 3> at(const EdgeValues& e) const noexcept {

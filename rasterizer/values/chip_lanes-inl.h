@@ -23,8 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using U64 = hn::Rebind<std::uint64_t, F64>;
 using Mask64 = hn::Mask<F64>;
 
-constexpr std::uint64_t leading_24 = ~std::uint64_t{0} << 29, exponent_field = std::uint64_t{0x7ff} << 52,
-                        fraction_field = ~std::uint64_t{0} >> 12;
+constexpr std::uint64_t leading_24 = ~std::uint64_t{0} << 29, leading_25 = ~std::uint64_t{0} << 28,
+                        exponent_field = std::uint64_t{0x7ff} << 52, fraction_field = ~std::uint64_t{0} >> 12;
 
 HWY_INLINE V64 all(double v) { return hn::Set(F64{}, v); }
 HWY_INLINE V64 kept(V64 v, std::uint64_t mask) { return hn::And(v, hn::BitCast(F64{}, hn::Set(U64{}, mask))); }
@@ -72,13 +72,24 @@ class CutWeightsAt {
     HWY_INLINE Corners at(const Corners& e) const {
         if (constant_r_ != 0.0) return cut_products(e, all(constant_r_));
         Corners p{cut_24(e.c0), cut_24(e.c1), cut_24(e.c2)};
-        if (is_perspective_)
-            p = {cut_24(hn::Mul(p.c0, all(q0_))), cut_24(hn::Mul(p.c1, all(q1_))), cut_24(hn::Mul(p.c2, all(q2_)))};
-        const V64 sum = hn::Add(hn::Add(p.c0, p.c1), p.c2);
+        V64 sum = hn::Add(hn::Add(p.c0, p.c1), p.c2);
+        if (is_perspective_) {
+            const Corners whole{hn::Mul(p.c0, all(q0_)), hn::Mul(p.c1, all(q1_)), hn::Mul(p.c2, all(q2_))};
+            sum = aligned_sum(whole);
+            p = {kept(whole.c0, leading_25), kept(whole.c1, leading_25), kept(whole.c2, leading_25)};
+        }
         return cut_products(p, cut_inverse(sum, hn::Div(all(1.0), sum), low_, reciprocal_mask_));
     }
 
   private:
+    // aligned_sum of perspective_weights.h.
+    HWY_INLINE static V64 aligned_sum(const Corners& p) {
+        const V64 largest = hn::Max(leading_power(p.c0), hn::Max(leading_power(p.c1), leading_power(p.c2)));
+        const V64 unit = hn::Mul(largest, all(0x1p-28)), units = inverse_power(unit);
+        const auto cut = [&](V64 v) { return hn::Trunc(hn::Mul(v, units)); };
+        return hn::Mul(hn::Add(hn::Add(cut(p.c0), cut(p.c1)), cut(p.c2)), unit);
+    }
+
     const double q0_, q1_, q2_, low_, constant_r_;
     const std::uint64_t reciprocal_mask_;
     const bool is_perspective_;

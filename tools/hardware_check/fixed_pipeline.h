@@ -41,18 +41,29 @@ struct CompositeMatrix {
     std::array<float, 4> x, y, z, w;
 };
 
-// The window's x, y and z of a point by the vertex engine's arithmetic, with the viewport's offset; w beside them.
-[[nodiscard]] constexpr std::array<float, 4> chip_window_point(const CompositeMatrix& m,
-                                                               const std::array<float, 4>& point) {
+// A dot product a column, by the vertex engine's arithmetic.
+[[nodiscard]] constexpr std::array<float, 4> chip_product(const CompositeMatrix& m, const std::array<float, 4>& point) {
     namespace nv20 = rasterizer::nv20;
     const auto dot = [&](const std::array<float, 4>& row) {
         return nv20::sum<4>({nv20::multiply(row[0], point[0]), nv20::multiply(row[1], point[1]),
                              nv20::multiply(row[2], point[2]), nv20::multiply(row[3], point[3])});
     };
-    const float w = dot(m.w), inverse = nv20::reciprocal(w);
-    const auto divided = [&](const std::array<float, 4>& row) { return nv20::multiply(dot(row), inverse); };
-    return {nv20::sum<2>({divided(m.x), viewport_offset}), nv20::sum<2>({divided(m.y), viewport_offset}), divided(m.z),
-            w};
+    return {dot(m.x), dot(m.y), dot(m.z), dot(m.w)};
+}
+
+// x, y and z times the chip's reciprocal of w; w stays.
+[[nodiscard]] constexpr std::array<float, 4> chip_quotient(const std::array<float, 4>& p) {
+    namespace nv20 = rasterizer::nv20;
+    const float inverse = nv20::reciprocal(p[3]);
+    return {nv20::multiply(p[0], inverse), nv20::multiply(p[1], inverse), nv20::multiply(p[2], inverse), p[3]};
+}
+
+// The window's x, y and z of a point by the vertex engine's arithmetic, with the viewport's offset in x and y; w beside them.
+[[nodiscard]] constexpr std::array<float, 4> chip_window_point(const CompositeMatrix& m,
+                                                               const std::array<float, 4>& point,
+                                                               float offset = viewport_offset) {
+    const auto [x, y, z, w] = chip_quotient(chip_product(m, point));
+    return {rasterizer::nv20::sum<2>({x, offset}), rasterizer::nv20::sum<2>({y, offset}), z, w};
 }
 
 // A world point in the window, without the viewport's offset.

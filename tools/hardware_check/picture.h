@@ -32,7 +32,7 @@ enum class Reading : std::uint8_t {
 };
 
 // The difference that is allowed; 0 and 0: none. A pixel that differs by more than `units` (1/255 or depth units) is
-// always too much.
+// always too much. No bound is above 250 pixels: what is beyond it is outside, and counted.
 struct Bound {
     std::uint64_t pixels = 0;
     std::uint32_t units = 0;

@@ -11,7 +11,9 @@ namespace strata::hardware_check {
 // Squares of 100 pixels from (120, 140) on, `shift` pixels further right and down.
 [[nodiscard]] TriangleSoup eight_squares(float shift, Argb color);
 
-// Squares 1, 3, 4 and 6 go through the fixed pipeline, which moves them by `fixed_offset` more.
+// The host un-projects the squares' corners, of world z 10 above and 0 below, and the chip projects them again: squares 1, 3, 4
+// and 6 by the fixed pipeline, which moves them by `fixed_offset` more, the others by a vertex program that has the view and
+// the rest in two matrices.
 struct MixedSquares {
     float shift = 0, fixed_offset = 0;
     Argb by_program = 0, by_fixed = 0;

@@ -42,10 +42,16 @@ using Shares = std::array<Rational, 3>;
 // By the rule of the w buffer, every step cut.
 [[nodiscard]] Shares cut_shares_of(const EdgeValues& e, const std::array<float, 3>& w) {
     Shares p;
-    for (std::size_t i = 0; i < 3; ++i)
-        p[i] = cut_to_bits(cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(Rational{1} / Rational{w[i]}, 24), 24);
-    const Rational r = low_reciprocal(to_53_bits(p[0] + p[1]) + p[2]);
-    for (Rational& each : p) each = cut_to_bits(each * r, 24);
+    int largest = -9999;
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(Rational{1} / Rational{w[i]}, 24);
+        if (p[i] != 0) largest = std::max(largest, floor_log2(p[i]));
+    }
+    // Whole products, aligned to 29 bits of the largest, are added; the weights are made of 25 bits of each.
+    Rational sum{0};
+    for (const Rational& each : p) sum += Rational{floor(Rational{each / power(largest - 28)})} * power(largest - 28);
+    const Rational r = low_reciprocal(sum);
+    for (Rational& each : p) each = cut_to_bits(cut_to_bits(each, 25) * r, 24);
     return p;
 }
 
@@ -179,6 +185,27 @@ TEST_CASE("weights that end on a 256th or a hair beside it fall on their own sid
     CHECK(cases > 3000);
     CHECK(unlike > cases / 20);
     CHECK(not_whole > cases / 20);
+}
+
+// The upper side of Depth_buffer_fixed_function's wide quad (chip-geometry.md 5.4) goes through pixel centres between two corners of
+// w = 135.666...; every third pixel has a whole 256 b. The chip's picture has these codes of green and blue there.
+TEST_CASE("weights that are whole on a side of one w come out as the chip's picture has them") {
+    const std::array<float, 3> w{386.0f / 3.0f + 7.0f, 386.0f / 3.0f + 7.0f, 200.0f};
+    const std::array<float, 3> inverse{1.0f / w[0], 1.0f / w[1], 1.0f / w[2]};
+    constexpr std::int64_t side = 384, area = side * side * 256;
+    const ColorWeights weights{w, inverse, area, DepthHypothesis{}, PerspectiveColor::cut_products};
+    int wrong = 0, whole = 0;
+    for (std::int64_t x = 1; x < side; ++x) {
+        if (256 * x % side != 0) continue;
+        ++whole;
+        const auto at = static_cast<std::int32_t>(256 * x / side);  // the second corner's share
+        // Where the second corner's weight is the greater one it takes what is left, and the first one's is cut.
+        const std::array<std::int32_t, 3> seen =
+            2 * x <= side ? std::array{256 - at, at, 0} : std::array{255 - at, at + 1, 0};
+        wrong += weights.at({(side - x) * side * 256, x * side * 256, 0}) != seen ? 1 : 0;
+    }
+    CHECK(whole == 127);
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("a vertex colour keeps as many leading bits as the hypothesis says, the rest is cut before it becomes 8 bits",

@@ -36,12 +36,17 @@ using Three = std::array<Rational, 3>;
 
 [[nodiscard]] Rational model_w(const EdgeValues& e, const std::array<float, 3>& w) {
     Three b;
-    for (std::size_t i = 0; i < 3; ++i)
-        b[i] = cut_to_bits(cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(1 / Rational{w[i]}, 24), 24);
-    const Rational sum = nearest_53(nearest_53(b[0] + b[1]) + b[2]), inverse = nearest_53(1 / sum);
+    int largest = -9999;
+    for (std::size_t i = 0; i < 3; ++i) {
+        b[i] = cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(1 / Rational{w[i]}, 24);
+        if (b[i] != 0) largest = std::max(largest, floor_log2(b[i]));
+    }
+    // The adder aligns whole products to 29 bits of the largest; the weights are made of 25 bits of each.
+    const Rational sum = cut(b[0], largest - 28) + cut(b[1], largest - 28) + cut(b[2], largest - 28);
+    const Rational inverse = nearest_53(1 / sum);
     const bool is_power = sum == power(floor_log2(sum));
     const Rational r = is_power ? inverse : cut_to_bits(nearest_53(inverse * (1 - power(-31))), 29);
-    for (Rational& each : b) each = cut_to_bits(each * r, 24);
+    for (Rational& each : b) each = cut_to_bits(cut_to_bits(each, 25) * r, 24);
     const std::size_t rest = corner_of_the_rest(b);
     b[rest] = nearest_53(1 - nearest_53(b[(rest + 1) % 3] + b[(rest + 2) % 3]));
     const Rational base{w[1]}, p0 = nearest_53(b[0] * (Rational{w[0]} - base)),

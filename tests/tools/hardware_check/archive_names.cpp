@@ -139,11 +139,7 @@ void add_range_suites(Archive& archive) {
     add(archive, Says::not_modelled, "W_buffering", with(with(with({"WBuf"}, formats), {"TriH", "TriV"}), sloped), 16);
     const Names buffers{"ZBuf", "WBuf"}, settings{"_ZB0_ZS0", "_ZB0_ZS1", "_ZB1_ZS0", "_ZB1_ZS1"};
     const Names floor = with(with(with(buffers, formats), {"FloorQuad_V0"}), settings);
-    add(archive, Says::drawn, "W_buffering", floor, 32);
-    const Names narrow = with(with(with(buffers, {"16D_", "16F_", "24D_"}), {"FloorQuad_V0"}), settings);
-    add(archive, Says::drawn, "W_buffering", with(narrow, {"_ZB"}), 24);
-    const Names steep = with(with(with(buffers, {"24F_"}), {"FloorQuad_V0"}), settings);
-    add(archive, Says::not_modelled, "W_buffering", with(steep, {"_ZB"}), 8);
+    add(archive, Says::drawn, "W_buffering", with(floor, or_depth), 64);
     const Names lines = with(with(with(buffers, formats), {"LineStrip"}), offsets);
     add(archive, Says::not_modelled, "W_buffering", with(lines, or_depth), 64);
     add(archive, Says::drawn, "W_buffering",

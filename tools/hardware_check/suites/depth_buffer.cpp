@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"
-#include "tools/hardware_check/fixed_pipeline.h"
+#include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -56,7 +56,6 @@ struct Slope {
     // Window z in the buffer's own values; for world_slopes() world z.
     std::array<float, 4> z;
     std::array<Color, 4> color{};
-    std::array<float, 4> w{1, 1, 1, 1};
 };
 
 [[nodiscard]] Color rgb(float r, float g, float b) { return {r, g, b, 1}; }
@@ -117,9 +116,7 @@ std::vector<Slope> window_slopes(DepthFormat format) {
     return slopes;
 }
 
-// The quads of chip-geometry.md 5.4 with world z at their corners, for the fixed pipeline. The test
-// un-projects their window x and y, and the projection gives these back; so only z goes through the
-// emulated vertex arithmetic.
+// The quads of chip-geometry.md 5.4 with world z at their corners, for the fixed pipeline.
 std::vector<Slope> world_slopes() {
     constexpr float near = -6, far = 193;
     constexpr int columns = 18, rows = 18;
@@ -148,20 +145,28 @@ std::vector<Slope> world_slopes() {
     return slopes;
 }
 
-// Adds a slope's two triangles, `shift` pixels further right and down: (UL, UR, LR) and (UL, LR,
-// LL), or where it is `turned` (UL, LR, LL) and (UL, UR, LR). The order matters: weights depend on
-// which corner of a triangle comes first.
-void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
-    const Box b{s.where.left + shift, s.where.top + shift, s.where.right + shift, s.where.bottom + shift};
-    const auto corner = [&](float x, float y, std::size_t k) { return at(x, y, s.z[k], s.color[k], s.w[k]); };
-    const ClipVertex ul = corner(b.left, b.top, 0), ur = corner(b.right, b.top, 1);
-    const ClipVertex lr = corner(b.right, b.bottom, 2), ll = corner(b.left, b.bottom, 3);
-    if (turned) {
-        add_triangle(soup, ul, lr, ll);
-        add_triangle(soup, ul, ur, lr);
-    } else {
-        add_quad(soup, {ul, ur, lr, ll});
-    }
+// Adds a slope's two triangles, (UL, UR, LR) and (UL, LR, LL). The order matters: weights depend on which corner of a triangle
+// comes first.
+void add_slope(TriangleSoup& soup, const Slope& s) {
+    const Box& b = s.where;
+    const auto corner = [&](float x, float y, std::size_t k) { return at(x, y, s.z[k], s.color[k]); };
+    add_quad(soup, {corner(b.left, b.top, 0), corner(b.right, b.top, 1), corner(b.right, b.bottom, 2),
+                    corner(b.left, b.bottom, 3)});
+}
+
+// The same of a slope in the world, as (UL, LR, LL) and (UL, UR, LR): the host un-projects the corners, and the fixed pipeline
+// projects them again. The test names its corners in another order than its colours: those of UR and LL are exchanged.
+void add_world_slope(TriangleSoup& soup, const Slope& s, const HostCamera& camera) {
+    const CompositeMatrix to_window = columns_of(camera.composite);
+    const auto corner = [&](float window_x, float window_y, std::size_t k, std::size_t color) {
+        const auto [x, y, z, w] = chip_window_point(to_window, unprojected(camera, window_x, window_y, s.z[k]));
+        return at(x, y, z, s.color[color], w);
+    };
+    const Box& b = s.where;
+    const ClipVertex ul = corner(b.left, b.top, 0, 0), ur = corner(b.right, b.top, 1, 3);
+    const ClipVertex lr = corner(b.right, b.bottom, 2, 2), ll = corner(b.left, b.bottom, 3, 1);
+    add_triangle(soup, ul, lr, ll);
+    add_triangle(soup, ul, ur, lr);
 }
 
 // Draws the soup with LESS over the clear word of `s`, and shows depths or colours as the name
@@ -188,7 +193,7 @@ Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& 
     const auto setting = take(name, "DepthFmt_") ? parse(name) : std::nullopt;
     if (!setting) return unknown_name;
     TriangleSoup soup;
-    for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope, 0, false);
+    for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope);
     return {depth_picture(profile, *setting, std::move(soup)), {}};
 }
 
@@ -197,14 +202,9 @@ Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::
     if (!setting) return unknown_name;
     if (setting->format == DepthFormat::d24f)
         return {std::nullopt, "the fixed pipeline's scale of 24-bit float depth is beyond binary32"};
+    const HostCamera camera = default_camera(fixed_scale(setting->format));
     TriangleSoup soup;
-    for (Slope slope : world_slopes()) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            slope.w[k] = slope.z[k] + 7.0f;
-            slope.z[k] = chip_window_z(slope.z[k], fixed_scale(setting->format));
-        }
-        add_slope(soup, slope, viewport_offset, true);
-    }
+    for (const Slope& slope : world_slopes()) add_world_slope(soup, slope, camera);
     Picture picture = depth_picture(profile, *setting, std::move(soup));
     // 24 words of the right strip: the last bits of the reciprocal of its area are not known (chip-depth.md 4).
     if (setting->format == DepthFormat::d24 && setting->shows_depth) picture.bound = {24, 1};

@@ -1,9 +1,7 @@
 // Suite W_buffering: <Z|W>Buf<16|24><D|F>_<shape>[-left-top]_V<program>_ZB<bias>_ZS<slope>[_ZB]: depth formats, polygon
 // offset and the w buffer over wide shapes whose corners lie far outside of the window. chip-float-depth.md 9.1.
-#include <cmath>
-
 #include "rasterizer/rules/depth_code.h"
-#include "tools/hardware_check/fixed_pipeline.h"
+#include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -162,30 +160,16 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
     return soup;
 }
 
-// The greatest window z of the fixed pipeline, in the buffer's own values.
-double fixed_units(const BufferSetting& s) {
-    if (s.is_16) return s.is_float ? 511.9375 : 65535.0;
-    return 16777215.0;
-}
-
-// The camera that stands 50 above the floor and looks down by three in seven. Each entry is a sum of products in
-// binary32, as the test multiplies its matrices; it normalises directions by a reciprocal in binary32.
-CompositeMatrix looking_down(double units) {
-    const float inverse = 1.0f / std::sqrt(58.0f), ahead = 7.0f * inverse, down = 3.0f * inverse;
-    // Where the ways along the view and up it begin, for a point at world height 0.
-    const auto start = static_cast<float>(199.0 / std::sqrt(58.0)),
-               up_start = static_cast<float>(-329.0 / std::sqrt(58.0));
-    const float scale = static_cast<float>(units * 200.0 / 199.0);
-    const float width = 320.0f * chip_cotangent_x, height = -240.0f * chip_cotangent;
-    return {.x = {width, 0, ahead * 320.0f, start * 320.0f},
-            .y = {0, 0, down * height + ahead * 240.0f, up_start * height + start * 240.0f},
-            .z = {0, 0, ahead * scale, start * scale - scale},
-            .w = {0, 0, ahead, start}};
+// The camera that stands 50 above the floor and looks down by three in seven. The test makes the buffer a float one behind the
+// back of what builds its matrices: they have the scale of fixed depth for every format.
+CompositeMatrix looking_down(const BufferSetting& s) {
+    const float units = s.is_16 ? 65535.0f : 16777215.0f;
+    return columns_of(camera_of(look_at({0, 50, -7}, {0, 47, 0}), perspective_to_window(units)).composite);
 }
 
 // A floor of 30000 units through the fixed pipeline.
 TriangleSoup fixed_floor(const BufferSetting& s) {
-    const CompositeMatrix camera = looking_down(fixed_units(s));
+    const CompositeMatrix camera = looking_down(s);
     const auto window_point = [&](float x, float z) {
         const auto [window_x, window_y, window_z, w] = chip_window_point(camera, {x, 0, z, 1});
         return WindowPoint{window_x, window_y, window_z, w};
@@ -198,7 +182,6 @@ TriangleSoup fixed_floor(const BufferSetting& s) {
     return soup;
 }
 
-const Drawing beyond_binary32{std::nullopt, "the fixed pipeline's scale of 24-bit float depth is beyond binary32"};
 const Drawing no_lines{std::nullopt, "lines are not modelled"};
 
 const Drawing unknown_quad{std::nullopt,
@@ -207,12 +190,10 @@ const Drawing unknown_quad{std::nullopt,
 // What is open: the reciprocal of one sum, the slope of slivers, weights where w differs, and the last bits of a w slope
 // (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
 Bound bound_of(const BufferSetting& s) {
-    const bool is_24_float = s.format() == DepthFormat::d24f;
-    if (s.is_w && s.has_slope) return {std::uint64_t{picture_width} * picture_height, 2};
-    if (s.is_w) return {is_24_float ? 1500u : 220u, 1};
+    if (s.is_w) return {250, s.has_slope ? 2u : 1u};
     // One triangle of the floor by the fixed pipeline: the last bit of its reciprocals.
     if (!s.by_program && !s.is_16) return {44, 1};
-    if (s.shape == "TriH" && s.has_slope) return {is_24_float ? 1100u : 168u, 1};
+    if (s.shape == "TriH" && s.has_slope) return {168, 1};
     return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
 }
 
@@ -244,7 +225,6 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
     if (!soup) return unknown_name;
     if (!s->by_program) soup = fixed_floor(*s);
     if (!s->shows_depth) return {color_picture(profile, *s, std::move(*soup)), {}};
-    if (!s->by_program && s->format() == DepthFormat::d24f) return beyond_binary32;
     const bool is_sliver = s->shape == "TriH" || s->shape == "TriV" || s->shape == "ClipF";
     if (s->is_w && s->has_slope && is_sliver) return unknown_quad;
 

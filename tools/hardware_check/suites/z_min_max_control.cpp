@@ -1,8 +1,6 @@
 // Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: what the depth range removes, fragments and whole
 // triangles, by z or by w. chip-float-depth.md 5.1.
-#include <algorithm>
-
-#include "tools/hardware_check/fixed_pipeline.h"
+#include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -71,11 +69,19 @@ constexpr Group groups[] = {{90, upper, growing, one,
                                  return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
                              }}};
 
-// A corner through the fixed pipeline, whose matrix is the identity: the test hands over x w, y w, z w and w in binary32, and
-// the chip multiplies by the reciprocal. Where w is 0 all products are 0, and the corner stands in the window's.
-ClipVertex through_pipeline(const ClipVertex& v) {
-    constexpr CompositeMatrix identity{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    const auto [x, y, z, w] = chip_window_point(identity, {v.x * v.w, v.y * v.w, v.z * v.w, v.w});
+// The host's camera of the pictures by the fixed pipeline: three back, and an orthographic view from `near` to `far`, which the
+// chip's range has, too.
+HostCamera orthographic_camera() {
+    const HostMatrix back{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, -3, 1}}};
+    return camera_of(back, orthographic_to_window(10, 100));
+}
+
+// A corner through the fixed pipeline: the host un-projects it and multiplies by w, and the chip divides by that again. Where w
+// is 0 all products are 0, and the corner stands in the window's.
+ClipVertex through_pipeline(const ClipVertex& v, const HostCamera& camera) {
+    const HostVector world = unprojected_point(camera, {v.x, v.y, v.z, 1});
+    const auto [x, y, z, w] =
+        chip_window_point(columns_of(camera.composite), {world[0] * v.w, world[1] * v.w, world[2] * v.w, v.w});
     ClipVertex projected = v;
     projected.x = x;
     projected.y = y;
@@ -104,6 +110,7 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
                               .range_culls_triangles = culls_triangles};
     limit_depth(state, 10, 100, units);
     if (by_w) state.depth_path = rasterizer::DepthPath::w_buffer;
+    const HostCamera camera = orthographic_camera();
     for (const Group& group : groups)
         for (int n = 0; n < columns * rows; ++n) {
             const float x = group.x + pitch * static_cast<float>(n % columns);
@@ -114,7 +121,8 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
             std::array<ClipVertex, 4> corner{
                 at(x, y, z.left, color.left, w.left), at(x + size, y, z.right, color.right, w.right),
                 at(x + size, y + size, z.right, color.right, w.right), at(x, y + size, z.left, color.left, w.left)};
-            if (is_fixed) std::transform(corner.begin(), corner.end(), corner.begin(), through_pipeline);
+            if (is_fixed)
+                for (ClipVertex& v : corner) v = through_pipeline(v, camera);
             add_quad(soup, corner);
             surface.draw(state, std::move(soup));
         }

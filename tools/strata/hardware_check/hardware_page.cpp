@@ -19,7 +19,7 @@ std::string found(const std::vector<CheckedPicture>& checked) {
     std::string text = fmt::format(
         "{} pictures that the chip drew: {} come out equal in every bit, {} within their bound, {} beyond it; {} are "
         "not modelled.",
-        checked.size(), number_of(checked, "equal"), number_of(checked, "within bound"), number_of(checked, "DIFFERS"),
+        checked.size(), number_of(checked, "equal"), number_of(checked, "within bound"), number_of(checked, "outside"),
         number_of(checked, "not modelled"));
     if (const std::size_t unknown = number_of(checked, "unknown"); unknown > 0)
         text += fmt::format(" The names of {} are not known.", unknown);
@@ -31,7 +31,7 @@ void add_difference(PlainPage& page, const CheckedPicture& p, const pipeline::De
     const hardware_check::Drawing drawing = drawn(p.capture, profile);
     const pipeline::Image capture = read_capture(p.capture.path);
     const std::string name = p.capture.suite + "/" + p.capture.name;
-    if (outcome(p) == "DIFFERS") page.picture(capture, name + ": the chip's picture");
+    if (outcome(p) == "outside") page.picture(capture, name + ": the chip's picture");
     page.picture(hardware_check::difference_picture(*drawing.picture, capture),
                  fmt::format("{}: {}, {} of {} pixels off, by at most {}", name, outcome(p), p.comparison.differing,
                              p.comparison.compared, p.comparison.largest));
@@ -44,13 +44,13 @@ PlainPage page_of(const std::vector<CheckedPicture>& checked, const pipeline::De
     page.paragraph(found(checked));
     page.heading("Suites");
     page.table(suite_table(checked), "pictures and pixels of each suite");
-    if (number_of(checked, "DIFFERS") + number_of(checked, "within bound") > 0) {
+    if (number_of(checked, "outside") + number_of(checked, "within bound") > 0) {
         page.heading("Where they differ");
         page.paragraph(
             "Black is equal; red is a colour that differs, or a depth that is the chip's greater one, cyan a depth "
             "that is "
             "its smaller one; labels, which are not compared, are white.");
-        for (const std::string_view word : {"DIFFERS", "within bound"})
+        for (const std::string_view word : {"outside", "within bound"})
             for (const CheckedPicture& p : checked)
                 if (outcome(p) == word) add_difference(page, p, profile);
     }

@@ -102,7 +102,7 @@ std::string outcome(const CheckedPicture& p) {
     if (!p.is_known) return "unknown";
     if (!p.unmodelled.empty()) return "not modelled";
     if (p.comparison.differing == 0) return "equal";
-    return p.comparison.within_bound ? "within bound" : "DIFFERS";
+    return p.comparison.within_bound ? "within bound" : "outside";
 }
 
 Table suite_table(const std::vector<CheckedPicture>& checked) {
@@ -111,7 +111,7 @@ Table suite_table(const std::vector<CheckedPicture>& checked) {
                  {"pictures", right},
                  {"equal", right},
                  {"within bound", right},
-                 {"differ", right},
+                 {"outside", right},
                  {"not modelled", right},
                  {"pixels compared", right},
                  {"pixels off", right},

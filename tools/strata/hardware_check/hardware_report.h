@@ -50,7 +50,7 @@ enum class WithDigests : bool { no, yes };
 [[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile,
                                    WithDigests with_digests);
 
-// The word in tables and JSON: "unknown", "not modelled", "equal", "within bound", "DIFFERS".
+// The word in tables and JSON: "unknown", "not modelled", "equal", "within bound", "outside".
 [[nodiscard]] std::string outcome(const CheckedPicture& p);
 // A row a suite; a row a picture that is not equal or reports a count.
 [[nodiscard]] Table suite_table(const std::vector<CheckedPicture>& checked);
