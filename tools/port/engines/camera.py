@@ -30,7 +30,8 @@ def main():
     width, height = map(int, given.size.split("x"))
     look = json.loads(given.look.read_text())
     try:
-        made = vtk_driver.matrices(look, width, height) if given.engine == "vtk" else web.matrices(given.engine, look, width, height, draw.PACKAGES)
+        with draw.browser_for(given.engine) as browser:
+            made = vtk_driver.matrices(look, width, height) if given.engine == "vtk" else browser.matrices(given.engine, look, width, height)
     except web.WebError as error:
         print(f"camera.py: {error}", file=sys.stderr)
         return 2

@@ -7,6 +7,7 @@ PICTURE ends in .png or .npy; a picture of floats is .npy. --targets writes a ca
 every pass. Exit status 2, and a sentence, if the pack holds what the engine cannot draw here; 77 if a program or a package is missing.
 """
 import argparse
+import contextlib
 import os
 import pathlib
 import shutil
@@ -46,12 +47,18 @@ def with_display():
     return subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv]).returncode
 
 
-def draw(engine, scene, way, peels=None, wants_targets=False):
-    """The targets that the engine drew, as web.Drawn; `picture` is one of them. VTK's has three channels, for its own has alpha 0 behind."""
+def draw(engine, scene, way, browser, peels=None, wants_targets=False):
+    """The targets that the engine drew, as web.Drawn; `picture` is one of them. VTK's has three channels, for its own has alpha 0 behind.
+    `browser` is a web.Browser, for VTK None."""
     if engine == "vtk":
         data = pictures.without_alpha(vtk_driver.draw(scene, way, peels))
         return [web.Drawn("picture", scene.width, scene.height, 3, "u1", data)]
-    return web.draw(scene, engine, way, PACKAGES, peels, wants_targets)
+    return browser.draw(scene, engine, way, peels, wants_targets)
+
+
+def browser_for(engine):
+    """What draw() takes for a browser, as a context."""
+    return web.Browser(PACKAGES) if engine in WEB else contextlib.nullcontext()
 
 
 def write(drawn, picture, targets):
@@ -88,7 +95,9 @@ def main():
     if given.engine == "vtk" and not os.environ.get("DISPLAY"):
         return with_display()
     try:
-        write(draw(given.engine, pack_scene.read_scene(given.pack), way, given.peels, bool(given.targets)), given.picture, given.targets)
+        scene = pack_scene.read_scene(given.pack)
+        with browser_for(given.engine) as browser:
+            write(draw(given.engine, scene, way, browser, given.peels, bool(given.targets)), given.picture, given.targets)
     except pack_scene.PackError as error:
         print(f"draw.py: {given.pack}: {error}", file=sys.stderr)
         return 2

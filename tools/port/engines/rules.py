@@ -1,4 +1,4 @@
-"""What each engine makes of a pixel's fragments, written from its source: README.md has the lines. In binary64, without formats.
+"""What each engine makes of a pixel's fragments, written from its source: tools/docs/engines.md has all lines. In binary64, without formats.
 
 A rule takes a frame of pixels (fragments.py) and a background, and answers with rows of R G B; an undecided pixel, None, stays None.
 What is right is `exact`: all visible fragments, nearest first, each once. Fragments of equal depth are composited in either order, and
@@ -81,7 +81,7 @@ def three(scene, writes_depth):
 
 
 def babylon_blended(scene):
-    """renderingGroup.js:201: by the distance of the bounding sphere's centre, far first; no depth is written (engine.alpha.pure.js:33)."""
+    """renderingGroup.js:191: by the distance of the bounding sphere's centre, far first; no depth is written (engine.alpha.pure.js:28)."""
     eye = numpy.linalg.inv(numpy.array(scene.view).reshape(4, 4).T)[:3, 3]
     def distance(mesh):
         points = numpy.array(mesh.positions, float).reshape(-1, 3)
@@ -135,7 +135,7 @@ def babylon_oit(peels):
 
 
 def molstar_lists(pixel):
-    """renderer.js:388, checkOpaque and checkTransparent: alpha 1 is opaque, alpha 0 is not drawn."""
+    """renderer.js:368 and 379: alpha 1 is opaque, alpha 0 is not drawn."""
     return tuple(dataclasses.replace(f, opaque=f.color[3] == 1) for f in pixel if f.color[3] != 0)
 
 
@@ -229,7 +229,7 @@ def vtk_dual(peels):
 
 def vtk_peeling(peels):
     """vtkDepthPeelingPass.cxx: LEQUAL, so the last of equal depths stays; LESS against the opaque surface; the last of the peels blends
-    all that is left as it comes (531). Fragments less than an epsilon behind a peeled one are lost (675)."""
+    all that is left as it comes (530). Fragments less than an epsilon behind a peeled one are lost (675)."""
     def rule(pixel, background):
         opaque, behind = opaque_in_vtk(pixel, background)
         left = [f for f in blended_of(pixel) if f.z < opaque]

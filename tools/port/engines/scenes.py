@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the scenes of this folder's table as glTF: flat colours, no light, each with what sets one engine apart from another.
 
-    scenes.py FOLDER    writes FOLDER/NAME.gltf and the cameras, front.json and torus.json
+    scenes.py FOLDER    writes FOLDER/NAME.gltf and the cameras, front.json, torus.json, shells.json
 
-All but `torus` are panes before the camera of front.json, which stands at z = 1 and sees x, y, z from -1 to 1 in parallel: z = 1 has window
+All but `torus` and `shells` are panes before the camera of front.json, which stands at z = 1 and sees x, y, z from -1 to 1 in parallel: z = 1 has window
 depth 0, z = -1 has 1, and no product or sum on the way rounds. Each pane is an object of its own, for engines that sort objects.
 Colours are codes of 8 bits, for Mol* keeps no others. glTF's are linear, so they are decoded here, and encoded again by what reads them.
 """
@@ -78,10 +78,12 @@ def stack(b):
 
 
 def ties(b):
+    """Three panes at one depth: nearest of all, farthest of all, and between others."""
     b.pane(-0.75, -0.5, 0.25, 0.5, 0.0, RED, 0.5)
     b.pane(-0.25, -0.75, 0.75, 0.25, 0.0, GREEN, 0.5)
     b.pane(-0.5, -0.25, 0.5, 0.75, 0.0, BLUE, 0.5)
     b.pane(-0.875, -0.875, 0.875, -0.125, -0.5, YELLOW, 0.5)
+    b.pane(0.0, -0.875, 0.875, 0.875, 0.5, WHITE, 0.25)
 
 
 def hidden(b):
@@ -146,10 +148,21 @@ def torus(b, rings=24, sides=12):
                            for t in ((at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1)))], color, 0.5)
 
 
+def shells(b, rings=20, sides=10):
+    """Three spheres around each other, in perspective, the outermost first: six layers. `shells.json` is the camera."""
+    for radius, color, alpha in [(1.2, YELLOW, 0.25), (0.85, RED, 0.5), (0.5, BLUE, 0.75)]:
+        points = [(radius * math.sin(v) * math.cos(u), radius * math.cos(v), radius * math.sin(v) * math.sin(u))
+                  for u in (2 * math.pi * (i + radius) / rings for i in range(rings)) for v in (math.pi * j / sides for j in range(sides + 1))]
+        at = lambda i, j: i % rings * (sides + 1) + j
+        triangles = [t for i in range(rings) for j in range(sides) for t in ((at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1)))]
+        b.surface(points, [t for t in triangles if len({points[k] for k in t}) == 3], color, alpha)
+
+
 SCENES = {"panes": panes, "stack": stack, "ties": ties, "hidden": hidden, "decal": decal, "close": close, "floor": floor, "solid": solid,
-          "grid": grid, "gradient": gradient, "torus": torus}
+          "grid": grid, "gradient": gradient, "torus": torus, "shells": shells}
 CAMERAS = {"front": {"view": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 1], "projection": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, -1, 1]},
-           "torus": {"eye": [1.9, 1.2, 3.4], "center": [0.35, 0, 0], "up": [0, 1, 0], "fovy_degrees": 40, "near": 1, "far": 8}}
+           "torus": {"eye": [1.9, 1.2, 3.4], "center": [0.35, 0, 0], "up": [0, 1, 0], "fovy_degrees": 40, "near": 1, "far": 8},
+           "shells": {"eye": [1.1, 2.0, 3.2], "center": [0, 0, 0], "up": [0, 1, 0], "fovy_degrees": 42, "near": 1, "far": 8}}
 
 
 def camera_of(name):

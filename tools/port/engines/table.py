@@ -22,6 +22,7 @@ import pictures  # noqa: E402
 import rules  # noqa: E402
 import scenes  # noqa: E402
 import truth  # noqa: E402
+import web  # noqa: E402
 
 BACKGROUND = [51, 51, 102]
 HARD = {name: ["hard:case=" + name, "--size", "32x32"] for name in ("cyclic-overlap", "woven", "inside-out")}
@@ -70,7 +71,7 @@ def verdict_of(strata, pack, picture):
     return done.returncode, ((done.stdout or done.stderr).strip().splitlines() or [""])[0]
 
 
-def rows_of(name, folder, strata):
+def rows_of(name, folder, strata, browser):
     pack = folder / "packs" / name
     if not (pack / "manifest.json").exists():
         background = ",".join(str(c / 255) for c in BACKGROUND)
@@ -82,7 +83,7 @@ def rows_of(name, folder, strata):
                 continue
             picture = picture_of(folder, engine, name, way)
             if not picture.exists():
-                draw.write(draw.draw(engine, frame.scene, way), picture, None)
+                draw.write(draw.draw(engine, frame.scene, way, browser), picture, None)
             worst, wrong, decided = frame.explain(engine, way, pictures.read(picture))
             why = truth.WRONG[engine, way].get(name, "")
             yield {"scene": name, "engine": engine, "way": way, "wrong": wrong, "decided": decided, "worst": worst, "why": why,
@@ -121,7 +122,9 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = (given.keep or pathlib.Path(temporary)).resolve()
         scenes.main(folder / "scenes")
-        rows = [row for name in given.only or [*scenes.SCENES, *HARD] for row in rows_of(name, folder, given.build / "strata")]
+        names = given.only or [*scenes.SCENES, *HARD]
+        with web.Browser(draw.PACKAGES) as browser:
+            rows = [row for name in names for row in rows_of(name, folder, given.build / "strata", browser)]
     given.output.write_text(page_of(rows))
     for row in rows:
         if not row["consistent"]:

@@ -8,7 +8,7 @@ ON_THE_SURFACE = "a fragment on the opaque surface is drawn (LEQUAL)"
 LEFT_OVER = "{} peels, then what is left is blended as submitted"
 MISSING = "after {} layers the rest, in the middle, is missing"
 
-BLENDS = ["cyclic-overlap", "woven", "inside-out", "torus"]  # several surfaces in one mesh, or meshes through each other
+BLENDS = ["cyclic-overlap", "woven", "inside-out", "torus", "shells"]  # several surfaces in one mesh, or meshes through each other
 OPAQUE_TIES = {"decal": ON_THE_SURFACE}
 
 WRONG = {
@@ -21,7 +21,7 @@ WRONG = {
     ("vtk", "weighted"): {scene: UNORDERED for scene in ("panes", "stack", "ties", "hidden", "decal", "close", "floor", "solid", "grid", "gradient", *BLENDS)},
     ("babylon", "oit"): {"stack": MISSING.format(10), "inside-out": MISSING.format(10), "ties": MAX_OF_TIES, **OPAQUE_TIES},
     ("babylon", "blended"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES},
-    ("molstar", "dpoit"): {**{scene: MISSING.format(4) for scene in ("stack", "grid", "inside-out", "torus")}, "ties": MAX_OF_TIES},
+    ("molstar", "dpoit"): {**{scene: MISSING.format(4) for scene in ("stack", "grid", "inside-out", "torus", "shells")}, "ties": MAX_OF_TIES},
     ("molstar", "wboit"): {scene: UNORDERED for scene in ("panes", "stack", "ties", "hidden", "decal", "close", "floor", "grid", *BLENDS)},
     ("molstar", "blended"): {scene: AS_THEY_COME for scene in ("panes", "stack", "ties", "hidden", "close", "floor", "grid", *BLENDS)},
     ("three", "blended"): {**{scene: AS_THEY_COME + ", and writes depth" for scene in BLENDS}, **OPAQUE_TIES,

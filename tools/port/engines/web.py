@@ -6,6 +6,7 @@ import http.server
 import json
 import os
 import pathlib
+import queue
 import shutil
 import signal
 import subprocess
@@ -47,57 +48,58 @@ def job_of(scene, engine, way, peels, wants_targets):
             "background": scene.background, "view": scene.view, "projection": scene.projection, "meshes": meshes}
 
 
-class Session:
-    """What server and caller share: the job, the files, the targets that came back, and how it ended."""
-    def __init__(self, job, packages):
-        self.job, self.packages, self.drawn, self.camera, self.failure, self.ended = json.dumps(job).encode(), pathlib.Path(packages), [], None, None, threading.Event()
-
-    def file(self, path):
-        """The file of a request's path; None if there is none. Imports of packages may leave the ending out."""
-        kind, _, rest = path.lstrip("/").partition("/")
-        root = {"page": HERE / "page", "packages": self.packages}.get(kind)
-        if root is None:
-            return None
-        found = (root / rest).resolve()
-        if root.resolve() not in found.parents:
-            return None
-        return next((f for f in (found, found.with_name(found.name + ".js")) if f.is_file()), None)
+class Job:
+    """What the page is to do, and what it sent back: targets, a camera, or why it failed."""
+    def __init__(self, described):
+        self.engine, self.text = described["engine"], json.dumps(described).encode()
+        self.drawn, self.camera, self.failure, self.ended = [], None, None, threading.Event()
 
 
-def handler_of(session):
-    class Handler(http.server.BaseHTTPRequestHandler):
-        def log_message(self, *_):
-            pass
+class Handler(http.server.BaseHTTPRequestHandler):
+    """Answers the page. The server has `packages`, `waiting`, a queue of jobs, and `job`, the one that the page has."""
+    def log_message(self, *_):
+        pass
 
-        def answer(self, status, body=b"", kind="text/plain"):
-            self.send_response(status)
-            self.send_header("Content-Type", kind)
-            self.send_header("Content-Length", str(len(body)))
-            self.end_headers()
-            self.wfile.write(body)
+    def answer(self, status, body=b"", kind="text/plain", caching="no-store"):
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        self.send_header("Cache-Control", caching)
+        self.end_headers()
+        self.wfile.write(body)
 
-        def do_GET(self):
-            path = urllib.parse.urlsplit(self.path).path
-            if path == "/job.json":
-                return self.answer(200, session.job, TYPES[".json"])
-            found = session.file(path)
-            if not found:
-                return self.answer(404)
-            return self.answer(200, found.read_bytes(), TYPES.get(found.suffix, "application/octet-stream"))
+    def do_GET(self):
+        path = urllib.parse.urlsplit(self.path).path
+        if path == "/job.json":
+            self.server.job = self.server.waiting.get()  # the page waits for its next job here
+            return self.answer(200, self.server.job.text, TYPES[".json"])
+        found = file_of(path, self.server.packages)
+        if not found:
+            return self.answer(404)
+        return self.answer(200, found.read_bytes(), TYPES.get(found.suffix, "application/octet-stream"), "max-age=3600")
 
-        def do_POST(self):
-            body = self.rfile.read(int(self.headers["Content-Length"]))
-            split = urllib.parse.urlsplit(self.path)
-            query = dict(urllib.parse.parse_qsl(split.query))
-            self.answer(200)
-            if split.path == "/target":
-                session.drawn.append(target_of(query, body))
-            elif split.path == "/camera":
-                session.camera = json.loads(body)
-            else:
-                session.failure = body.decode("utf-8", "replace") if split.path == "/failed" else None
-                session.ended.set()
-    return Handler
+    def do_POST(self):
+        body = self.rfile.read(int(self.headers["Content-Length"]))
+        split = urllib.parse.urlsplit(self.path)
+        job = self.server.job
+        if split.path == "/target":
+            job.drawn.append(target_of(dict(urllib.parse.parse_qsl(split.query)), body))
+        elif split.path == "/camera":
+            job.camera = json.loads(body)
+        elif not job.ended.is_set():
+            job.failure = body.decode("utf-8", "replace") if split.path == "/failed" else None
+            job.ended.set()
+        self.answer(200)
+
+
+def file_of(path, packages):
+    """The file of a request's path; None if there is none. Imports within packages may leave the ending out."""
+    kind, _, rest = path.lstrip("/").partition("/")
+    root = {"page": HERE / "page", "packages": packages}.get(kind)
+    found = (root / rest).resolve() if root else None
+    if not found or root.resolve() not in found.parents:
+        return None
+    return next((f for f in (found, found.with_name(found.name + ".js")) if f.is_file()), None)
 
 
 def target_of(query, body):
@@ -107,37 +109,45 @@ def target_of(query, body):
     return Drawn(query["name"], width, height, channels, query["element"], b"".join(body[y * row:(y + 1) * row] for y in reversed(range(height))))
 
 
-def draw(scene, engine, way, packages, peels=None, wants_targets=False):
-    """The targets that the page sent, the one with the name `picture` among them; WebError otherwise."""
-    return run(job_of(scene, engine, way, peels, wants_targets), packages).drawn
+class Browser:
+    """Chromium with the page, and the server that it talks to; both end with the `with`. The page is loaded afresh for each job."""
+    def __init__(self, packages):
+        self.program = shutil.which("chromium")
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self.server.packages, self.server.waiting, self.server.job = pathlib.Path(packages), queue.Queue(), None
+        self.server.daemon_threads = True
 
+    def __enter__(self):
+        if not self.program:
+            raise WebError("chromium: not found; tools/port/engines/install.sh installs it")
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        url = f"http://127.0.0.1:{self.server.server_port}/page/page.html"
+        self.process = subprocess.Popen([self.program, *FLAGS, f"--user-data-dir={self.profile.name}", "--window-size=2048,2048", url],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        return self
 
-def matrices(engine, look, width, height, packages):
-    """The matrices of the engine's own camera, as a camera file of Strata: {"view": ..., "projection": ...}."""
-    return run({"engine": engine, "camera": look, "width": width, "height": height}, packages).camera
+    def __exit__(self, *_):
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        self.server.shutdown()
+        self.server.server_close()
+        self.profile.cleanup()
 
+    def run(self, described, seconds=300):
+        """The job, done; WebError otherwise."""
+        job = Job(described)
+        self.server.waiting.put(job)
+        if not job.ended.wait(seconds):
+            raise WebError(f"{job.engine}: the page has not ended within {seconds} seconds")
+        if job.failure is not None:
+            raise WebError(f"{job.engine}: {job.failure}")
+        return job
 
-def run(job, packages, seconds=300):
-    """The session of a job that has ended well."""
-    program = shutil.which("chromium")
-    if not program:
-        raise WebError("chromium: not found; tools/port/engines/install.sh installs it")
-    session = Session(job, packages)
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler_of(session))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        url = f"http://127.0.0.1:{server.server_port}/page/page.html"
-        browser = subprocess.Popen([program, *FLAGS, f"--user-data-dir={profile}", f"--window-size={job['width'] + 100},{job['height'] + 100}", url],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-        try:
-            ended = session.ended.wait(seconds)
-        finally:
-            os.killpg(browser.pid, signal.SIGKILL)
-            browser.wait()
-            server.shutdown()
-            server.server_close()
-    if not ended:
-        raise WebError(f"{job['engine']}: the page has not ended within {seconds} seconds")
-    if session.failure:
-        raise WebError(f"{job['engine']}: {session.failure}")
-    return session
+    def draw(self, scene, engine, way, peels=None, wants_targets=False):
+        """The targets that the page sent, the one with the name `picture` among them."""
+        return self.run(job_of(scene, engine, way, peels, wants_targets)).drawn
+
+    def matrices(self, engine, look, width, height):
+        """The matrices of the engine's own camera, as a camera file of Strata: {"view": ..., "projection": ...}."""
+        return self.run({"engine": engine, "camera": look, "width": width, "height": height}).camera

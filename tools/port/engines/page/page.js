@@ -15,6 +15,7 @@ export async function post(name, width, height, channels, element, pixels) {
     await fetch(`/target?name=${name}&width=${width}&height=${height}&channels=${channels}&element=${element}`, { method: 'POST', body: pixels });
 }
 
+// One job; then the page is loaded again for the next one, and no engine sees what another one left.
 async function run() {
     const job = await (await fetch('/job.json')).json();
     const canvas = document.getElementById('canvas');
@@ -29,10 +30,15 @@ async function run() {
     } else {
         await driver.draw(job, canvas);
     }
-    await fetch('/done', { method: 'POST', body: '' });
+    await end('/done', '');
+}
+
+async function end(path, body) {
+    await fetch(path, { method: 'POST', body });
+    location.reload();
 }
 
 // A plain Error is a sentence of a driver; all others are told with the lines that they come from.
-const fail = error => fetch('/failed', { method: 'POST', body: error?.constructor === Error ? error.message : String(error?.stack ?? error) });
+const fail = error => end('/failed', error?.constructor === Error ? error.message : String(error?.stack ?? error));
 window.addEventListener('unhandledrejection', event => fail(event.reason));
 run().catch(fail);
