@@ -66,9 +66,9 @@ class Frame:
 
 
 def verdict_of(strata, pack, picture):
-    """Exit status and the first line of what Strata says."""
-    done = run([strata, "compare", pack, picture], allowed=(0, 1, 2))
-    return done.returncode, ((done.stdout or done.stderr).strip().splitlines() or [""])[0]
+    """Exit status and what Strata says."""
+    done = run([strata, "compare", pack, picture], allowed=(0, 1))
+    return done.returncode, done.stdout.strip()
 
 
 def rows_of(name, folder, strata, browser):
@@ -85,15 +85,29 @@ def rows_of(name, folder, strata, browser):
             if not picture.exists():
                 draw.write(draw.draw(engine, frame.scene, way, browser), picture, None)
             worst, wrong, decided = frame.explain(engine, way, pictures.read(picture))
-            why = truth.WRONG[engine, way].get(name, "")
-            yield {"scene": name, "engine": engine, "way": way, "wrong": wrong, "decided": decided, "worst": worst, "why": why,
-                   "verdict": verdict_of(strata, pack, picture), "consistent": worst <= CLOSE_ENOUGH and bool(wrong) == bool(why)}
+            true = truth.WRONG[engine, way].get(name)
+            status, verdict = verdict_of(strata, pack, picture)
+            yield {"scene": name, "engine": engine, "way": way, "wrong": wrong, "decided": decided, "worst": worst, "why": true.sentence if true else "",
+                   "status": status, "verdict": verdict, "judgment": truth.judgment(true, status, verdict),
+                   "consistent": worst <= CLOSE_ENOUGH and bool(wrong) == bool(true)}
+
+
+def sentence_of(verdict):
+    """The verdict's first line, and of several mistakes that look the same all."""
+    lines = verdict.splitlines()
+    if "look the same here" not in lines[0]:
+        return lines[0]
+    return "; ".join([lines[0], *(line.strip() for line in lines[1:] if line.startswith("  ") and line[2] != " ")][:4])
 
 
 def line_of(row):
     true = f"wrong at {row['wrong']:,} of {row['decided']:,}: {row['why']}" if row["wrong"] or row["why"] else "right"
-    status, sentence = row["verdict"]
-    return f"| {row['scene']} | {row['engine']}, {row['way']} | {true} | {row['worst']:.1f} | {status}: {sentence} |"
+    return f"| {row['scene']} | {row['engine']}, {row['way']} | {true} | {row['worst']:.1f} | {sentence_of(row['verdict'])} | {row['judgment']} |"
+
+
+def tally_of(rows):
+    count = {name: sum(row["judgment"] == name for row in rows) for name in truth.JUDGMENTS}
+    return ["| verdict | pictures | share |", "|---|---:|---:|", *(f"| {name} | {n} | {100 * n / len(rows):.1f} % |" for name, n in count.items())]
 
 
 def page_of(rows):
@@ -102,8 +116,10 @@ def page_of(rows):
         "# Pictures of four engines, and what is true of them",
         "", "Made by `tools/port/engines/table.py`. A picture's truth comes from the engine's source (rules.py, truth.py) and from fragments that are computed",
         "there, without Strata, at all pixels that are away from edges. \"Rule\" is the greatest distance in codes between that computation and the picture:",
-        f"{explained} of {len(rows)} pictures are explained by it.", "",
-        "| scene | engine, way | true | rule | `strata compare PACK PICTURE` |", "|---|---|---|---|---|", *map(line_of, rows), ""])
+        f"{explained} of {len(rows)} pictures are explained by it.", "", *tally_of(rows), "",
+        "The verdict is that of `strata compare PACK PICTURE`, with no option. It is true of a right picture that is called right, and of a wrong one whose mistake",
+        "it names, alone or among those that look the same.", "",
+        "| scene | engine, way | true | rule | verdict | which is |", "|---|---|---|---|---|---|", *map(line_of, rows), ""])
 
 
 def main():

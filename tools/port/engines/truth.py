@@ -1,33 +1,73 @@
 """What is true of each engine's picture of each scene of the table, and why, told from the engine's source. `rules.py` proves the numbers:
-a picture is right exactly where nothing stands here.
+a picture is right exactly where nothing stands here. A truth has the words of which one must stand in Strata's verdict, if that is to be true.
 """
-UNORDERED = "a weighted sum of all fragments: no order"
-AS_THEY_COME = "blended as submitted, triangle by triangle"
-MAX_OF_TIES = "fragments of equal depth become one: the greater of both, channel by channel"
-ON_THE_SURFACE = "a fragment on the opaque surface is drawn (LEQUAL)"
-LEFT_OVER = "{} peels, then what is left is blended as submitted"
-MISSING = "after {} layers the rest, in the middle, is missing"
+import dataclasses
+import re
+
+
+@dataclasses.dataclass(frozen=True)
+class Truth:
+    sentence: str
+    words: str  # a regular expression
+
+    def told_by(self, verdict):
+        return re.search(self.words, verdict) is not None
+
+
+
+UNORDERED = Truth("a weighted sum of all fragments: no order", "averaged|weighted")
+AS_THEY_COME = Truth("blended as submitted, triangle by triangle", "order of submission|as they are submitted")
+WRITES_DEPTH = Truth("blended as submitted, triangle by triangle, and writes depth", "write depth")
+MAX_OF_TIES = Truth("fragments of equal depth become one: the greater of both, channel by channel", "merged by MAX")
+ON_THE_SURFACE = Truth("a fragment on the opaque surface is drawn (LEQUAL)", "LEQUAL")
+LINEAR = Truth("colours between corners are mixed in linear light", "linear|sRGB")
+
+
+def left_over(peels, near, far):
+    """What is left after peels from the near end, and from the far end, too, where `far` is not 0."""
+    return Truth(f"{peels} peels, then what is left is blended as submitted", f"behind the nearest {near} layers.* order of submission" if not far else
+                 f"(?s)nearest {near} layers.*order of submission")
+
+
+def missing(layers):
+    return Truth(f"after {layers} layers the rest, in the middle, is missing", f"nearest {layers // 2} layers and the farthest {layers // 2}")
+
 
 BLENDS = ["cyclic-overlap", "woven", "inside-out", "torus", "shells"]  # several surfaces in one mesh, or meshes through each other
 OPAQUE_TIES = {"decal": ON_THE_SURFACE}
 
 WRONG = {
-    ("vtk", "dual"): {"stack": LEFT_OVER.format(4), "inside-out": LEFT_OVER.format(4), "ties": MAX_OF_TIES, **OPAQUE_TIES,
-                      "close": "fragments within 1e-7 of the peeled one become one with it: the greater of both",
-                      "floor": "the peel ends after its first pass, as no pixel wrote a back fragment: the far end was the opaque surface. The nearest fragment alone is drawn"},
-    ("vtk", "peeling"): {**{scene: LEFT_OVER.format(3) for scene in ("stack", "grid", "inside-out", "torus")},
-                         "ties": "of fragments of equal depth the last one stays", "close": "fragments within 1e-7 behind a peeled one are lost",
-                         "decal": "a fragment on the opaque surface is drawn, as that depth came through 24 bits and lies behind now"},
+    ("vtk", "dual"): {"stack": left_over(4, 4, 4), "inside-out": left_over(4, 4, 4), "ties": MAX_OF_TIES, **OPAQUE_TIES,
+                      "close": Truth("fragments within 1e-7 of the peeled one become one with it: the greater of both", "within .* merged by MAX"),
+                      "floor": Truth("the peel ends after its first pass, as no pixel wrote a back fragment: the far end was the opaque surface. The nearest fragment alone is drawn",
+                                     "only the nearest layer")},
+    ("vtk", "peeling"): {**{scene: left_over(3, 3, 0) for scene in ("stack", "grid", "inside-out", "torus")},
+                         "ties": Truth("of fragments of equal depth the last one stays", "last submitted"),
+                         "close": Truth("fragments within 1e-7 behind a peeled one are lost", "within .* missing"),
+                         "decal": Truth("a fragment on the opaque surface is drawn, as that depth came through 24 bits and lies behind now", "LEQUAL")},
     ("vtk", "weighted"): {scene: UNORDERED for scene in ("panes", "stack", "ties", "hidden", "decal", "close", "floor", "solid", "grid", "gradient", *BLENDS)},
-    ("babylon", "oit"): {"stack": MISSING.format(10), "inside-out": MISSING.format(10), "ties": MAX_OF_TIES, **OPAQUE_TIES},
+    ("babylon", "oit"): {"stack": missing(10), "inside-out": missing(10), "ties": MAX_OF_TIES, **OPAQUE_TIES},
     ("babylon", "blended"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES},
-    ("molstar", "dpoit"): {**{scene: MISSING.format(4) for scene in ("stack", "grid", "inside-out", "torus", "shells")}, "ties": MAX_OF_TIES},
+    ("molstar", "dpoit"): {**{scene: missing(4) for scene in ("stack", "grid", "inside-out", "torus", "shells")}, "ties": MAX_OF_TIES},
     ("molstar", "wboit"): {scene: UNORDERED for scene in ("panes", "stack", "ties", "hidden", "decal", "close", "floor", "grid", *BLENDS)},
     ("molstar", "blended"): {scene: AS_THEY_COME for scene in ("panes", "stack", "ties", "hidden", "close", "floor", "grid", *BLENDS)},
-    ("three", "blended"): {**{scene: AS_THEY_COME + ", and writes depth" for scene in BLENDS}, **OPAQUE_TIES,
-                           "gradient": "colours between corners are mixed in linear light"},
-    ("three", "no-depth-write"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES, "gradient": "colours between corners are mixed in linear light"},
+    ("three", "blended"): {**{scene: WRITES_DEPTH for scene in BLENDS}, **OPAQUE_TIES, "gradient": LINEAR},
+    ("three", "no-depth-write"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES, "gradient": LINEAR},
     ("three", "float"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES},
 }
 # What an engine cannot draw.
 CANNOT = {("molstar", "gradient")}
+
+
+# A wrong picture that no listed mistake explains is called wrong without a name.
+UNNAMED = "no one mistake explains them all"
+JUDGMENTS = ["true", "wrong without a name", "right called wrong without a name", "false"]
+
+
+def judgment(true, status, verdict):
+    """Of Strata's verdict, given a Truth, or None for a right picture: one of JUDGMENTS. `false` is a wrong verdict told with confidence."""
+    if status == 0:
+        return "true" if true is None or (true.told_by(verdict) and "one depth" in verdict) else "false"
+    if UNNAMED in verdict:
+        return "wrong without a name" if true else "right called wrong without a name"
+    return "true" if true and true.told_by(verdict) else "false"
