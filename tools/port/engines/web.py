@@ -1,6 +1,7 @@
 """Draws scenes with engines of the web in headless Chromium: a server on this machine alone gives it the page, the engine's files and a
 job, and takes back what the page has drawn.
 """
+import contextlib
 import dataclasses
 import http.server
 import json
@@ -128,7 +129,8 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        os.killpg(self.process.pid, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):  # it may have ended by itself
+            os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         self.server.shutdown()
         self.server.server_close()
@@ -138,7 +140,12 @@ class Browser:
         """The job, done; WebError otherwise."""
         job = Job(described)
         self.server.waiting.put(job)
-        if not job.ended.wait(seconds):
+        for _ in range(seconds):
+            if job.ended.wait(1):
+                break
+            if self.process.poll() is not None:
+                raise WebError(f"chromium: ended with status {self.process.returncode} before the page did")
+        else:
             raise WebError(f"{job.engine}: the page has not ended within {seconds} seconds")
         if job.failure is not None:
             raise WebError(f"{job.engine}: {job.failure}")
