@@ -88,7 +88,7 @@ struct Renderer::State {
         const bool is_open =
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
-        return algorithm.whole_frame || counts_across ? Execution::literal : options.execution;
+        return algorithm.whole_frame || counts_across || options.counters ? Execution::literal : options.execution;
     }
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
@@ -359,7 +359,8 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     frame.nearest_depth = frame.trace = false;
     frame.published_format = target_format(frame.key_request().format);
     const Stopwatch watch{result.seconds.passes};
-    result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress, instruments);
+    const Execution execution = state_->options.counters ? Execution::literal : state_->options.execution;
+    result.frame = run(frame, draw_depth, execution, state_->options.threads, progress, instruments);
     std::swap(result.frame.depth, result.frame.color);
     state_->show_depths(result.frame);
     result.seconds.geometry = state_->lists.seconds();

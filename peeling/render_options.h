@@ -63,6 +63,7 @@ struct RenderOptions {
     Simd simd = Simd::best;  // of all kernels of this renderer
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Format average_count = pipeline::Format::r16f;
+    bool counters = false;  // count fragments by their fates, and bytes: the frame then runs literally
     bool keep_layers = false;
     bool audit = true;          // order_errors and the other comparisons with the a_buffer
     bool nearest_depth = true;  // make the Z image

@@ -113,7 +113,7 @@ void batched(Region& region) {
             region.begin_iteration();
             const Drawn drawn = peel(region, interval, t, first);
             composite_layer(region, t.layer, t.nearest, t.accumulated);
-            if (!region.any(drawn.passed, Idle::when_zero)) break;
+            if (!region.any(drawn.passed, Idle::yes)) break;
             std::swap(t.peeled, t.nearest);
         }
     }

@@ -126,7 +126,7 @@ void peel_until_nothing_is_left(CoherentPeel& peel, const FirstPasses& first) {
     Region& region = peel.region;
     if (region.limit_reached()) return;
     Drawn found = first.find_nearest(peel);
-    while (region.any(found.passed, Idle::when_zero) && !region.limit_reached(first.geometry_passes + later_passes)) {
+    while (region.any(found.passed, Idle::yes) && !region.limit_reached(first.geometry_passes + later_passes)) {
         region.begin_iteration();
         static_cast<void>(finish_iteration(peel, first));
         found = first.find_nearest(peel);
@@ -156,7 +156,7 @@ void peel_until_nothing_is_composited(CoherentPeel& peel, const FirstPasses& fir
         region.begin_iteration();
         static_cast<void>(first.find_nearest(peel));
         const Count composited = finish_iteration(peel, first);
-        if (!region.any(composited, peel.published ? Idle::no : Idle::steady)) break;
+        if (!region.any(composited, peel.published ? Idle::no : Idle::yes)) break;
         if (!peel.published || region.any(progress(peel, farthest), Idle::no)) continue;
         peel.composited.report(region, Fault::endless, "the same fragments in every further iteration: stopped (E22)");
         break;

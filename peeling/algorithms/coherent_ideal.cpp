@@ -50,9 +50,7 @@ class IdealPeel {
 
   private:
     // As published, finished pixels change while others are peeled (E25); under a limit the last run waits for its composite.
-    [[nodiscard]] Idle idle() const {
-        return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::when_zero;
-    }
+    [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
 
     [[nodiscard]] float as_float(std::uint32_t code) const noexcept { return depth_as_float(code, format_); }
 

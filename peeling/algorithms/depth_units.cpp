@@ -54,7 +54,10 @@ void depth_units(Region& region) {
         layers.color.push_back(layer);
         layers.depth.push_back(nearest);
         peeled = nearest;
-        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) {
+            region.keep_no_layer(layer, nearest);
+            break;
+        }
         region.keep_layer(layer, nearest);
     }
     const Target result = region.make_color();

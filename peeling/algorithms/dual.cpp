@@ -107,7 +107,7 @@ void dual(Region& region) {
         std::swap(t.min_max, t.next_min_max);
         std::swap(t.front, t.next_front);
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
-        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
+        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::yes))) break;
     }
     layers.end();
     publish_over(region, t.front, FrontAlpha::covers, t.back);

@@ -90,7 +90,7 @@ void dual_independent(Region& region) {
         const Drawn drawn = peel(region, min_max, next_min_max, front, back);
         layers.keep(min_max);
         std::swap(min_max, next_min_max);
-        if (!region.any(drawn.passed, Idle::steady)) break;
+        if (!region.any(drawn.passed, Idle::yes)) break;
     }
     layers.end();
     publish_over_background(region, front, back);

@@ -71,7 +71,10 @@ void front_to_back(Region& region) {
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, layer, nearest, peeled, first);
         composite_layer(region, layer, nearest, accumulated);
-        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) {
+            region.keep_no_layer(layer, nearest);
+            break;
+        }
         region.keep_layer(layer, nearest);
         std::swap(peeled, nearest);
     }

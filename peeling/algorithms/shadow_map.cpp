@@ -72,7 +72,10 @@ void shadow_map(Region& region) {
         region.call(buffers.map, "map");
         layers.color.push_back(copied(region, buffers.color, region.make_color()));
         region.call(layers.color.back(), "layer");
-        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) {
+            region.keep_no_layer(layers.color.back(), layers.depth.back());
+            break;
+        }
         region.keep_layer(layers.color.back(), layers.depth.back());
     }
     const Target result = region.make_color();

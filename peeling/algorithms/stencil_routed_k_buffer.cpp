@@ -95,11 +95,9 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     const auto bytes = [&](Target t) {
         return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();
     };
-    shortcuts.book({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
-    for (std::size_t pass = 0; pass < captures.size(); ++pass) {
-        region.count_with(static_cast<int>(pass) + 1);
-        shortcuts.book({.bytes_read = pass_samples * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
-    }
+    shortcuts.book({.full_screen = 1});
+    shortcuts.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)});
+    for (const Capture& c : captures) shortcuts.count({.bytes_read = pass_samples * (bytes(c.color) + bytes(c.depth))});
     return result;
 }
 
@@ -122,7 +120,7 @@ void stencil_routed_k_buffer(Region& region) {
     while (static_cast<int>(captures.size()) < most_passes && !region.limit_reached()) {
         region.begin_iteration();
         captures.push_back(capture(region, stencil, static_cast<int>(captures.size())));
-        if (!region.any(overflowing(region, stencil), Idle::when_zero)) break;
+        if (!region.any(overflowing(region, stencil), Idle::yes)) break;
     }
     if (!captures.empty()) report_overflow(region, stencil);
     region.publish(resolve(region, captures));

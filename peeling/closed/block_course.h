@@ -11,7 +11,6 @@
 #include "peeling/closed/block_passes.h"
 #include "peeling/closed/closed_form.h"
 #include "peeling/programs/region_programs.h"
-#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
@@ -40,8 +39,7 @@ class Rgba8Course {
 
     void publish() {
         using namespace pipeline;
-        const std::uint64_t area = region_.rect().area();
-        RegionShortcuts{region_}.book(of_loads(2 * 4, area) + of_color(4, area, false), {.full_screen = 1});
+        RegionShortcuts{region_}.book({.full_screen = 1});
         region_.publish(target_);
     }
 

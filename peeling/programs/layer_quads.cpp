@@ -10,7 +10,6 @@ using namespace pipeline;
 // opaque depth, by which the trace knows it: nothing else looks at depths, which are textures as good as loads then.
 void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
-        region.count_with(static_cast<int>(layer) + 1);
         PassState state;
         state.color[0] = result;
         state.blend[0] = blend_mode::over;

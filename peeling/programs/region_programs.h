@@ -20,7 +20,7 @@ inline namespace strict {
 // what is peeled, and a fragment that is stored before that but compared as behind it would have been found. Only a
 // first pass that draws other vertices and compares nothing may find nothing where the second finds such a fragment.
 [[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
-    return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::when_zero : pipeline::Idle::no;
+    return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::yes : pipeline::Idle::no;
 }
 
 // Publishes the front over the colour behind it, alpha 1: the last quad of every peel that composites from the front.

@@ -61,14 +61,13 @@ struct SelectedFragments {
     bool is_routed = false;                     // of Keeps::arrivals: sample s takes what has rank s
     bool is_ready = false;                      // chosen for the present pass
     bool is_remembered = false;                 // what the pass left of them: repeated_pass.h
-    std::uint64_t inside = 0;                   // fragments in their pixel's window
-    std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
-    std::uint64_t killed = 0;                   // of these, the ones that the stencil test of Keeps::previous kills
+    std::uint64_t inside = 0;                   // of Keeps::window: fragments in their pixel's window
+    std::uint64_t done = 0;                     // what passes and is done without a visit
 
     void start(std::size_t pixels_with_fragments) {
         columns = pixels_with_fragments;
         ranks = rank = next = 0;
-        inside = passed = killed = 0;
+        inside = done = 0;
         is_routed = is_remembered = false;
     }
     void open(std::size_t last_rank) {
@@ -99,11 +98,6 @@ struct SelectedFragments {
     // The pixels of the first rank.
     [[nodiscard]] std::span<const std::uint32_t> kept() const noexcept {
         return ranks == 0 ? std::span<const std::uint32_t>{} : of_rank[0].part(0, of_rank[0].count).pixel;
-    }
-    [[nodiscard]] std::uint64_t visited() const noexcept {
-        std::uint64_t fragments = 0;
-        for (std::size_t r = 0; r < ranks; ++r) fragments += of_rank[r].count;
-        return fragments;
     }
     // A pixel has at most one of a rank.
     [[gnu::always_inline]] inline void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {

@@ -1,6 +1,7 @@
 // pipeline/frame/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the instruments asked for.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pipeline/frame/region_books.h"
@@ -20,7 +21,7 @@ struct FrameResult {
     std::vector<KeptLayer> layers;
     int iterations = 0;
     PassCount passes;
-    Counters counters;
+    std::optional<Counters> counters;  // of literal execution alone
     Work work;
     std::vector<Diagnostic> diagnostics;
     Answers answers;     // to the frame's queries: a script for whoever runs a part of it again

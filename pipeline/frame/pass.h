@@ -115,9 +115,8 @@ class Count {
 
 // An algorithm's promise about a region whose own count is zero.
 enum class Idle : std::uint8_t {
-    no,         // further iterations may change its bits
-    when_zero,  // they change none of its bits, and from the next one on they all count the same
-    steady      // they change none of its bits, and they count what this one counted
+    no,  // further iterations may change its bits
+    yes  // they change none of its bits
 };
 
 // A pass's depth test in one region: to be made, or passed by every fragment whatever its depth.

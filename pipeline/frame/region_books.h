@@ -1,7 +1,6 @@
 // pipeline/frame/region_books.h - what a region writes down while its body runs: all that the executor needs to put the frame together.
 //
-// Rule     Counters and passes are kept by iteration, because a region that stops early counts its idle iteration again for every
-//          further one of the frame (executor.cpp). `script` comes from the executor, everything else from the region.
+// Rule     `script` and `passes_before` come from the executor, everything else from the region.
 // Tests    tests/pipeline/region/executor_test.cpp
 #pragma once
 #include <cstdint>
@@ -15,24 +14,17 @@
 
 namespace strata::pipeline {
 
-// The work of one iteration in one region; also that before the first iteration and after the last.
-struct IterationRecord {
-    Counters counters;
-    PassCount passes;
-};
-
 struct Decision {
     std::uint64_t own = 0;
     Idle idle = Idle::no;
     bool answer = false;
 };
 
-// One loop of a body: its queries, and what the region has promised about them.
+// One loop of a body: its queries, its passes, and what stands around it.
 struct LoopBooks {
     std::vector<Decision> decisions;
     int iterations = 0;
-    int idle_from = -1;   // number, from 1, of the iteration whose counters every further one repeats; -1: never idle
-    bool probed = false;  // the last iteration was an idle probe
+    PassCount passes;  // of the first loop, those before it, too; of the last one, those behind it
 };
 
 // Answers to the queries of every loop.
@@ -46,8 +38,6 @@ struct KeptLayer {
 struct RegionBooks {
     Answers script;  // the frame's that are known already; further ones are guessed from the region's own counts
     std::vector<LoopBooks> loops = std::vector<LoopBooks>(1);  // one, unless the body says that a further one begins
-    std::vector<IterationRecord> records =
-        std::vector<IterationRecord>(1);  // [0] before the first iteration, then one each, at last what follows
     // The frame's geometry passes before each loop, where a limit counts them; else as many as the region has made.
     std::vector<int> passes_before;
     int iterations = 0;  // of all loops
@@ -59,19 +49,11 @@ struct RegionBooks {
     std::uint64_t fragments_drawn = 0;
     std::uint64_t fragments_visited = 0;  // by programs of geometry passes
     int geometry_passes = 0;
-    bool counts = true;         // false during the emulator's own work (opaque priming, capture)
-    IterationRecord uncounted;  // where that work is counted instead
-    std::size_t counted_record = 0;
-
-    [[nodiscard]] IterationRecord& record() noexcept { return counts ? records[counted_record] : uncounted; }
-    void begin_iteration();
-    void end_iterations();  // what is counted from now on follows the last iteration
-
-  private:
-    void join_tail();
+    bool counts = true;  // false during the emulator's own work (opaque priming, capture)
+    Counters counters;   // which only literal execution tells
 };
 
-// While it lives the region's work is the emulator's own, and goes to RegionBooks::uncounted.
+// While it lives the region's work is the emulator's own, and nothing counts it.
 class UncountedWork {
   public:
     explicit UncountedWork(RegionBooks& books) noexcept : books_{books}, before_{std::exchange(books.counts, false)} {}

@@ -199,12 +199,10 @@ class FrameRun {
     // far. From loop to loop it follows how many iterations the limit leaves to the frame: a region with more runs again.
     void limit_loops() {
         std::vector<int> most;  // iterations of each loop
-        for (std::size_t loop = 0, last = 0; loop < regions_[0].books.loops.size(); last = loop++) {
-            const int made = loop == 0 ? regions_[0].books.records[0].passes.geometry
-                                       : std::min(most[last], iterations_of(last)) * passes_of_iteration(last);
-            passes_before_.push_back(made + (loop == 0 ? 0 : passes_before_[last]));
+        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop) {
+            passes_before_.push_back(loop == 0 ? 0 : passes_before_.back() + passes_of(loop - 1, most.back()));
             const int left = std::max(0, frame_.max_passes - passes_before_[loop]);
-            most.push_back(left / std::max(1, passes_of_iteration(loop)));
+            most.push_back(left / std::max(1, passes_of(loop, 1)));
         }
         std::vector<std::size_t> again;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -217,14 +215,18 @@ class FrameRun {
         result_.work.reruns += again.size();
     }
 
-    // Geometry passes of an iteration, of which every one of a loop makes as many.
-    [[nodiscard]] int passes_of_iteration(std::size_t loop) const {
-        for (const auto& [r, fragments, runs] : regions_) {
-            int first = 1;
-            for (std::size_t before = 0; before < loop; ++before) first += r.loops[before].iterations;
-            if (r.loops[loop].iterations > 0) return r.records[static_cast<std::size_t>(first)].passes.geometry;
-        }
-        return 0;
+    // Geometry passes of a loop of so many iterations, or of as many as the frame has made if they are fewer. Every iteration of a loop
+    // makes as many; a loop without any has those that stand before it.
+    [[nodiscard]] int passes_of(std::size_t loop, int iterations) const {
+        const LoopBooks& longest = regions_[longest_in(loop)].books.loops[loop];
+        if (longest.iterations == 0) return longest.passes.geometry;
+        return std::min(iterations, longest.iterations) * (longest.passes.geometry / longest.iterations);
+    }
+
+    // A region that has run a loop as long as the frame does: where something was left to count until its end.
+    [[nodiscard]] std::size_t longest_in(std::size_t loop) const {
+        const auto iterations = [loop](const RegionRun& r) { return r.books.loops[loop].iterations; };
+        return static_cast<std::size_t>(std::ranges::max_element(regions_, {}, iterations) - regions_.begin());
     }
 
     // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
@@ -266,58 +268,32 @@ class FrameRun {
         }
     }
 
-    // Puts the frame together from the books of all regions. Counters are integers and diagnostics merge in any order,
-    // so the result does not depend on threads. Without a query every region ran the same iterations.
+    // Puts the frame together from the books of all regions. Diagnostics merge in any order, so the result does not depend on
+    // threads. Without a query every region ran the same iterations.
     void gather() {
-        std::vector<int> iterations;
-        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop)
-            result_.iterations += iterations.emplace_back(iterations_of(loop));
         result_.work.regions = regions_.size();
         result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
-            RegionBooks& books = regions_[r].books;
-            gather_counters(books, iterations);
-            for (const Diagnostic& d : books.diagnostics) merge(result_.diagnostics, d);
-            gather_log(books.pass_log);
-            result_.work.fragments += regions_[r].fragments;
-            result_.work.visited += books.fragments_visited;
+        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop) {
+            const LoopBooks& longest = regions_[longest_in(loop)].books.loops[loop];
+            result_.iterations += longest.iterations;
+            result_.passes += longest.passes;
+        }
+        if (extent_ == Extent::frame) result_.counters = regions_[0].books.counters;
+        for (const RegionRun& region : regions_) {
+            for (const Diagnostic& d : region.books.diagnostics) merge(result_.diagnostics, d);
+            gather_log(region.books.pass_log);
+            result_.work.fragments += region.fragments;
+            result_.work.visited += region.books.fragments_visited;
         }
         const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
         result_.watched = watched > 0 ? watched / (watched + bodies) : 0;
         if (frame_.keep_layers) gather_layers();
     }
 
-    // A loop of the frame runs as long as any region had something to count: idle probes do not prolong it.
-    [[nodiscard]] int iterations_of(std::size_t loop) const {
-        int longest = 0;
-        for (const auto& [r, fragments, runs] : regions_)
-            longest = std::max(longest, r.loops[loop].iterations - (r.loops[loop].probed ? 1 : 0));
-        return longest;
-    }
-
     void gather_log(const PassLog& log) {
         PassLog& all = result_.pass_log;
         all.passes.insert(all.passes.end(), log.passes.begin(), log.passes.end());
         all.queries += log.queries;
-    }
-
-    // Prologue, the frame's iterations (those that the region did not run repeat its idle one), epilogue.
-    void gather_counters(const RegionBooks& r, const std::vector<int>& iterations) {
-        PassCount passes;
-        const auto add = [&](const IterationRecord& record) {
-            result_.counters += record.counters;
-            passes += record.passes;
-        };
-        add(r.records.front());
-        int before = 0;  // the region's own iterations of earlier loops
-        for (std::size_t loop = 0; loop < r.loops.size(); ++loop) {
-            const LoopBooks& own = r.loops[loop];
-            for (int i = 1; i <= iterations[loop]; ++i)
-                add(r.records[static_cast<std::size_t>(before + (i <= own.iterations ? i : own.idle_from))]);
-            before += own.iterations;
-        }
-        for (std::size_t i = static_cast<std::size_t>(r.iterations) + 1; i < r.records.size(); ++i) add(r.records[i]);
-        result_.passes = passes;  // the same in every region
     }
 
     // A region that stopped early shows its last layer, an empty one, in every further layer of the frame. From which
@@ -379,7 +355,8 @@ FrameResult run(const Frame& frame, const Body& body, Execution execution, int t
     };
     Frame rasterized = frame;  // in every pass
     rasterized.replay = {};
-    const Frame& given = instruments.once_more == Effect::none ? frame : rasterized;
+    const bool is_plain = execution == Execution::replay && instruments.once_more == Effect::none;
+    const Frame& given = is_plain ? frame : rasterized;
     if (instruments.observer != nullptr) rasterized.trace = rasterized.trace || instruments.observer->traced;
     if (instruments.observer != nullptr || instruments.alteration != nullptr)
         return run_as(rasterized, Execution::literal);

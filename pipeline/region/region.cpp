@@ -101,7 +101,7 @@ void Region::clear(Target given, const ClearValue& given_value, std::uint8_t sam
         storage.fill({code, 0, 0, 0}, sample_mask);
     }
     if (has_stencil(format)) storage.fill_stencil(value.stencil, sample_mask);
-    record().counters += of_clear(1, bytes(storage));
+    count(of_clear(1, bytes(storage)));
     show({.step = Step::clear, .to = target, .clear = &value, .sample_mask = sample_mask});
 }
 
@@ -122,8 +122,8 @@ void Region::copy_and_leave(Target from, Target to) {
 void Region::count_copy(Target from, Target to) {
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
     opaque_depth_is_cleared_ &= to != opaque_depth_;
-    record().counters += of_copy(1, bytes(at(from)));
-    ++record().passes.copies;
+    count(of_copy(1, bytes(at(from))));
+    count_pass({.copies = 1});
     show({.step = Step::copy, .to = to, .from = from});
 }
 
@@ -141,8 +141,8 @@ void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Targ
             .area() != written.area())
         throw NeedsFrame{};
     for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
-    record().counters += of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area());
-    ++record().passes.copies;
+    count(of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area()));
+    count_pass({.copies = 1});
     show({.step = Step::copy, .to = to, .from = from});
 }
 

@@ -138,9 +138,6 @@ class Region {
     // A further loop begins: promises made so far concern the loops before it, and further ones it alone. Where a limit
     // counts passes across the loops, a tile that left one early learns how many the frame has made.
     void begin_loop();
-    // A layer may be composited after the last iteration, but its cost belongs to the iteration that made it. From now
-    // on counters go to the record of `iteration`, counted from 1.
-    void count_with(int iteration) { books_.counted_record = static_cast<std::size_t>(iteration); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1);
     void keep_layer(Target color, Target depth, Side side = Side::front);
@@ -237,7 +234,7 @@ class Region {
     [[nodiscard]] bool may_repeat(const PassState& state) const;
     [[nodiscard]] bool is_repeated(const PassState& state);  // else its bounds are those of the next one's pass before
     void remember(const PassState& state);
-    void repeat(const PassState& state);
+    std::uint64_t repeat(const PassState& state);
     void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
     void select_window(const PassState& state);
     void select_arrivals(const PassState& state);
@@ -249,8 +246,6 @@ class Region {
     void select_ends(const PassState& state);
     template <class FragmentsAt>
     void count_down(const PassState& state, const FragmentsAt& fragments_at);
-    void count_unvisited(const PassState& state, std::uint64_t visited);
-    [[nodiscard]] Drawn book_arrivals(const PassState& state, const Drawn& visited);
     [[nodiscard]] bool is_compared_apart(const FragmentSelection& selection) const;
     [[nodiscard]] bool sort_for(const PassState& state);
     [[nodiscard]] bool find_or_sort(const PassState& state, const SortRequest& request);
@@ -260,10 +255,9 @@ class Region {
     void find_positions(FragmentBatch& batch, std::size_t count) const;
     [[nodiscard]] FragmentBatch* next_selected(const PassState& state);  // null after the last
     [[nodiscard]] std::uint8_t samples_of_selected(const PassState& state) const noexcept;
-    [[nodiscard]] Drawn book_selected(const PassState& state, const Counters& before, const Drawn& visited);
+    void finish_selected(const PassState& state, Drawn& drawn);
     struct Snapshot {
         std::vector<TargetStorage> targets;
-        Counters counters;
         std::size_t traced;
     };
     [[nodiscard]] Snapshot snapshot();
@@ -275,7 +269,6 @@ class Region {
     [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list);
     [[nodiscard]] bool sums_suit_rows(const PassState& state);
     Drawn draw_sum_rows(const PassState& state);
-    void count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn);
     [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
     void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
@@ -333,7 +326,13 @@ class Region {
     [[nodiscard]] FragmentBatch& screen_batch() noexcept;
     bool next_screen_batch(FragmentBatch& batch, std::size_t& next) const;
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
-    [[nodiscard]] IterationRecord& record() noexcept { return books_.record(); }
+    // What the machine does; the emulator's own work is not counted.
+    void count(const Counters& counters) noexcept {
+        if (books_.counts) books_.counters += counters;
+    }
+    void count_pass(const PassCount& passes) noexcept {
+        if (books_.counts) books_.loops.back().passes += passes;
+    }
 
     const Frame& frame_;
     rasterizer::Rect rect_;
@@ -363,7 +362,6 @@ class Region {
     bool samples_textures_ = false;  // somebody looks at the colours of this pass
     bool takes_shadow_ = false;      // and they are shadowed
     std::uint64_t tallied_ = 0;
-    bool probing_ = false;
     std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
 };
 

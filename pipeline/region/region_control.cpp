@@ -1,23 +1,21 @@
 // pipeline/region/region_control.cpp - how a region iterates, asks and stops. The frame's side of it is executor.cpp.
 #include <cassert>
-#include <utility>
 
 #include "pipeline/frame/verdict.h"
 #include "pipeline/region/region.h"
 
 namespace strata::pipeline {
 
-// The frame has made no fewer passes than the region, whose idle probe is none of them.
 void Region::begin_loop() {
-    if (books_.loops.back().probed)
-        books_.geometry_passes -= books_.records[static_cast<std::size_t>(books_.iterations)].passes.geometry;
     if (const std::size_t number = books_.loops.size(); number < books_.passes_before.size())
         books_.geometry_passes = books_.passes_before[number];
     books_.loops.emplace_back();
-    probing_ = false;
 }
 
-void Region::begin_iteration() { books_.begin_iteration(); }
+void Region::begin_iteration() {
+    ++books_.iterations;
+    ++books_.loops.back().iterations;
+}
 
 PassState Region::altered(const PassState& state, PassKind kind) {
     PassState changed = state;
@@ -29,8 +27,7 @@ void Region::tell_alteration(PassKind kind, const Drawn& drawn) const {
     if (const Alteration* a = alteration(); a != nullptr && a->drawn) a->drawn(kind, drawn.passed.own_);
 }
 
-// A tile that counts nothing and has promised to be idle stops on its own word. With Idle::when_zero it first goes through one
-// more iteration, the probe, because literal execution would: its counters are those of every iteration that the frame still runs.
+// A tile that counts nothing and has promised to be idle stops on its own word.
 bool Region::any(Count count, Idle idle) {
     if (frame_.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (instruments_.log_passes) ++books_.pass_log.queries;
@@ -47,15 +44,10 @@ bool Region::any(Count count, Idle idle) {
     } else {
         answer = count.own_ > 0;
     }
-    if (finished && !is_known) {
-        if (loop.idle_from < 0) loop.idle_from = loop.iterations + (idle == Idle::steady ? 0 : 1);
-        loop.probed = probing_;
-        answer = idle == Idle::when_zero && !std::exchange(probing_, true);
-    }
+    if (finished && !is_known) answer = false;
     if (const Alteration* a = alteration(); a != nullptr && a->query) answer = a->query(count.own_, answer);
     loop.decisions.push_back({count.own_, idle, answer});
     show({.step = Step::query, .passed = count.own_, .answer = answer});
-    if (!answer) books_.end_iterations();
     return answer;
 }
 
@@ -64,16 +56,12 @@ bool Region::any(Count count, Idle idle) {
 bool Region::limit_reached(int passes) {
     const int fixed = frame_.termination.rule == TerminationRule::fixed ? frame_.termination.passes : 0;
     const int after = books_.geometry_passes + passes;
-    const bool reached = (frame_.max_passes > 0 && after > frame_.max_passes) || (fixed > 0 && after > fixed);
-    if (reached) books_.end_iterations();
-    return reached;
+    return (frame_.max_passes > 0 && after > frame_.max_passes) || (fixed > 0 && after > fixed);
 }
 
-// A layer of the probe is empty: the executor leaves such layers out when it looks for the frame's last one.
 void Region::keep_layer(Target color, Target depth, Side side) {
     if (!frame_.keep_layers) return;
     books_.layers.push_back({image(color), image(depth), side});
-    if (probing_) ++books_.idle_layers;
 }
 
 void Region::keep_no_layer(Target color, Target depth) {

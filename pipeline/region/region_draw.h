@@ -43,14 +43,13 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
 
 template <FragmentProgram P>
 Drawn Region::draw_selected(const PassState& state, P& program) {
-    const Counters before = record().counters;
+    Drawn drawn;
     if (is_repeated(state)) {
-        repeat(state);
-        return book_selected(state, before, {});
+        drawn.passed.own_ = repeat(state);
+        return drawn;
     }
     select(state);
     open_cache(state);
-    Drawn drawn;
     PassState drawn_to = state;
     while (FragmentBatch* const batch = next_selected(state)) {
         Outputs& out = start_batch(*batch);
@@ -60,8 +59,8 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
         finish(drawn_to, *batch, out, drawn);
     }
     close_cache();
-    remember(state);
-    return book_selected(state, before, drawn);
+    finish_selected(state, drawn);
+    return drawn;
 }
 
 // Both ways from the same targets. What is kept is the outcome of visiting everything, the definition. A program that
@@ -116,7 +115,7 @@ void Region::trace_pixels(Target read, P&& program) {
     kind_ = PassKind::full_screen;
     PassState state;
     state.reads[0] = read;
-    const IterationRecord before = record();
+    const UncountedWork look{books_};
     FragmentBatch& batch = screen_batch();
     for (std::size_t next = 0; next_screen_batch(batch, next);) {
         Outputs& out = start_batch(batch);
@@ -124,7 +123,6 @@ void Region::trace_pixels(Target read, P&& program) {
         program(static_cast<const FragmentBatch&>(batch), loads(), out);
         record_trace(batch, out, out.alive);
     }
-    record() = before;
 }
 
 template <class P>
@@ -139,7 +137,7 @@ void Region::run_program(const PassState& state, P& program, FragmentBatch& batc
     if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
     tallied_ += out.tally - tally;
     if (kind_ != PassKind::geometry) return;
-    record().counters.discarded += before - alive_count(out, batch.count);
+    count({.discarded = before - alive_count(out, batch.count)});
     count_visits(static_cast<std::uint64_t>(batch.count));
 }
 

@@ -2,7 +2,6 @@
 // (execution.md 6). Literal execution never takes this way: the program of the pass is what it is tested against.
 #include <algorithm>
 
-#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/stages/layer_blend.h"
@@ -50,10 +49,6 @@ Drawn Region::blend_layer(const PassState& state) {
                            .order = order,
                            .keeps_alpha = state.blend[0].write_mask != 0xf,
                            .rules = color_rules(profile(), at(state.color[0]).format())});
-    for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
-        for (const Target t : targets)
-            if (t.exists())
-                record().counters += of_loads(static_cast<std::uint64_t>(info(at(t).format()).bytes_per_pixel), area);
     const Side side = order == LayerOrder::under ? Side::front : Side::back;
     for (std::uint32_t p = 0; frame_.trace && books_.counts && p < area; ++p)
         if (depth[p] != surface[p]) trace({p, depth[p], 0, side, false});

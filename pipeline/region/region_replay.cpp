@@ -124,7 +124,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     source_ = Source::rasterizer;
 }
 
-// The material stage gives the same colours whether it runs or is remembered, and so do its counters.
+// The material stage gives the same colours whether it runs or is remembered.
 void Region::shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     if (source_ != Source::store) {
         shade(list, batch, out);
@@ -132,9 +132,6 @@ void Region::shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Out
         return;
     }
     std::copy_n(scratch_->recalled_alive.begin(), batch.count, out.alive.begin());
-    Counters& counters = record().counters;
-    counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
-    counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
 }
 
 }  // namespace strata::pipeline

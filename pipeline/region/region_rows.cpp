@@ -1,8 +1,7 @@
 // pipeline/region/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the targets, where
-// that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
+// that leaves the same bits. Literal execution never takes this way: it is what this one is tested against.
 #include <algorithm>
 
-#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/stages/sum_rows.h"
@@ -41,14 +40,6 @@ bool Region::draws_rows(const PassState& state, const PreparedDraw& list) {
     return is_plain && !is_recalled;
 }
 
-// Counts what a pass through batches would have counted, with its test against the depth target.
-void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn) {
-    const auto bytes = static_cast<std::uint64_t>(info(at(state.depth_target).format()).bytes_per_pixel);
-    books_.fragments_drawn += drawn.fragments;
-    record().counters += Counters{.fragments_rasterized = drawn.fragments, .blended = drawn.passed} +
-                         of_depth_test(bytes, drawn.fragments, drawn.passed, state.depth.write);
-}
-
 // LESS with a write is the one depth pass that rows know; every other goes through batches (execution.md 7).
 Drawn Region::draw_depth(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
@@ -58,7 +49,7 @@ Drawn Region::draw_depth(const PassState& state) {
     begin_pass(state, PassKind::geometry);
     const rasterizer::DepthDrawn rows = draw_depth_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
                                                         rect_, at(state.depth_target).depth_plane(0).words);
-    count_rows(state, rows);
+    books_.fragments_drawn += rows.fragments;
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
     return drawn;
@@ -101,9 +92,7 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words;
     const rasterizer::DepthDrawn rows =
         add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_, planes);
-    count_rows(state, rows);
-    for (std::size_t k = 0; k < (has_count_target ? 2u : 1u); ++k)
-        count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
+    books_.fragments_drawn += rows.fragments;
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
     return drawn;

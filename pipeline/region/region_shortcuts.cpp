@@ -67,7 +67,7 @@ std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& s
     ScreenWords words{{}, region_.at(state.color[0]).texels(0), region_.rect_.area()};
     for (std::size_t r = 0; r < reads.size(); ++r) {
         words.reads[r] = region_.at(state.reads[r]).texels(0);
-        region_.record().counters += of_loads(static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel), words.pixels);
+        region_.count(of_loads(static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel), words.pixels));
     }
     return words;
 }
@@ -109,9 +109,8 @@ std::uint64_t RegionShortcuts::target_words() const {
 Arena& RegionShortcuts::arena() noexcept { return region_.scratch_->arena; }
 
 // Geometry passes also count for limit_reached, as the passes that are replaced would have.
-void RegionShortcuts::book(const Counters& counters, const PassCount& passes) {
-    region_.record().counters += counters;
-    region_.record().passes += passes;
+void RegionShortcuts::book(const PassCount& passes) {
+    region_.count_pass(passes);
     region_.books_.geometry_passes += passes.geometry;
     if (passes.full_screen > 0) region_.show(StepEvent{.step = Step::full_screen});
 }

@@ -51,8 +51,9 @@ class RegionShortcuts {
 
     // Words a pixel that the region's targets have by now, samples and all.
     [[nodiscard]] std::uint64_t target_words() const;
-    [[nodiscard]] Arena& arena() noexcept;                         // free again when the region is gone
-    void book(const Counters& counters, const PassCount& passes);  // what a pass would have counted
+    [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
+    void book(const PassCount& passes);     // that something stood in for
+    void count(const Counters& counters) noexcept { region_.count(counters); }
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
     [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }
 

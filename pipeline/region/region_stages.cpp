@@ -90,18 +90,18 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
     for (const Target t : state.color)
         if (t.exists()) pass_samples_ = at(t).samples();
     if (kind == PassKind::geometry) {
-        ++record().passes.geometry;
+        count_pass({.geometry = 1});
         if (books_.counts) ++books_.geometry_passes;
         return;
     }
-    ++record().passes.full_screen;
+    count_pass({.full_screen = 1});
     for (std::size_t k = 0; k < state.color.size();
          ++k)  // a quad's traffic is every pixel's, whatever its program discards
         if (state.color[k].exists()) count_color_bytes(state.blend[k], at(state.color[k]), rect_.area());
 }
 
 void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
-    record().counters += of_color(pixel_bytes(target), pixels, blending.enabled);
+    count(of_color(pixel_bytes(target), pixels, blending.enabled));
 }
 
 // The pixels of a full-screen pass, row by row. Window positions fit 16 bits: a frame has at most 16,384 pixels a side.
@@ -136,7 +136,7 @@ Outputs& Region::start_batch(const FragmentBatch& batch) {
 // it; its precision is that of the frame's colour format, whatever the pass's targets are.
 void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     books_.fragments_drawn += static_cast<std::uint64_t>(batch.count);
-    record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
+    count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
     const MaterialStage& material = list.materials[batch.material];
     if (material.texture != nullptr && samples_textures_) {
         sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel,
@@ -149,18 +149,18 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
     if (!material.mask.enabled) return;
     const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
-    record().counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
+    count({.alpha_killed = static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count)});
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.color[3][i] *= material.alpha_scale;
 }
 
 // Dead lanes load, too: the traffic is that of every fragment of the batch (execution.md 8.1).
 void Region::load(const PassState& state, const FragmentBatch& batch) {
     for (const Target t : state.textures)
-        if (t.exists()) record().counters += of_loads(pixel_bytes(at(t)), static_cast<std::uint64_t>(batch.count));
+        if (t.exists()) count(of_loads(pixel_bytes(at(t)), static_cast<std::uint64_t>(batch.count)));
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = at(state.reads[r]);
-        record().counters += of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count));
+        count(of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count)));
         load_target(from, r, batch);
         if (instruments_.once_more == Effect::loads) load_target(from, r, batch);
     }
@@ -192,7 +192,7 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
         const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
         alpha_test(state.alpha, is_eight_bit_alpha(profile().alpha_test, type), out.color[0][3].data(),
                    out.alive.data(), batch.count);
-        record().counters.alpha_killed += before - alive_count(out, batch.count);
+        count({.alpha_killed = before - alive_count(out, batch.count)});
     }
     if (idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
     show(Stage::alpha_test, state, batch, out, out.alive);
@@ -217,7 +217,7 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
     show(Stage::tests, state, batch, out, alive, sample);
     // Without a test, fragments that a program discards fetch tiles, too (fragment-stages.md 9.5).
     if (passed == 0 && (cache_ == nullptr || is_tested)) return;
-    if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
+    if (kind_ == PassKind::geometry && sample == 0) count({.blended = passed});
     write_colors(state, batch, out, sample, alive, passed);
     show(Stage::written, state, batch, out, alive, sample);
     if (out.traced && frame_.trace && books_.counts && sample == 0) record_trace(batch, out, alive);
@@ -238,7 +238,7 @@ void Region::test_depth_units(const PassState& state, const FragmentBatch& batch
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
         const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
                                               lanes_of(batch), batch.code.data(), alive.data());
-        record().counters += of_depth_test(pixel_bytes(target), result.arriving, result.passed, false);
+        count(of_depth_test(pixel_bytes(target), result.arriving, result.passed, false));
     }
 }
 
@@ -247,7 +247,6 @@ void Region::test_depth_units(const PassState& state, const FragmentBatch& batch
 std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                              Lanes<std::uint32_t>& alive) {
     RegionScratch& s = *scratch_;
-    Counters& counters = record().counters;
     TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
     DepthResult tested;
     std::uint64_t stencil_killed = 0;
@@ -273,10 +272,9 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
     if (wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
             depth->depth_plane(sample).words[batch.pixel[i]] &= rasterizer::max_code(depth_format(depth->format()));
-    counters.stencil_killed += stencil_killed;
+    count({.stencil_killed = stencil_killed});
     if (depth != nullptr)
-        counters +=
-            of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write);
+        count(of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write));
     return tested.passed;
 }
 
@@ -291,8 +289,7 @@ std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& 
     const int killed = stencil_test(state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
                                                     s.stencil_stored.data(), s.saturated.data(), batch.count});
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
-    record().counters.bytes_read += arriving;
-    record().counters.bytes_written += arriving;
+    count({.bytes_read = arriving, .bytes_written = arriving});
     if (!state.saturates_by_design) report_saturation(batch);
     return static_cast<std::uint64_t>(killed);
 }

@@ -160,7 +160,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     pass.blend[0].write_mask = state.color_mask;
     pass.needs.shader_z = false;
     pass.needs.code = false;
-    const std::uint64_t before = s.books.records.front().counters.blended;
+    const std::uint64_t before = s.books.counters.blended;
     if (state.path != nullptr) {
         FragmentPathProgram program{s.region, *state.path};
         program.apply(pass);
@@ -170,7 +170,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
             for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
         }));
     }
-    return s.books.records.front().counters.blended - before;
+    return s.books.counters.blended - before;
 }
 
 // A narrow surface stores 8-bit codes with the bits that it lacks filled in, so its image is one of rgba8.

@@ -60,13 +60,15 @@ void Region::remember(const PassState& state) {
     selected.is_remembered = true;
 }
 
-void Region::repeat(const PassState& state) {
+// Answers how many fragments pass.
+std::uint64_t Region::repeat(const PassState& state) {
     const RepeatedPass& last = scratch_->repeated;
     const std::uint32_t* next = last.left.data();
     const auto kept = scratch_->selected.kept();
     for_each_plane(at(state.depth_target), at(state.color[0]), [&](Word* words) {
         for (const std::uint32_t pixel : kept) words[pixel] = *next++;
     });
+    return kept.size();
 }
 
 }  // namespace strata::pipeline

@@ -73,24 +73,24 @@ void Region::select_nearest(const PassState& state) {
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     const StoredDepth stored = stored_depth(state);
-    std::uint64_t inside = 0, passed = 0;
+    const bool counts = keeps != Keeps::nearest || state.stencil.enabled;  // updates
     for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
         const auto& [number, p, words, first, end, tested, low] = column;
-        inside += end - first;
+        if (!counts) {
+            if (first < tested) selected.add(p, words[first], 0);
+            return;
+        }
         const std::uint32_t updates = sorted.passing(p, first, tested);
         if (keeps == Keeps::previous) {
             select_previous(state, p, {first, tested, end}, updates);
             return;
         }
         if (updates == 0) return;
-        passed += updates;
         if (state.stencil.enabled) count_up(state, p, updates - 1);
         const bool has_two = keeps == Keeps::last_two && updates > 1;
         if (has_two) selected.add(p, words[sorted.update(p, first, tested, updates - 1)], 0);
         selected.add(p, words[first], has_two ? 1 : 0);
     });
-    selected.inside += inside;
-    selected.passed += passed;
 }
 
 StoredDepth Region::stored_depth(const PassState& state) const {
@@ -110,13 +110,8 @@ void Region::select_previous(const PassState& state, std::size_t pixel, const Co
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const std::uint32_t made = std::max(std::min(updates, greatest_stencil), 1u) - 1;
-    if (made == 0) {
-        selected.killed += part.end - part.first;
-        return;
-    }
+    if (made == 0) return;
     const std::uint32_t kept = sorted.update(pixel, part.first, part.last, made);
-    selected.killed += sorted.arrived_after(pixel, part.first, part.end, kept);
-    selected.passed += made;
     at(state.stencil_target).stencil_plane(0).words[pixel] = 2;  // before it is visited
     selected.add(pixel, sorted.of(pixel)[kept], 0);
 }

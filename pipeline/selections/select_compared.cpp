@@ -42,19 +42,14 @@ void Region::select_nearest_compared(const PassState& state) {
     constexpr double before_all = -1.0;
     selected.open(0);
     SelectedFragments::Filling kept = selected.of_rank[0].filling();
-    std::uint64_t inside = 0, passed = 0;
     std::size_t number = 0;
     for (const std::uint32_t p : sorted.occupied()) {
         const double bound = peeled == nullptr ? before_all : compare.bound(peeled[p]);
         const SortedFragments::Passing found = sorted.passing_behind(number++, bound, stored.of(p));
         if (same_up_to != nullptr) same_up_to[p] = found.inside > 0 ? peeled[p] : ~0u;
-        inside += found.inside;
-        passed += found.passed;
         kept.add_if(found.passed > 0, p, found.word);
     }
     selected.of_rank[0].count = kept.count;
-    selected.inside += inside;
-    selected.passed += passed;
     for (std::size_t k = 0; depth != nullptr && k < kept.count; ++k) depth[kept.pixel[k]] = kept.key[k];
 }
 
@@ -71,7 +66,6 @@ void Region::select_ends_compared(const PassState& state) {
         const auto [first, near_end, far_begin, last] =
             parts_of(sorted, column, *state.selection.compared, double{-std::bit_cast<float>(near[p])},
                      double{std::bit_cast<float>(far[p])});
-        selected.inside += last - first;
         kept.assign(words.begin() + first, words.begin() + near_end);
         kept.insert(kept.end(), words.begin() + far_begin, words.begin() + last);
         if (near_end < far_begin) {

@@ -74,7 +74,6 @@ void Region::select_ends(const PassState& state) {
                                &farthest = ends[3];
     const auto visit = [&](const WindowColumn& column) {
         const auto& [number, p, words, first, last, tested, low] = column;
-        selected.inside += last - first;
         std::size_t rank = SelectedFragments::end_ranks;  // of what is tied with an end
         const auto key = [&column](std::uint32_t k) { return column.words[k] >> 32; };
         std::uint32_t near_end = first, far_begin = last;

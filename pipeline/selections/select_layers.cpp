@@ -48,11 +48,9 @@ bool Region::select_layer(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     const bool is_done = selection.keys_suffice && std::ranges::none_of(state.color, &Target::exists);
     if (is_done)
-        count_visits(lists.layer().pixel.size());
+        count_visits(selected.done = lists.layer().pixel.size());
     else
         selected.lend(lists.layer());
-    selected.inside = lists.inside();
-    selected.passed = lists.passed();
     return true;
 }
 
@@ -64,7 +62,7 @@ bool Region::select_taken_layer(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     selected.lend(lists.layer());
     for (const LayerLists::Tied& tied : lists.tied()) selected.add(tied.pixel, tied.word, tied.rank);
-    selected.inside = selected.visited();
+    selected.inside = lists.layer().pixel.size() + lists.tied().size();
     return true;
 }
 

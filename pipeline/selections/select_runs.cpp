@@ -82,7 +82,6 @@ void Region::select_run(const PassState& state) {
     const bool is_float = storage(state.depth_target).format() == Format::d32f;
     for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
         const auto& [number, p, words, first, end, tested, low] = column;
-        selected.inside += end - first;
         std::uint32_t count = counts[p], depth = depths[p];
         RunWalk walk{sorted, p, first, end};
         for (std::size_t rank = 0; count < ended; ++rank) {
@@ -134,14 +133,11 @@ void Region::select_nearest_after(const PassState& state) {
     for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
         const auto& [number, p, words, first, end, tested, low] = column;
         const std::uint32_t dying = std::min(full_stencil - counts[p], end - first);
-        selected.inside += end - first;
-        selected.killed += dying;
         counts[p] += dying;
         if (dying == end - first) return;
         take_first_arrivals(sorted, p, first, end, dying, dead);
         const std::uint32_t nearest = first_without(dead, first);
         if (nearest >= tested) return;
-        selected.passed += sorted.passing_without(p, first, tested, dead);
         selected.add(p, words[nearest], 0);
     });
 }
@@ -209,7 +205,6 @@ void Region::select_arrivals(const PassState& state) {
         const auto words = sorted.of(p);
         const std::size_t last = std::min(words.size(), past + samples_of_pass());
         for (std::size_t k = past; k < last; ++k) selected.add(p, words[k], k - past);
-        selected.inside += last > past ? last - past : 0;
     }
     selected.is_routed = waits_in_order(state);
     if (!selected.is_routed)
@@ -244,25 +239,19 @@ void Region::finish_waiting(const PassState& state) {
     }
 }
 
-// Stages have counted what was visited; the other fragments reach the stencil.
-Drawn Region::book_arrivals(const PassState& state, const Drawn& visited) {
+// What the other arrivals leave of the stencil; and what has passed without a visit.
+void Region::finish_selected(const PassState& state, Drawn& drawn) {
+    remember(state);
+    drawn.passed.own_ += scratch_->selected.done;
+    if (state.selection.outside == Outside::nothing_new || state.selection.outside == Outside::one_value)
+        drawn.passed.own_ = scratch_->sorted.present().size();  // what lies outside passes, too
+    if (state.selection.keeps != Keeps::arrivals) return;
+    if (scratch_->selected.is_routed) return finish_waiting(state);
     const SortedFragments& sorted = scratch_->sorted.present();
-    const std::uint64_t kept = scratch_->selected.inside;
-    Counters& counters = record().counters;
-    count_unvisited(state, kept);
-    counters.discarded += sorted.hidden();
-    const std::uint64_t other_samples = scratch_->selected.is_routed ? kept * (samples_of_pass() - 1) : 0;
-    const std::uint64_t tests = (sorted.size() - kept) * samples_of_pass() + other_samples;
-    counters += {.stencil_killed = tests, .bytes_read = tests, .bytes_written = tests};
-    if (scratch_->selected.is_routed) {
-        finish_waiting(state);
-        return visited;
-    }
     count_down(state, [&](std::size_t p) {
         const std::size_t done = state.selection.first_arrival + samples_of_pass();
         return sorted.of(p).size() - std::min(sorted.of(p).size(), done);
     });
-    return visited;
 }
 
 }  // namespace strata::pipeline

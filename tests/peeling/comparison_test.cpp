@@ -207,6 +207,7 @@ TEST_CASE("a second list that is the first one again, split otherwise or clamped
     const TriangleScene scene = random_triangles(964, 60);
     RenderOptions options = small();
     options.audit = false;
+    options.counters = true;
     const RenderResult plain = run(scene, {"geforce8", "front_to_back"}, options);
     options.second_list = &scene.list;
     const RenderResult again = run(scene, {"geforce8", "front_to_back"}, options);

@@ -73,7 +73,7 @@ TEST_CASE("meshes of triangles of a pixel or two execute alike, whatever is peel
                         return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
                     };
                     const auto expected = drawn_by(Execution::literal, strata::Simd::best, 32);
-                    fragments += expected.frame.counters.fragments_rasterized;
+                    fragments += expected.frame.counters->fragments_rasterized;
                     for (const strata::Simd simd : strata::available_simd()) {
                         INFO(algorithm << " on " << profile.name << ", set " << static_cast<int>(simd));
                         CHECK(difference(drawn_by(Execution::replay, simd, 16), expected) == "");

@@ -215,17 +215,14 @@ TEST_CASE("ratio:R stops at the first count below R times the frame's pixels") {
     for (const double ratio : {0.0, 0.05, 0.25, 0.5, 1.0, 1.25, 4.0}) {
         std::vector<float> peeled(scene.pixels.size(), -1.0f);
         int passes = 0;
-        std::uint64_t blended = 0;
         for (bool more = true; more; ++passes) {
             std::uint64_t count = 0;
             for (std::size_t p = 0; p < peeled.size(); ++p) count += peel_once(scene.pixels[p].fragments, peeled[p]);
-            blended += count;
             more = count > 0 && static_cast<double>(count) >= ratio * 256;
         }
         const RenderResult result = render_with(scene, {"geforce8", "front_to_back"}, TerminationRule::ratio, ratio);
         INFO("ratio " << ratio);
         CHECK(result.frame.passes.geometry == passes);
-        CHECK(result.frame.counters.blended == blended);
         CHECK(against(scene, result, [&](const TargetModel& target, const DepthGroups& groups) {
                   return front_to_back_model(target, nearest(groups, passes), black);
               }).pixels == 0);
@@ -239,7 +236,9 @@ TEST_CASE("counters of front_to_back are those of one fragment after another") {
     for (GivenPixel& pixel : scene.pixels)
         for (int i = random_int(random, 0, 9); i > 0; --i, ++fragments)
             pixel.fragments.push_back({static_cast<float>(random_int(random, 0, 16)) / 16.0f, random_color(random)});
-    const RenderResult result = render(scene, {"geforce8", "front_to_back"});
+    RenderOptions options = options_for(scene);
+    options.counters = true;
+    const RenderResult result = render(draw_list(scene), {}, {"geforce8", "front_to_back"}, options);
     const int passes = result.audit.layers_max + 1;
     std::vector<float> peeled(scene.pixels.size(), -1.0f);
     std::uint64_t discarded = 0, blended = 0;
@@ -248,7 +247,7 @@ TEST_CASE("counters of front_to_back are those of one fragment after another") {
             for (const GivenFragment& f : scene.pixels[p].fragments) discarded += f.depth <= peeled[p] ? 1 : 0;
             blended += peel_once(scene.pixels[p].fragments, peeled[p]);
         }
-    const strata::pipeline::Counters& found = result.frame.counters;
+    const strata::pipeline::Counters& found = *result.frame.counters;
     CHECK(found.fragments_rasterized == fragments * static_cast<std::uint64_t>(passes));
     CHECK(found.discarded == discarded);
     CHECK(found.blended == blended);

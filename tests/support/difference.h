@@ -15,7 +15,7 @@ namespace strata::testing {
     if (a.frame.depth != b.frame.depth) return "depth";
     if (a.frame.iterations != b.frame.iterations) return "iterations";
     if (a.frame.passes != b.frame.passes) return "passes";
-    if (a.frame.counters != b.frame.counters) return "counters";
+    if (a.frame.counters && b.frame.counters && a.frame.counters != b.frame.counters) return "counters";
     if (a.frame.layers.size() != b.frame.layers.size()) return "number of layers";
     if (!std::ranges::equal(a.frame.layers, b.frame.layers, same_layer)) return "layers";
     if (a.frame.diagnostics != b.frame.diagnostics) return "diagnostics";

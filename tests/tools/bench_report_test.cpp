@@ -39,9 +39,7 @@ BenchResult result_of(const char* algorithm, Execution execution, const BenchSce
     result.job.execution = execution;
     result.last.geometry_passes = 5;
     result.last.visited = 400;
-    result.last.counters.fragments_rasterized = 1000;
-    result.last.counters.bytes_read = 3000;
-    result.last.counters.bytes_written = 1000;
+    result.last.counters = {.fragments_rasterized = 1000, .bytes_read = 3000, .bytes_written = 1000};
     result.digest = "d1";
     result.seconds = {0.002, 0.008, 0.004};
     result.geometry_seconds = {0.001, 0.002, 0.0015};
@@ -104,7 +102,7 @@ TEST_CASE("a job in JSON tells its words, its counts, its times and what follows
 
 TEST_CASE("a job without a fragment has no time and no bytes a fragment") {
     BenchResult empty = result_of(nullptr, Execution::replay);
-    empty.last.counters = {};
+    empty.last.counters = strata::pipeline::Counters{};
     const auto job = to_json(std::vector{empty}, {}).at("jobs").at(0);
     CHECK(job.at("algorithm") == "depth");
     CHECK(job.at("ns_per_fragment_pass").is_null());
@@ -112,6 +110,16 @@ TEST_CASE("a job without a fragment has no time and no bytes a fragment") {
     CHECK(job.at("fragments_per_second") == 0.0);
     const auto row = words_in(lines_of(to_table({empty})).at(1));
     CHECK((row.at(row.size() - 2) == "-" && row.back() == "-"));
+}
+
+TEST_CASE("a job that nobody has counted has neither fragments nor what is divided by them") {
+    BenchResult uncounted = result_of("dual", Execution::replay);
+    uncounted.last.counters.reset();
+    const auto job = to_json(std::vector{uncounted}, {}).at("jobs").at(0);
+    for (const char* key : {"fragments", "fragments_per_second", "ns_per_fragment_pass", "bytes_per_fragment"})
+        CHECK(job.at(key).is_null());
+    const auto row = words_in(lines_of(to_table({uncounted})).at(1));
+    CHECK(std::ranges::count(row, "-") == 4);
 }
 
 TEST_CASE("a document names each scene once, in order, files without their folder, and lists what was refused") {

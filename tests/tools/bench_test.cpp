@@ -40,7 +40,7 @@ std::string wrong_with(const ordered_json& job) {
 TEST_CASE("strata bench --json - prints one document with every promised key, and names what the profile refuses") {
     const Folder folder;
     const Ended ended = bench(folder, {"--algorithm", "depth,dual,dual_independent", "--execution", "all", "--simd",
-                                       "scalar,best", "--effects", "needed,all", "--json", "-"});
+                                       "scalar,best", "--effects", "needed,all", "--counters", "--json", "-"});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
     const auto document = ordered_json::parse(ended.out);
@@ -58,7 +58,8 @@ TEST_CASE("strata bench --json - prints one document with every promised key, an
 
 TEST_CASE("a job's literal fragments and picture are the same in every execution") {
     const Folder folder;
-    const Ended ended = bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--json", "-"});
+    const Ended ended =
+        bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--counters", "--json", "-"});
     const auto jobs = ordered_json::parse(ended.out).at("jobs");
     REQUIRE(jobs.size() == 2);
     for (const auto& job : jobs)

@@ -15,6 +15,7 @@ peeling::RenderResult render(int slices, const char* algorithm, int size) {
     peeling::RenderOptions options;
     options.width = options.height = size;
     options.threads = 1;
+    options.counters = true;
     peeling::Renderer renderer{scene.list, scenes::orbit_view(scene.bounds, 30, 20, 1.0),
                                *pipeline::find_profile("geforce8"), options};
     peeling::RenderResult result = renderer.render(*peeling::find_algorithm(algorithm));
@@ -23,7 +24,7 @@ peeling::RenderResult render(int slices, const char* algorithm, int size) {
 }
 
 double work(int slices, const char* algorithm) {
-    return static_cast<double>(render(slices, algorithm, 24).frame.counters.fragments_rasterized);
+    return static_cast<double>(render(slices, algorithm, 24).frame.counters->fragments_rasterized);
 }
 
 }  // namespace

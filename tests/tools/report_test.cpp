@@ -127,7 +127,8 @@ TEST_CASE("the fragments of a report are all there are, near to far in each pixe
     }
     CHECK(at == z.size());
     const nlohmann::json stats = nlohmann::json::parse(
-        shell(folder, "strata render random:triangles=60 --size 24x20 --algorithm a_buffer --stats -").out)[0];
+        shell(folder, "strata render random:triangles=60 --size 24x20 --algorithm a_buffer --counters --stats -")
+            .out)[0];
     CHECK(z.size() == stats["counters"]["fragments_rasterized"].get<std::size_t>());
 }
 

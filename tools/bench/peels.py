@@ -97,13 +97,13 @@ def jobs(options, scene, size, profile, color_format, extra):
 
 def visits(options, scene, size, profile, color_format, extra, algorithm):
     """Fragments that the algorithm's programs run on, for each fragment of the list."""
-    command = [*bench_command(options, scene, size, profile, color_format, extra), "--algorithm", algorithm, "--repeat", "1",
-               "--warm-up", "0", "--json", "-"]
+    command = [*bench_command(options, scene, size, profile, color_format, extra), "--algorithm", f"unsorted,{algorithm}", "--repeat", "1",
+               "--warm-up", "0", "--counters", "--json", "-"]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"peels.py: {' '.join(command)} ended with exit status {done.returncode}: {done.stderr.strip()}")
-    job = json.loads(done.stdout)["jobs"][0]
-    return job["visited"] * job["geometry_passes"] / job["fragments"]
+    once, job = json.loads(done.stdout)["jobs"]
+    return job["visited"] / once["fragments"]
 
 
 def scenes_of(options):

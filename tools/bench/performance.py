@@ -70,12 +70,14 @@ NO_MEMORY = "replay, 0 bytes"  # every pass rasterized, tile by tile
 TURNS = range(3)  # of what is compared run by run
 
 
-def bench(options, scene, *, small=False, execution="replay", memory="256M", simd="best", effects="needed", threads=2, turn=0):
+def bench(options, scene, *, small=False, execution="replay", memory="256M", simd="best", effects="needed", threads=2, turn=0, counted=False):
     """The jobs of one run of strata bench, which is done once a turn. `small`: where the slow ways can be waited for."""
     spec = f"volume-beam:slices={options.slices // 4}" if small and scene.name == "planes" else scene.spec
     command = [options.strata, "bench", spec, *scene.options, "--size", options.small if small else options.size,
                "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--fragment-memory", memory, "--simd", simd,
                "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-"]
+    if counted:  # literally, in a run of each job's own
+        command.insert(-2, "--counters")
     line = " ".join(command)
     if (line, turn) not in MEASURED:
         print(line, file=sys.stderr)
@@ -113,7 +115,7 @@ def table(titles, rows):
 def times_section(options, scenes):
     rows = []
     for scene in scenes:
-        for job in bench(options, scene):
+        for job in bench(options, scene, counted=True):
             ns = job["ns_per_fragment_pass"]
             rows.append([scene.name, job["algorithm"], job["geometry_passes"], f'{job["fragments"]:,}',
                          f"{milliseconds(job):.1f}", f'{job["seconds"]["min"] * 1e3:.1f} to {job["seconds"]["max"] * 1e3:.1f}',
@@ -222,7 +224,7 @@ def items_section(options, scenes):
 def roofline_section(options, scenes):
     rows = []
     for scene in scenes:
-        for job in bench(options, scene):
+        for job in bench(options, scene, counted=True):
             if not job["fragments"]:
                 continue
             paper = job["bytes_per_fragment"] * job["fragments"]

@@ -56,7 +56,7 @@ void peel(Region& region) {
         const Side side = mistake == Mistake::wrong_order ? Side::back : Side::front;
         if (mistake != Mistake::loses_second || number != 1) composite(region, layer, nearest, result, side);
         if (mistake == Mistake::blends_first_twice && number == 0) composite(region, layer, nearest, result, side);
-        if (!region.any(drawn.passed, Idle::when_zero)) break;
+        if (!region.any(drawn.passed, Idle::yes)) break;
         std::swap(peeled, nearest);
     }
     region.publish(result);

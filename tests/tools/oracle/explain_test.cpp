@@ -216,8 +216,9 @@ TEST_CASE("the lines of explain, done again, give the picture's bits at every pi
             const ExplainedScene column = explained_scene(scene, 20, 14);
             const char* profile = name == "dual_independent" ? "geforce8_dx101" : "geforce8";
             const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
-            peeling::Renderer renderer{column.scene.list, column.view, *pipeline::find_profile(profile),
-                                       column.options};
+            peeling::RenderOptions counted = column.options;
+            counted.counters = true;
+            peeling::Renderer renderer{column.scene.list, column.view, *pipeline::find_profile(profile), counted};
             const peeling::RenderResult usual = renderer.render(algorithm);
             const auto histories = explain(column.input(profile), algorithm, {0, 0, 20, 14});
             REQUIRE(histories.size() == 20 * 14);
@@ -243,10 +244,10 @@ TEST_CASE("the lines of explain, done again, give the picture's bits at every pi
             INFO(scene << " by " << name << ", first at " << first);
             CHECK(wrong == 0);
             CHECK(unequal == 0);
-            CHECK(fates[Fate::discarded] == usual.frame.counters.discarded);
-            CHECK(fates[Fate::depth_killed] == usual.frame.counters.depth_killed);
-            CHECK(fates[Fate::stencil_killed] == usual.frame.counters.stencil_killed);
-            CHECK(fates[Fate::alpha_killed] + fates[Fate::masked] == usual.frame.counters.alpha_killed);
+            CHECK(fates[Fate::discarded] == usual.frame.counters->discarded);
+            CHECK(fates[Fate::depth_killed] == usual.frame.counters->depth_killed);
+            CHECK(fates[Fate::stencil_killed] == usual.frame.counters->stencil_killed);
+            CHECK(fates[Fate::alpha_killed] + fates[Fate::masked] == usual.frame.counters->alpha_killed);
         }
     CHECK(pixels == 18 * 280);
     CHECK(lines > 30 * pixels);

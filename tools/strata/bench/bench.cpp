@@ -126,6 +126,8 @@ Command add_bench(CLI::App& root) {
     add_option(*app, options->repetitions.warm_up,
                {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds from 0 to 3600"},
                to_seconds);
+    app->add_flag("--counters", options->repetitions.counters,
+                  "also count the fragments and bytes of the passes, in a literal run of each job");
     add_path(*app, options->json,
              {"--json", "FILE|-", "the times as JSON; - is standard output instead of the table", "a file name or -"});
     add_path(*app, options->baseline,

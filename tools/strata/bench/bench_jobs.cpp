@@ -55,6 +55,17 @@ void run_job(benchmark::State& state, BenchResult& result) {
     state.counters["geometry_seconds"] = result.last.geometry_seconds;
 }
 
+[[nodiscard]] peeling::RenderOptions options_of(const BenchJob& job) {
+    peeling::RenderOptions options = job.scene->options.render;
+    options.execution = job.execution;
+    options.effects = job.effects;
+    if (job.is_never_replayed) options.fragment_memory = 0;
+    options.audit = false;
+    options.nearest_depth = false;
+    options.simd = job.simd;
+    return options;
+}
+
 }  // namespace
 
 std::string algorithm_name(const BenchJob& job) { return job.algorithm == nullptr ? "depth" : job.algorithm->name; }
@@ -68,14 +79,7 @@ peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOp
 }
 
 BenchRun run_once(const BenchJob& job) {
-    peeling::RenderOptions options = job.scene->options.render;
-    options.execution = job.execution;
-    options.effects = job.effects;
-    if (job.is_never_replayed) options.fragment_memory = 0;
-    options.audit = false;
-    options.nearest_depth = false;
-    options.simd = job.simd;
-
+    const peeling::RenderOptions options = options_of(job);
     const auto start = std::chrono::steady_clock::now();
     peeling::RenderResult result = run_algorithm(job, options, {.once_more = job.once_more});
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -90,10 +94,15 @@ BenchRun run_once(const BenchJob& job) {
     run.geometry_passes = result.frame.passes.geometry;
     run.visited = result.frame.work.visited;
     run.iterations = result.frame.iterations;
-    run.counters = result.frame.counters;
     // A depth pass leaves no colours; its picture is the depths.
     run.picture = std::move(result.frame.color.codes.empty() ? result.frame.depth : result.frame.color);
     return run;
+}
+
+std::optional<pipeline::Counters> count(const BenchJob& job) {
+    peeling::RenderOptions options = options_of(job);
+    options.counters = true;
+    return run_algorithm(job, options).frame.counters;
 }
 
 std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repetitions& repetitions) {
@@ -124,6 +133,8 @@ std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repeti
     }
     Collector collector(results);
     benchmark::RunSpecifiedBenchmarks(&collector, nullptr, ".");
+    for (BenchResult& result : results)
+        if (repetitions.counters && !result.is_refused()) result.last.counters = count(result.job);
     return results;
 }
 

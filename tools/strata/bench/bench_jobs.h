@@ -43,8 +43,7 @@ struct BenchRun {
     // Of the whole run, and of its part from transform to bins.
     double seconds = 0, geometry_seconds = 0;
     int geometry_passes = 0, iterations = 0;
-    // Literal execution's, whatever ran.
-    pipeline::Counters counters;
+    std::optional<pipeline::Counters> counters{};  // of a run of its own, where they were asked for
     std::uint64_t visited = 0;  // fragments that programs ran on, in all passes that were no closed form
     pipeline::Image picture;    // the depths for `depth`
 };
@@ -64,11 +63,14 @@ struct BenchResult {
                                                   const pipeline::Instruments& instruments = {});
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
+// Literal execution's of this job, in a run that nobody times.
+[[nodiscard]] std::optional<pipeline::Counters> count(const BenchJob& job);
 
 // Of each job.
 struct Repetitions {
     int timed = 5;
-    double warm_up = 0.3;  // seconds that it runs before, at least once; 0: not at all
+    double warm_up = 0.3;   // seconds that it runs before, at least once; 0: not at all
+    bool counters = false;  // and once more, to count
 };
 
 // Google Benchmark runs every job as often; progress is shown on a terminal.

@@ -53,11 +53,14 @@ std::string name_of_words(const ordered_json& words) {
 
 std::string name_of_job(const BenchJob& job) { return name_of_words(words_of(job)); }
 
-// The passes' fragments in literal execution: the same work for every way of running.
-double fragments(const BenchResult& r) { return static_cast<double>(r.last.counters.fragments_rasterized); }
+// The passes' fragments in literal execution: the same work for every way of running. 0 where nobody has counted.
+double fragments(const BenchResult& r) {
+    return r.last.counters ? static_cast<double>(r.last.counters->fragments_rasterized) : 0;
+}
 
 double bytes_per_fragment(const BenchResult& r) {
-    return static_cast<double>(r.last.counters.bytes_read + r.last.counters.bytes_written) / fragments(r);
+    const pipeline::Counters counters = r.last.counters.value_or(pipeline::Counters{});
+    return static_cast<double>(counters.bytes_read + counters.bytes_written) / fragments(r);
 }
 
 // A quotient over the fragments, or null and "-" where there is none.
@@ -73,13 +76,15 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     const Spread spread = spread_of(result.seconds);
     ordered_json job = words_of(result.job);
     job["geometry_passes"] = result.last.geometry_passes;
-    job["fragments"] = result.last.counters.fragments_rasterized;
+    job["fragments"] =
+        result.last.counters ? ordered_json(result.last.counters->fragments_rasterized) : ordered_json(nullptr);
     job["visited"] = result.last.visited;
     job["seconds"] = {
         {"median", spread.median}, {"min", spread.least}, {"max", spread.greatest}, {"all", result.seconds}};
     // The part from transform to bins.
     job["geometry_seconds"] = spread_of(result.geometry_seconds).median;
-    job["fragments_per_second"] = fragments(result) / spread.median;
+    job["fragments_per_second"] =
+        result.last.counters ? ordered_json(fragments(result) / spread.median) : ordered_json(nullptr);
     job["ns_per_fragment_pass"] = per_fragment(result, spread.median * 1e9 / fragments(result));
     job["bytes_per_fragment"] = per_fragment(result, bytes_per_fragment(result));
     job["digest"] = result.digest;
@@ -101,11 +106,11 @@ std::vector<std::string> cells(const BenchResult& result) {
             name_of(simds, job.simd),
             name_of(effects, job.effects),
             fmt::format("{}", result.last.geometry_passes),
-            fmt::format("{}", result.last.counters.fragments_rasterized),
+            result.last.counters ? fmt::format("{}", result.last.counters->fragments_rasterized) : "-",
             fmt::format("{:.2f}", spread.median * 1e3),
             fmt::format("{:.2f}..{:.2f}", spread.least * 1e3, spread.greatest * 1e3),
             fmt::format("{:.2f}", spread_of(result.geometry_seconds).median * 1e3),
-            fmt::format("{:.1f}", fragments(result) / spread.median / 1e6),
+            per_fragment(result, fragments(result) / spread.median / 1e6, 1),
             per_fragment(result, spread.median * 1e9 / fragments(result), 2),
             per_fragment(result, bytes_per_fragment(result), 1)};
 }

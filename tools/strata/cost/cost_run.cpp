@@ -27,7 +27,7 @@ using peeling::RenderResult;
 // A full-screen pass has a fragment a pixel.
 [[nodiscard]] CardWork work_of(const CostScene& scene, const CostCell& cell, const RenderResult& result) {
     const auto& passes = result.frame.passes;
-    const auto& counters = result.frame.counters;
+    const pipeline::Counters counters = result.frame.counters.value_or(pipeline::Counters{});
     const auto pixels =
         static_cast<std::uint64_t>(cell.options.width) * static_cast<std::uint64_t>(cell.options.height);
     return {scene.vertices * static_cast<std::uint64_t>(passes.geometry),
@@ -71,7 +71,9 @@ CostResult run_cell(const CostScene& scene, const CostCell& cell) {
         found.from_default = peeling::real_error(picture, scene.pictured).pixels;
         return found;
     }
-    const RenderResult result = rendered(scene.session, cell, cell.options);
+    peeling::RenderOptions counted = cell.options;
+    counted.counters = true;
+    const RenderResult result = rendered(scene.session, cell, counted);
     if (result.refusal) {
         found.refusal = result.refusal->sentence(cell.profile);
         return found;

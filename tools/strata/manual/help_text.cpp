@@ -33,7 +33,7 @@ const std::vector<Group>& groups() {
          {"color-format", "average-count", "termination", "max-passes", "formulation", "sorted", "sort", "mistake"}},
         {"How it is run, to the same bits",
          Shown::all,
-         {"execution", "simd", "effects", "fragment-memory", "max-memory", "tile", "threads"}},
+         {"execution", "counters", "simd", "effects", "fragment-memory", "max-memory", "tile", "threads"}},
     };
     return all;
 }

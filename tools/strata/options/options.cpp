@@ -351,6 +351,9 @@ void add_output_options(CLI::App& app, RunOptions& options, const std::string& o
     add_path(
         app, options.stats,
         {"--stats", "FILE|-", "statistics as JSON, one object an algorithm; - is standard output", "a file name or -"});
+    app.add_flag(
+        "--counters", options.render.counters,
+        "count fragments by their fates, and bytes, for --stats: the frame runs literally, which takes longer");
     app.add_flag_callback(
         "--no-audit", [&options] { options.render.audit = false; },
         "do not compare with the exact A-buffer: faster, and those statistics are null");

@@ -24,7 +24,10 @@ std::string_view outcome_name(peeling::Outcome outcome) {
 }
 
 // The objects of a row, with the keys of reports.md 1 in their order.
-ordered_json to_json(const pipeline::Counters& c) {
+// Null unless somebody has counted.
+ordered_json to_json(const std::optional<pipeline::Counters>& counted) {
+    if (!counted) return nullptr;
+    const pipeline::Counters& c = *counted;
     return {{"fragments_rasterized", c.fragments_rasterized},
             {"discarded", c.discarded},
             {"alpha_killed", c.alpha_killed},

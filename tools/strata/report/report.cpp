@@ -62,6 +62,7 @@ int report(ReportOptions& command, bool has_size) {
     RunOptions& options = command.run;
     if (!has_size && !command.region) options.render.width = usual_width, options.render.height = usual_height;
     complete(options);
+    options.render.counters = true;  // the page's table names them
     if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for report.html, found none");
     const rasterizer::Rect region = region_of(command);
     scenes::tell_when_interrupted("not written: " + (std::filesystem::path(options.output) / "report.html").string());
@@ -87,6 +88,7 @@ void write_report(RunOptions& options, const std::string& path) {
     const int width = std::min(options.render.width, most_side), height = std::min(options.render.height, most_side);
     const int x = (options.render.width - width) / 2, y = (options.render.height - height) / 2;
     scenes::tell_when_interrupted("not written: " + path);
+    options.render.counters = true;
     const Session session = open_session(options);
     scenes::write_file(path, checked_page(report_data(options, session, {x, y, x + width, y + height})));
     scenes::tell_when_interrupted("");

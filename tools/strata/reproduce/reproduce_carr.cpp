@@ -45,7 +45,7 @@ Run run(const scenes::Scene& scene, const pipeline::View& view, const std::strin
     while (seconds.size() < 3 && result.seconds.passes < short_run)
         seconds.push_back(renderer.render(chosen).seconds.passes);
     std::sort(seconds.begin(), seconds.end());
-    return {result.frame.iterations, result.frame.passes.geometry, result.frame.counters.fragments_rasterized,
+    return {result.frame.iterations, result.frame.passes.geometry, result.frame.counters->fragments_rasterized,
             seconds[seconds.size() / 2], result.frame.color};
 }
 
