@@ -250,8 +250,10 @@ def vtk_peeling(peels):
 
 def rule_of(engine, way, scene, peels=None):
     """The rule of a picture that draw.py makes with the same options."""
-    rules = {("three", "blended"): lambda: three(scene, True), ("three", "no-depth-write"): lambda: three(scene, False), ("three", "float"): lambda: three(scene, False),
-             ("babylon", "oit"): lambda: babylon_oit(peels or 5), ("babylon", "blended"): lambda: babylon_blended(scene),
-             ("molstar", "dpoit"): lambda: molstar_dpoit(peels or 2), ("molstar", "wboit"): molstar_wboit, ("molstar", "blended"): lambda: molstar_blended(scene),
-             ("vtk", "dual"): lambda: vtk_dual(peels or 4), ("vtk", "peeling"): lambda: vtk_peeling(peels or 4), ("vtk", "weighted"): vtk_weighted}
+    count = lambda own: own if peels is None else peels
+    rules = {
+        ("vtk", "dual"): lambda: vtk_dual(count(4)), ("vtk", "peeling"): lambda: vtk_peeling(count(4)), ("vtk", "weighted"): vtk_weighted,
+        ("babylon", "oit"): lambda: babylon_oit(count(5)), ("babylon", "blended"): lambda: babylon_blended(scene),
+        ("molstar", "dpoit"): lambda: molstar_dpoit(count(2)), ("molstar", "wboit"): molstar_wboit, ("molstar", "blended"): lambda: molstar_blended(scene),
+        ("three", "blended"): lambda: three(scene, True), ("three", "no-depth-write"): lambda: three(scene, False), ("three", "float"): lambda: three(scene, False)}
     return rules[engine, way]()
