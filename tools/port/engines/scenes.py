@@ -12,6 +12,7 @@ import base64
 import json
 import math
 import pathlib
+import random
 import sys
 
 RED, GREEN, BLUE, YELLOW, WHITE, BLACK = (230, 40, 30), (40, 190, 60), (40, 80, 220), (240, 200, 40), (235, 235, 225), (20, 20, 25)
@@ -158,6 +159,20 @@ def shells(b, rings=20, sides=10):
         b.surface(points, [t for t in triangles if len({points[k] for k in t}) == 3], color, alpha)
 
 
+def by_lot(seed):
+    """Panes as a seed draws them: 2 to 14 of them, each at a depth of its own, up to two of them opaque, in any order, of any colour and alpha."""
+    def make(b):
+        lot = random.Random(seed)
+        count, opaque = lot.randint(2, 14), lot.choice([0, 0, 1, 2])
+        depths = lot.sample(range(-7, 8), count)
+        for number, z in enumerate(depths):
+            left, bottom = lot.randint(-15, -1), lot.randint(-15, -1)
+            right, top = lot.randint(left + 10, 15), lot.randint(bottom + 10, 15)
+            color = tuple(lot.randint(0, 255) for _ in range(3))
+            b.pane(left / 16, bottom / 16, right / 16, top / 16, z / 8, color, None if number < opaque else lot.randint(2, 18) / 20)
+    return make
+
+
 SCENES = {"panes": panes, "stack": stack, "ties": ties, "hidden": hidden, "decal": decal, "close": close, "floor": floor, "solid": solid,
           "grid": grid, "gradient": gradient, "torus": torus, "shells": shells}
 CAMERAS = {"front": {"view": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 1], "projection": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, -1, 1]},
@@ -170,10 +185,11 @@ def camera_of(name):
     return name if name in CAMERAS else "front"
 
 
-def main(folder):
+def main(folder, seeds=()):
+    """Scenes by lot are named `lot-SEED`."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    for name, make in SCENES.items():
+    for name, make in {**SCENES, **{f"lot-{seed}": by_lot(seed) for seed in seeds}}.items():
         builder = Builder()
         make(builder)
         (folder / f"{name}.gltf").write_text(builder.text())

@@ -55,6 +55,22 @@ WRONG = {
     ("three", "no-depth-write"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES, "gradient": LINEAR},
     ("three", "float"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES},
 }
+# Of scenes by lot a rule says where they are wrong, and this what may be wrong then. Depths are all different there.
+BY_LOT = {
+    ("vtk", "dual"): Truth("4 peels, then what is left is blended as submitted; or the peel ended where all far ends were opaque", "order of submission|nearest"),
+    ("vtk", "peeling"): Truth("3 peels, then what is left is blended as submitted", "behind the nearest 3 layers.* order of submission"),
+    ("vtk", "weighted"): UNORDERED, ("babylon", "oit"): missing(10),
+    ("babylon", "blended"): Truth("blended by the distance of objects' centres, which is not that of depths", "order|exchanged|swapped|instances"), ("molstar", "dpoit"): missing(4),
+    ("molstar", "wboit"): UNORDERED, ("molstar", "blended"): AS_THEY_COME}
+
+
+def of_scene(engine, way, scene, is_wrong):
+    """The Truth of a picture, None if it is right. `is_wrong` is what the rule says, which decides for scenes by lot."""
+    if scene.startswith("lot-"):
+        return BY_LOT[engine, way] if is_wrong else None
+    return WRONG[engine, way].get(scene)
+
+
 # What an engine cannot draw.
 CANNOT = {("molstar", "gradient")}
 

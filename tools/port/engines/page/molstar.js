@@ -17,7 +17,8 @@ import { send } from '/page/page.js';
 
 const ITERATIONS = 2;  // canvas3d.js, dpoitIterations
 
-const color_of = ([r, g, b]) => Color.fromNormalizedRgb(r, g, b);
+// Color.fromNormalizedRgb cuts to 8 bits (mol-util/color/color.js 48): 148 / 255 of a binary32 becomes 147.
+const color_of = rgb => Color.fromRgb(...rgb.slice(0, 3).map(c => Math.round(255 * c)));
 
 function world_positions(mesh) {
     const positions = new Float32Array(mesh.positions);
