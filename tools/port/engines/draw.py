@@ -25,6 +25,7 @@ PACKAGES = HERE.parents[2] / "build" / "engines"
 WEB = {"babylon": ("@babylonjs/core", ["oit", "blended"]), "molstar": ("molstar", ["dpoit", "wboit", "blended"]),
        "three": ("three", ["blended", "no-depth-write", "float"])}
 WAYS = {"vtk": vtk_driver.WAYS, **{engine: ways for engine, (_, ways) in WEB.items()}}
+PEELS = [("vtk", "dual"), ("vtk", "peeling"), ("babylon", "oit"), ("molstar", "dpoit")]
 SKIPPED = 77
 
 
@@ -87,6 +88,8 @@ def main():
     way = given.way or WAYS[given.engine][0]
     if way not in WAYS[given.engine]:
         parser.error(f"--way: expected one of {', '.join(WAYS[given.engine])} with {given.engine}, found {way}")
+    if given.peels is not None and (given.engine, way) not in PEELS:
+        parser.error(f"--peels: expected a way that peels, found {given.engine} with way {way}")
     if given.targets and (given.engine, way) != ("babylon", "oit"):
         parser.error("--targets: expected babylon with way oit; of the other engines the picture alone is read")
     if missing(given.engine):

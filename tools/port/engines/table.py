@@ -4,8 +4,9 @@ the rules of that source give the picture, and what `strata compare` says of it 
 
     table.py [--build FOLDER] [--only SCENE] [--lot FIRST..LAST] [--keep FOLDER] [-o FILE]
 
---lot draws the scenes of these seeds instead: no person chose them. --keep is where packs and pictures stay; what lies there is not drawn again. Exit status 1 if a rule does not give its picture or truth.py
-says something else than the rules; 77, and a sentence, if a program or a package is missing.
+--lot draws the scenes of these seeds instead: no person chose them. --keep is where packs and pictures stay; what lies there is not drawn
+again. Exit status 1 if a rule does not give its picture or truth.py says something else than the rules; 77, and a sentence, if a program or
+a package is missing.
 """
 import argparse
 import os

@@ -14,7 +14,6 @@ class Truth:
         return re.search(self.words, verdict) is not None
 
 
-
 UNORDERED = Truth("a weighted sum of all fragments: no order", "averaged|weighted")
 AS_THEY_COME = Truth("blended as submitted, triangle by triangle", "order of submission|as they are submitted")
 WRITES_DEPTH = Truth("blended as submitted, triangle by triangle, and writes depth", "write depth")
@@ -23,10 +22,8 @@ ON_THE_SURFACE = Truth("a fragment on the opaque surface is drawn (LEQUAL)", "LE
 LINEAR = Truth("colours between corners are mixed in linear light", "linear|sRGB")
 
 
-def left_over(peels, near, far):
-    """What is left after peels from the near end, and from the far end, too, where `far` is not 0."""
-    return Truth(f"{peels} peels, then what is left is blended as submitted", f"behind the nearest {near} layers.* order of submission" if not far else
-                 f"(?s)nearest {near} layers.*order of submission")
+def left_over(peels):
+    return Truth(f"{peels} peels, then what is left is blended as submitted", f"nearest {peels} layers.* order of submission")
 
 
 def missing(layers):
@@ -37,11 +34,11 @@ BLENDS = ["cyclic-overlap", "woven", "inside-out", "torus", "shells"]  # several
 OPAQUE_TIES = {"decal": ON_THE_SURFACE}
 
 WRONG = {
-    ("vtk", "dual"): {"stack": left_over(4, 4, 4), "inside-out": left_over(4, 4, 4), "ties": MAX_OF_TIES, **OPAQUE_TIES,
+    ("vtk", "dual"): {"stack": left_over(4), "inside-out": left_over(4), "ties": MAX_OF_TIES, **OPAQUE_TIES,
                       "close": Truth("fragments within 1e-7 of the peeled one become one with it: the greater of both", "within .* merged by MAX"),
                       "floor": Truth("the peel ends after its first pass, as no pixel wrote a back fragment: the far end was the opaque surface. The nearest fragment alone is drawn",
                                      "only the nearest layer")},
-    ("vtk", "peeling"): {**{scene: left_over(3, 3, 0) for scene in ("stack", "grid", "inside-out", "torus")},
+    ("vtk", "peeling"): {**{scene: left_over(3) for scene in ("stack", "grid", "inside-out", "torus")},
                          "ties": Truth("of fragments of equal depth the last one stays", "last submitted"),
                          "close": Truth("fragments within 1e-7 behind a peeled one are lost", "within .* missing"),
                          "decal": Truth("a fragment on the opaque surface is drawn, as that depth came through 24 bits and lies behind now", "LEQUAL")},
@@ -58,7 +55,7 @@ WRONG = {
 # Of scenes by lot a rule says where they are wrong, and this what may be wrong then. Depths are all different there.
 BY_LOT = {
     ("vtk", "dual"): Truth("4 peels, then what is left is blended as submitted; or the peel ended where all far ends were opaque", "order of submission|nearest"),
-    ("vtk", "peeling"): Truth("3 peels, then what is left is blended as submitted", "behind the nearest 3 layers.* order of submission"),
+    ("vtk", "peeling"): left_over(3),
     ("vtk", "weighted"): UNORDERED, ("babylon", "oit"): missing(10),
     ("babylon", "blended"): Truth("blended by the distance of objects' centres, which is not that of depths", "order|exchanged|swapped|instances"), ("molstar", "dpoit"): missing(4),
     ("molstar", "wboit"): UNORDERED, ("molstar", "blended"): AS_THEY_COME}
@@ -73,7 +70,6 @@ def of_scene(engine, way, scene, is_wrong):
 
 # What an engine cannot draw.
 CANNOT = {("molstar", "gradient")}
-
 
 # A wrong picture that no listed mistake explains is called wrong without a name.
 UNNAMED = "no one mistake explains them all"

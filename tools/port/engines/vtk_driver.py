@@ -94,7 +94,7 @@ def use_old_peeling(vtk, renderer, peels):
 
 
 def draw(scene, way, peels=None):
-    """The picture as rows of bytes, R G B, the top row first; 3 channels."""
+    """The picture as rows of bytes, R G B A, the top row first."""
     import vtkmodules.all as vtk
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(*scene.background)

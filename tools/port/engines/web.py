@@ -111,7 +111,7 @@ def target_of(query, body):
 
 
 class Browser:
-    """Chromium with the page, and the server that it talks to; both end with the `with`. The page is loaded afresh for each job."""
+    """Chromium with the page, and the server that it talks to; both end with the `with`. The page is loaded again for each job."""
     def __init__(self, packages):
         self.program = shutil.which("chromium")
         self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
