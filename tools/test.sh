@@ -47,7 +47,7 @@ sanitizers() {
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
     [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs differential_seeds differential_fuzz)
     build "$preset" "${targets[@]}"
-    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|engines|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
@@ -79,7 +79,7 @@ sanitized() {
     step "the fast tests of the core under the sanitizers, and beside them the frames of seeds $first..$((first + 2000))"
     quietly frames "build/$preset/tests/fuzz/differential_seeds" --seeds "$first..$((first + 2000))" &
     frames=$!
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     wait "$frames"
 }
