@@ -15,7 +15,9 @@ set(strata_scenes_sources
   files/load_image_module.cpp
   files/picture_attributes.cpp
   files/png.cpp
+  images/png_encode.cpp
   files/profile_json.cpp
+  files/straight_color.cpp
   files/strict_json.cpp
   files/text_file.cpp
   files/unfinished_files.cpp
@@ -72,6 +74,8 @@ set(strata_scenes_with_files
   files/exr.cpp
   files/load_image_module.cpp
   files/picture_attributes.cpp
+  files/png.cpp
+  images/png_encode.cpp
   files/unfinished_files.cpp
   packs/json_fields.cpp
   packs/new_folder.cpp

@@ -1,86 +1,39 @@
-// scenes/files/png.cpp - 8-bit straight colours: the one picture that every program shows.
-//
-// Rule     A target of 8-bit codes in the encoded space goes out byte for byte. Else value / alpha where the target is
-//          premultiplied (0 where alpha is not above 0), then clamp and 255 x rounded half up; in the linear space
-//          encode_srgb8 instead.
+// scenes/files/png.cpp - PNG files: written from straight 8-bit colours (straight_color.cpp), read by the image module.
 #include <algorithm>
-#include <cassert>
 #include <span>
 
-#include "pipeline/formats/unorm8.h"
-#include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_decode.h"
 #include "scenes/files/image_formats.h"
 #include "scenes/files/text_file.h"
-#include "scenes/numbers/srgb_encode.h"
+#include "scenes/images/png_encode.h"
 
 namespace strata::scenes {
 namespace {
 
-using pipeline::ChannelType;
-using pipeline::ColorSpace;
 using pipeline::Format;
 using pipeline::Image;
 
 // The largest picture, 16384 x 16384 of 4 codes, is 2^30 bytes before it is packed, and 2^31 with 16 bits a code.
 constexpr std::size_t max_png_bytes = std::size_t{1} << 31;
 
-// 255 c / a to the nearest code, a half goes up.
-// c and a are at most 255, so that every product is below 2^18. A premultiplied colour above its alpha gives
-// 255.
-std::uint32_t divided_by_alpha(std::uint32_t c, std::uint32_t a) noexcept {
-    return a == 0 ? 0 : std::min((2 * 255 * c + a) / (2 * a), 255u);
-}
-
-// The integer road: codes in, codes out, no float on the way. A straight target is copied.
-void convert_codes(const std::uint32_t* from, std::uint32_t* to, bool premultiplied) noexcept {
-    const std::uint32_t alpha = from[3];
-    for (int c = 0; c < 3; ++c) to[c] = premultiplied ? divided_by_alpha(from[c], alpha) : from[c];
-    to[3] = alpha;
-}
-
-// The road over values, for half and binary32 targets and for the linear space. Alpha is never encoded: it is a
-// share, not light.
-void convert_values(const std::uint32_t* from, std::uint32_t* to, ChannelType type, const OutputColor& image) noexcept {
-    const float alpha = channel_value(type, from[3]);
-    for (int c = 0; c < 3; ++c) {
-        float v = channel_value(type, from[c]);
-        if (image.premultiplied) v = alpha > 0 ? v / alpha : 0.0f;
-        to[c] = image.space == ColorSpace::linear ? encode_srgb8(v) : pipeline::to_unorm8(v);
-    }
-    to[3] = pipeline::to_unorm8(alpha);
-}
-
 }  // namespace
-
-Image as_straight_rgba8(const OutputColor& image) {
-    const FloatEnvironment environment;
-    const Image& color = image.color;
-    assert(color.channels() == 4 && color.samples == 1);
-    const ChannelType type = pipeline::info(color.format).type;
-    // An rgba8 target of a linear frame holds linear codes and must be encoded like any other.
-    const bool copies_codes = type == ChannelType::unorm8 && image.space == ColorSpace::encoded;
-    Image result{Format::rgba8, color.width, color.height};
-    // Pixel by pixel: red, green, blue and alpha are four codes in a row.
-    for (std::size_t i = 0; i < color.codes.size(); i += 4) {
-        if (copies_codes)
-            convert_codes(&color.codes[i], &result.codes[i], image.premultiplied);
-        else
-            convert_values(&color.codes[i], &result.codes[i], type, image);
-    }
-    return result;
-}
 
 void write_png(const std::string& path, const OutputColor& image) {
     const Image straight = as_straight_rgba8(image);
-    const std::vector<std::uint8_t> bytes(straight.codes.begin(), straight.codes.end());
-    const ImageModule& module = image_module();  // a missing one fails here, before there is a file
+    PngPicture picture{.width = straight.width,
+                       .height = straight.height,
+                       .channels = 4,
+                       .row =
+                           [&](int y, std::uint8_t* codes) {
+                               const auto* from = &straight.codes[straight.index(0, y, 0)];
+                               std::copy_n(from, static_cast<std::size_t>(straight.width) * 4, codes);
+                           },
+                       .texts = prefixed(image.attributes)};
+    picture.texts.emplace("Software", "strata");
     write_with(path, [&](const ByteSink& sink) {
-        return module.write_png(sink, {.width = straight.width,
-                                       .height = straight.height,
-                                       .rgba = bytes,
-                                       .attributes = prefixed(image.attributes)});
+        return encode_png(picture,
+                          [&](const void* bytes, std::size_t size) { return sink.write(bytes, size) == size; });
     });
 }
 

@@ -7,10 +7,8 @@ extern "C" __attribute__((visibility("default"))) const strata::scenes::ImageMod
     using namespace strata::scenes;
     // The library is built with hidden symbols: this function is its whole face.
     // Its first use makes a list of its formats and starts threads: now, before loops of ours take what the system has.
-    static const auto started = OIIO::ImageOutput::create("png");
-    static const ImageModule module{.version = STRATA_VERSION,
-                                    .write_png = images::write_png,
-                                    .decode = images::decode,
-                                    .decode_codes = images::decode_codes};
+    static const auto started = OIIO::ImageInput::create("png");
+    static const ImageModule module{
+        .version = STRATA_VERSION, .decode = images::decode, .decode_codes = images::decode_codes};
     return &module;
 }

@@ -1,30 +1,20 @@
 // scenes/images/image_module.h - the border to OpenImageIO: what the rest of the project asks of it, and what it answers.
 //
 // Rule     OpenImageIO brings some 250 shared libraries, so it stands in a shared library of its own that is loaded
-//          when the first PNG or JPEG is read or written (files/load_image_module.h). Standard types alone cross the
+//          when the first PNG or JPEG is read (files/load_image_module.h; images/png_encode.h writes). Standard types alone cross the
 //          border: a `pipeline::Image` has an allocator that the module does not share. The module knows no format of
 //          a target, no digest and no temporary name; its answers are bytes, sizes and sentences.
 // Tests    tests/scenes/files/png_test.cpp; tests/tools/image_module_test.cpp
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "scenes/exr/byte_sink.h"
 #include "scenes/gltf/document/container.h"
 #include "scenes/gltf/document/place.h"
 
 namespace strata::scenes {
-
-// 8-bit r, g, b, a in rows from the top, colours not multiplied by alpha.
-struct StraightPicture {
-    int width = 0, height = 0;
-    std::span<const std::uint8_t> rgba;
-    std::map<std::string, std::string> attributes;
-};
 
 // The bytes of a PNG or JPEG file and what its header says of its size.
 struct EncodedPicture {
@@ -41,8 +31,6 @@ struct StoredCodes {
 
 struct ImageModule {
     const char* version;
-    // Answers "", or OpenImageIO's words for what failed.
-    std::string (*write_png)(const ByteSink& sink, const StraightPicture& picture);
     // width * height * 4 codes. InputError at `place` where the bytes do not decode to that size.
     std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const Place& place);
     // The same without a change to width, channels or bits.

@@ -96,7 +96,7 @@ TEST_CASE("a linear target is encoded as sRGB, and its alpha is not") {
     CHECK(as_straight_rgba8(codes).codes == ImageCodes{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
 }
 
-TEST_CASE("another ending, a missing file and a damaged one are input errors; a missing folder is the system's") {
+TEST_CASE("another ending, a missing file and a damaged one are input errors, and a missing folder is the system's") {
     const TemporaryFolder folder;
     const OutputColor output = one_pixel(Format::rgba8, {1, 2, 3, 4});
     CHECK_THROWS_WITH(write_image(folder / "a.jpg", output), Catch::Contains("a file name that ends in .png or .exr"));
