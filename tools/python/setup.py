@@ -16,7 +16,8 @@ class CMakeBuild(build_ext):
         options = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", f"-DCMAKE_INSTALL_PREFIX={target}"]
         if "STRATA_PREFIX" in os.environ:
             options.append(f"-DSTRATA_PREFIX={os.environ['STRATA_PREFIX']}")
-        subprocess.run(["cmake", "-S", source, "-B", build, "-G", "Ninja", *options], check=True)
+        # --fresh: an installation that failed leaves its cache, which would decide this one.
+        subprocess.run(["cmake", "--fresh", "-S", source, "-B", build, "-G", "Ninja", *options], check=True)
         subprocess.run(["cmake", "--build", build], check=True)
         subprocess.run(["cmake", "--install", build], check=True)
 

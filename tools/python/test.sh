@@ -25,11 +25,19 @@ cmake --build "$folder/shared" >>"$folder/build.log" 2>&1 || { tail -n 40 "$fold
 rm -rf "$folder/installed"
 cmake --install "$folder/shared" --prefix "$folder/installed" >>"$folder/build.log"
 
-step "pip install tools/python"
-rm -rf "$folder/environment"
+step "pip install tools/python: against static libraries, which fails, then against shared ones"
+rm -rf "$folder/environment" "$folder/extension"
 "$python" -m venv --system-site-packages "$folder/environment"
-STRATA_PREFIX=$folder/installed STRATA_PYTHON_BUILD=$folder/extension \
-    "$folder/environment/bin/pip" install --quiet --no-index --no-deps --no-build-isolation "$source/tools/python"
+install() { "$folder/environment/bin/pip" install --quiet --no-index --no-deps --no-build-isolation "$source/tools/python"; }
+export STRATA_PYTHON_BUILD=$folder/extension
+mkdir -p "$folder/static/lib/cmake/strata"
+echo 'add_library(strata::library STATIC IMPORTED)' >"$folder/static/lib/cmake/strata/strata-config.cmake"
+printf 'set(PACKAGE_VERSION 0.1.0)\nset(PACKAGE_VERSION_COMPATIBLE TRUE)\n' >"$folder/static/lib/cmake/strata/strata-config-version.cmake"
+if STRATA_PREFIX=$folder/static install >>"$folder/build.log" 2>&1; then
+    echo "expected that an installation against static libraries fails" >&2
+    exit 1
+fi
+STRATA_PREFIX=$folder/installed install
 
 cd "$folder"  # away from the sources, so that what is installed is what is tested
 step "tests"

@@ -1,0 +1,17 @@
+# Run by `cmake --install` before anything is copied: builds what is to be installed if a file of it is missing in BUILD.
+set(list ${BUILD}/installed_files/${CMAKE_INSTALL_CONFIG_NAME}.txt)
+if(NOT EXISTS ${list})  # a build type that was named at installation alone
+  return()
+endif()
+file(STRINGS ${list} files)
+foreach(file IN LISTS files)
+  if(EXISTS ${file})
+    continue()
+  endif()
+  message(STATUS "Building what is missing, ${file} for one")
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${BUILD} --config ${CMAKE_INSTALL_CONFIG_NAME} --target strata_installed RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${BUILD}: the build failed, so nothing was installed")
+  endif()
+  break()
+endforeach()
