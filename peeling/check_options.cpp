@@ -44,9 +44,10 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
     const auto uses = [&](DepthPath path) { return depth.path == path || depth.reference == path; };
     if (uses(DepthPath::window_z) && !has_chip_rule)
-        return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
+        return Refusal{"GeForce3's depth interpolator window_z", "",
+                       "use --profile geforce3 with --depth-format d16 or d24"};
     if (uses(DepthPath::w_buffer) && !has_chip_rule)
-        return Refusal{"w buffer", "", "use --profile geforce3 with --depth d16, d24, d16f or d24f"};
+        return Refusal{"w buffer", "", "use --profile geforce3 with --depth-format d16, d24, d16f or d24f"};
     if (depth.reference)
         if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
     return check(profile, depth.path);

@@ -223,7 +223,7 @@ struct Renderer::State {
         }
         if (depth.format != DepthFormat::d32f)
             return Refusal{"peeling with GREATER over fixed-point depth", "",
-                           "use --depth d32f, where reversed depth gains anything"};
+                           "use --depth-format d32f, where reversed depth gains anything"};
         if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
             return Refusal{"reversed depth together with depths that are compared between codes", "",
                            "use --compare-epsilon in ulp"};

@@ -59,7 +59,7 @@ struct SceneOptions {
 [[nodiscard]] Scene make_procedural(const std::string& spec, const SceneOptions& options);
 [[nodiscard]] bool is_procedural(const std::string& spec);
 
-// A procedural scene as the help and `strata scenes` describe it.
+// A procedural scene as the help and `strata list scenes` describe it.
 struct ProceduralScene {
     std::string name, parameters, description;  // parameters as in "slices=N[,order=far|near]", empty if none
 };

@@ -185,7 +185,7 @@ constexpr std::array fields{
                                                  "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
     choice<&Interpolation::perspective_coordinates>(
         "raster.perspective_coordinates",
-        {"[A] attributes.md 3.3: captures cannot tell", "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
+        {"[A] attributes.md 3.3: captures cannot show it", "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
     choice<&Profile::alpha_test>("alpha_test", {"[M] chip-fragment.md 2: 16 of 16 pictures",
                                                 "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
     choice<&Profile::blend_rounding>("blend_rounding",
@@ -286,7 +286,7 @@ std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {
     const rasterizer::RasterRules& rules = profile.raster;
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return std::nullopt;
     const auto beside = [](std::string_view other) {
-        return FieldConflict{"raster.coverage", "snapped_edges beside " + std::string{other}, "float_spans"};
+        return FieldConflict{"raster.coverage", "snapped_edges with " + std::string{other}, "float_spans"};
     };
     if (rules.color == rasterizer::ColorInterpolation::weights_8bit) return beside("raster.color weights_8bit");
     if (rules.depth_path == DepthPath::window_z) return beside("raster.depth_path window_z");

@@ -20,7 +20,7 @@ struct Texture {
     // The magnification's: mip levels are not emulated.
     TextureFilter filter = TextureFilter::linear;
     TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
-    // --colour linear: r g b become linear by the table of srgb.h before they are filtered; alpha never does.
+    // --color-space linear: r g b become linear by the table of srgb.h before they are filtered; alpha never does.
     bool decode_srgb = false;
     // width * height * 4 bytes, row by row.
     std::vector<std::uint8_t> texels;

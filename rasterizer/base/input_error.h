@@ -8,6 +8,8 @@ namespace strata {
 
 // Thrown only where the outside comes in (files, options, JSON); `main` turns it into one line and exit status 2.
 struct InputError : std::runtime_error {
+    // Where a plain sentence says it: "no such file".
+    InputError(const std::string& file, const std::string& sentence) : std::runtime_error(file + ": " + sentence) {}
     InputError(const std::string& file, const std::string& place, const std::string& expected, const std::string& found)
         : std::runtime_error(file + ": " + place + ": expected " + expected + ", found " + found) {}
 };

@@ -111,8 +111,7 @@ StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
 
 std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored))
-        throw InputError(path, "file", "an image", "no file of that name");
+    if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path, "no such file");
     try {
         return std::make_unique<Imf::MultiPartInputFile>(path.c_str(), start_threads());
     } catch (const std::bad_alloc&) {

@@ -26,19 +26,20 @@ std::string read_standard_input() {
 std::string read_text_file(const std::string& path, std::size_t max_bytes) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(path, "file", "a file", "nothing of that name");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(path, "file", "a file", "a folder or device");
+    if (!std::filesystem::exists(status)) throw InputError(path, "no such file");
+    if (!std::filesystem::is_regular_file(status))
+        throw InputError(path,
+                         std::filesystem::is_directory(status) ? "is a folder, not a file" : "is no file but a device");
     const auto size = std::filesystem::file_size(path, error);
-    if (error) throw InputError(path, "file", "a readable file", error.message());
+    if (error) throw InputError(path, "cannot be read: " + error.message());
     // The limit is compared before memory is asked for.
     if (size > max_bytes) {
-        throw InputError(path, "file", "at most " + std::to_string(max_bytes) + " bytes", std::to_string(size));
+        throw InputError(path, "has " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_bytes));
     }
     std::string text(static_cast<std::size_t>(size), '\0');
     std::ifstream file(path, std::ios::binary);
     // A file that shrank since its size was asked is refused too: the read comes up short.
-    if (!file || !file.read(text.data(), static_cast<std::streamsize>(size)))
-        throw InputError(path, "file", "a readable file", "one that cannot be read");
+    if (!file || !file.read(text.data(), static_cast<std::streamsize>(size))) throw InputError(path, "cannot be read");
     return text;
 }
 

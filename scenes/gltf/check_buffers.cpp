@@ -105,7 +105,7 @@ void check_accessor(const JsonAt& accessor, const JsonAt& root) {
     if (accessor.has("bufferView"))
         check_range(accessor, root, range);
     else if (const auto offset = accessor.find("byteOffset"))
-        offset->fail("UNSATISFIED_DEPENDENCY", "a bufferView beside byteOffset");
+        offset->fail("UNSATISFIED_DEPENDENCY", "a bufferView next to byteOffset");
     if (const auto sparse = accessor.find("sparse")) check_sparse(*sparse, root, range);
 }
 

@@ -27,7 +27,7 @@ void check_image(const JsonAt& image, const JsonAt& root) {
     check_reference(image, "bufferView", root, "bufferViews");
     const auto media_type = image.find("mimeType");
     if (media_type) (void)media_type->string();
-    if (has_view && !media_type) image.place().fail("UNSATISFIED_DEPENDENCY", "mimeType beside bufferView", "none");
+    if (has_view && !media_type) image.place().fail("UNSATISFIED_DEPENDENCY", "mimeType next to bufferView", "none");
 }
 
 // The angle's limit is that of our sine and cosine (numbers/elementary.h).

@@ -118,7 +118,7 @@ struct MeshChecker {
         if (!extensions || !extensions->find("KHR_draco_mesh_compression")) return;
         for (const Json& accessor : attributes.json())
             if (!root.json()["accessors"][accessor.get<std::size_t>()].contains("bufferView"))
-                extensions->place().fail("UNSUPPORTED_EXTENSION", "plain data beside KHR_draco_mesh_compression",
+                extensions->place().fail("UNSUPPORTED_EXTENSION", "plain data next to KHR_draco_mesh_compression",
                                          "none");
     }
 

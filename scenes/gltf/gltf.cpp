@@ -188,6 +188,10 @@ Scene load_gltf(const std::string& path, const SceneOptions& options) {
         return load_gltf_bytes(std::as_bytes(std::span{bytes}), "standard input", options);
     }
     const std::filesystem::path file{path};
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) throw InputError(path, "no such file");
+    if (std::filesystem::is_directory(status)) throw InputError(path, "is a folder, not a file");
     const std::vector<std::byte> bytes = read_file(file, {path, "the file"});
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     return load({bytes, path, file.filename().string(), folder}, options, {});

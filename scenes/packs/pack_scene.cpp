@@ -278,7 +278,7 @@ Scene load_pack(const std::string& path, const SceneOptions& options) {
     if (options.scene.value_or(0) != 0)
         throw InputError(path, "--scene", "0, the only one", std::to_string(*options.scene));
     if (options.color_space != color_space_of(folder, manifest))
-        throw InputError(path, "--colour", "the pack's own: its colours are converted already", "the other one");
+        throw InputError(path, "--color-space", "the pack's own: its colours are converted already", "the other one");
     Scene scene = read_pack_scene(folder, manifest);
     for (Material& material : scene.list.materials) material.unlit |= !options.light;
     pipeline::check(scene.list);

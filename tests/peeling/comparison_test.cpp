@@ -186,7 +186,7 @@ TEST_CASE("dual peeling counts what lies within the epsilon of a peeled depth as
     }
 }
 
-TEST_CASE("passes that transform by another vertex path see other depths; the same path twice is one list") {
+TEST_CASE("passes that transform by another vertex path see other depths, and the same path twice is one list") {
     const TriangleScene scene = random_triangles(963, 60);
     RenderOptions options = small();
     const RenderResult plain = run(scene, {"geforce8", "front_to_back"}, options);

@@ -136,7 +136,8 @@ TEST_CASE("fragments of two splits are partners of their number or of a neighbou
 }
 
 TEST_CASE(
-    "where no epsilon up to 1 hides a fragment from itself there is no least one; one layer alone has no greatest") {
+    "where no epsilon up to 1 hides a fragment from itself there is no least one, and one layer alone has no "
+    "greatest") {
     // D24: code 0 stored, the far end compared: a distance of 1, which an epsilon of exactly 1 still covers.
     const std::uint32_t far = 0xffffff;
     const std::vector<std::uint32_t> opaque{far};

@@ -184,7 +184,8 @@ TEST_CASE("10,240 sequences of 1 to 400 fragments, of every degree of disorder, 
     }
 }
 
-TEST_CASE("9 fragments on 8 samples: a second pass takes the ninth; after 31 passes what is left is lost, and said") {
+TEST_CASE(
+    "9 fragments on 8 samples: a second pass takes the ninth, and after 31 passes what is left is lost, and said") {
     for (const int count : {0, 1, 8, 9, 16, 17, 248, 249}) {
         FragmentScene scene{4, 4};
         Random random{20241104};

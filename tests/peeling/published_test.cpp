@@ -159,7 +159,7 @@ TEST_CASE("E16, regression: B's printed factors multiply depths 3, 2, 1 of 7 bel
     CHECK(diagnosed(result, Fault::as_published) == 1);
 }
 
-TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short sequences; what they keep is in order",
+TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short sequences, and what they keep is in order",
           "[slow]") {
     const FragmentScene scene =
         all_short_sequences(20241132, {sevenths(1), sevenths(2), sevenths(3), sevenths(4), sevenths(5)});
@@ -187,7 +187,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "E23: fragments exactly on the near plane are lost as printed; Algorithm 2 alone composites them by equality") {
+    "E23: fragments exactly on the near plane are lost as printed, and Algorithm 2 alone composites them by equality") {
     FragmentScene scene{8, 8};
     Random random{6};
     scene.pixels[0].fragments = fragments_at({2, 0}, eighths, random);

@@ -168,7 +168,8 @@ TEST_CASE("depth paths run where their machine exists, and are refused by name e
     for (const std::string profile : {"geforce8", "ideal"})
         CHECK(with_path({profile, "depth_units"}, DepthPath::window_z) ==
               "profile " + profile +
-                  " has no GeForce3's depth interpolator window_z; use --profile geforce3 with --depth d16 or d24");
+                  " has no GeForce3's depth interpolator window_z; use --profile geforce3 with --depth-format d16 or "
+                  "d24");
     for (const char* profile : {"geforce3", "ideal"})
         CHECK(with_path({profile, "depth_units"}, DepthPath::depth_replace).empty());
     for (const char* profile : {"geforce8", "ideal"})
@@ -284,7 +285,7 @@ TEST_CASE("a w buffer is the chip's own, and needs a view with perspective") {
         "profile geforce3 has no w buffer for a parallel projection, whose w is 1 everywhere; use depth path window_z, "
         "or a camera with perspective");
     CHECK(sentence({"geforce8", "dual"}, options) ==
-          "profile geforce8 has no w buffer; use --profile geforce3 with --depth d16, d24, d16f or d24f");
+          "profile geforce8 has no w buffer; use --profile geforce3 with --depth-format d16, d24, d16f or d24f");
 }
 
 TEST_CASE("a stored w is compared with w alone, and a stored depth with no w") {

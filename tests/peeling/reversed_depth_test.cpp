@@ -219,7 +219,7 @@ TEST_CASE("reversed depth is refused by name where it has no float buffer, a com
     };
     using Catch::Contains;
     CHECK(refusal_of([](RenderOptions&) {}).empty());
-    CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth = DepthFormat::d24; }), Contains("--depth d32f"));
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth = DepthFormat::d24; }), Contains("--depth-format d32f"));
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth.reset(); }, "geforce3"), Contains("GREATER over fixed-point"));
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.quantize_reference = false; }), Contains("between codes"));
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.compare_epsilon.absolute = 1e-3; }), Contains("between codes"));

@@ -72,7 +72,7 @@ TEST_CASE("exact order is by the sum of clip z, near first, reverse far first, t
     }
 }
 
-TEST_CASE("N buckets cut the range of the keys into N equal parts; within a bucket triangles stay as listed") {
+TEST_CASE("N buckets cut the range of the keys into N equal parts, and within a bucket triangles stay as listed") {
     Random random{504};
     for (const int buckets : {1, 2, 3, 7, 1000}) {
         const TriangleSoup soup = soup_of_twenty(random);

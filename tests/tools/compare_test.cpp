@@ -151,7 +151,7 @@ TEST_CASE("compare of a pack with a port's folder leaves a page with both pictur
     const std::string page = content_of(folder / "page.html");
     CHECK(number_of(page, "<h1>Different</h1>") == 1);
     CHECK(number_of(page, "<p>strata compare pack mine</p>") == 1);
-    CHECK(number_of(page, "<img src=\"data:image/png;base64,") == 3);
+    CHECK(number_of(page, "<img src=\"data:image/png;base64,") == 4);
     CHECK(page.find(lines_of(ended.out).at(0)) != std::string::npos);
     CHECK(page.find(folder / "") == std::string::npos);
 }

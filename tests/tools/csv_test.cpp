@@ -5,7 +5,7 @@
 
 using strata::tools::csv_of_columns;
 
-TEST_CASE("columns of lines are pointers; what a line lacks is empty, and only what needs quotes has them") {
+TEST_CASE("columns of lines are pointers, and what a line lacks is empty, and only what needs quotes has them") {
     const strata::tools::Lines lines{
         {{"name", "a, \"b\""}, {"inner", {{"count", 3}}}, {"none", nullptr}},
         {{"name", "plain"}, {"inner", nullptr}, {"none", 0.5}},

@@ -90,10 +90,10 @@ TEST_CASE("reduce leaves a small pack on which the command still fails") {
 TEST_CASE(
     "a mistake that is none, one that a scene has no room for, and a command without a place are told in a sentence") {
     const Folder folder;
-    CHECK(
-        run_strata(folder, {"render", "planes", "--mistake", "culls_frnt", "-o", "a.png"}).err ==
-        "strata: --mistake: expected names of mistakes (strata mistakes lists them), found 'culls_frnt' (did you mean "
-        "'culls_front'?)\n");
+    CHECK(run_strata(folder, {"render", "planes", "--mistake", "culls_frnt", "-o", "a.png"}).err ==
+          "strata: --mistake: expected names of mistakes (strata diagnose --list shows them), found 'culls_frnt' (did "
+          "you mean "
+          "'culls_front'?)\n");
     CHECK(run_strata(folder, {"render", "planes", "--size", "8x8", "--mistake", "texture_lost", "-o", "a.png"}).err ==
           "strata: --mistake: expected a mistake that this scene, algorithm and profile have room for, found "
           "'texture_lost'\n");

@@ -25,7 +25,8 @@ void write_capture(const Folder& folder, const std::string& suite, const std::st
 
 }  // namespace
 
-TEST_CASE("a capture that comes out equal is accepted; a differing one ends with status 1, counted, sized and placed") {
+TEST_CASE(
+    "a capture that comes out equal is accepted, and a differing one ends with status 1, counted, sized and placed") {
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     CHECK(run_strata(folder, {"hardware-check", "captures"}).status == 0);
@@ -84,7 +85,7 @@ TEST_CASE(
     }
     CHECK(page.find("<figcaption>Clear/C00000000_Depth_y") == std::string::npos);
     CHECK(run_strata(folder, {"hardware-check", "captures", "--hypotheses", "--report", "page.html"}).err ==
-          "strata: --report: expected no --hypotheses beside it, found both\n");
+          "strata: --report excludes --hypotheses\n");
 }
 
 TEST_CASE("hardware-check says in one sentence what is wrong with its input") {

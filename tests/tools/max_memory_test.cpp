@@ -21,7 +21,7 @@ double predicted(const Folder& folder, std::vector<std::string> words) {
     const Ended ended = run_strata(folder, words);
     CHECK(ended.status == 2);
     std::smatch found;
-    REQUIRE(std::regex_search(ended.err, found, std::regex("expected about ([0-9]+)M for ")));
+    REQUIRE(std::regex_search(ended.err, found, std::regex("needs about ([0-9]+) MB, the limit is 1 MB")));
     return std::stod(found[1]) * bytes_of_a_mebibyte;
 }
 
@@ -59,9 +59,9 @@ TEST_CASE("a picture that would take more than --max-memory is refused before an
     const Ended ended = run_strata(folder, {"render", "teapot", "--size", "2048x2048", "--execution", "literal",
                                             "--max-memory", "64M", "-o", "a.exr"});
     CHECK(ended.status == 2);
-    CHECK(std::regex_match(ended.err,
-                           std::regex(R"(strata: --max-memory: expected about [0-9]+M for dual at 2048x2048 )"
-                                      R"(\(a smaller --size or --fragment-memory takes less\), found 64M\n)")));
+    CHECK(std::regex_match(
+        ended.err, std::regex(R"(strata: --max-memory: dual at 2048x2048 needs about [0-9]+ MB, the limit is 64 MB; )"
+                              R"(a smaller --size or --fragment-memory takes less\n)")));
     CHECK(folder.files().empty());
     CHECK(run_strata(folder, {"render", "teapot", "--size", "64x64", "--max-memory", "64M"}).status == 0);
 }

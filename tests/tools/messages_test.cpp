@@ -50,7 +50,7 @@ TEST_CASE("a scene without triangles is told with what to do about it") {
     CHECK(one.status == 0);
     CHECK(one.err ==
           "strata: warning: empty.gltf: nothing would be drawn, for the scene has no triangles; export its meshes as "
-          "triangles, or try a built-in scene: strata scenes lists them\n");
+          "triangles, or try a built-in scene: strata list scenes shows them\n");
     std::ofstream(folder / "three.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{},{},{}]})";
     CHECK(
         run_strata(folder, {"scene", "three.gltf"}).err.ends_with("--scene 0 to 2 chooses another one of the file\n"));
@@ -168,7 +168,7 @@ TEST_CASE("every fault of a glTF file is told, a line each") {
     many.close();
     const auto told = lines_of(run_strata(folder, {"scene", "many.gltf"}).err);
     REQUIRE(told.size() == 21);
-    CHECK(told.back() == "strata: 10 more faults are not told");
+    CHECK(told.back() == "strata: 10 more faults are not shown");
 }
 
 TEST_CASE("an interrupt says which files are missing") {

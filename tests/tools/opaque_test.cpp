@@ -37,7 +37,7 @@ TEST_CASE("a scene without triangles is told, with what to do") {
     const Ended ended = run_strata(folder, {"render", "random:triangles=0", "--size", "16x16"});
     CHECK(ended.status == 0);
     CHECK(ended.err ==
-          "strata: warning: random:triangles=0: nothing is drawn, for the scene has no triangles; strata scene tells "
+          "strata: warning: random:triangles=0: nothing is drawn, for the scene has no triangles; strata scene shows "
           "what "
           "it holds, and --scene chooses another one of the file\n");
 }

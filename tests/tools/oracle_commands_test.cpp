@@ -36,7 +36,7 @@ TEST_CASE("passes of a refused algorithm are told as refused, and the others are
     CHECK(ended.err.find("strata: dual: profile geforce3 has no ") != std::string::npos);
     CHECK(std::filesystem::is_regular_file(folder / "out/depth_units.passes.json"));
     CHECK_FALSE(std::filesystem::exists(folder / "out/dual.passes.json"));
-    CHECK(run_strata(folder, {"passes", "teapot"}).err == "strata: -o: expected a folder for the files, found none\n");
+    CHECK(run_strata(folder, {"passes", "teapot"}).err == "strata: -o is missing: the folder for the files\n");
 }
 
 TEST_CASE(
@@ -76,8 +76,9 @@ TEST_CASE("explain tells a pixel in text and as JSON, and names the pixels that 
     CHECK(document["histories"][0]["fragments"][0]["depth"].size() == 7);
     CHECK(content_of(folder / "column.svg").starts_with("<svg "));
     CHECK(run_strata(folder, {"explain", "teapot", "--size", "40x30", "--pixel", "40,0"}).err ==
-          "strata: --pixel: expected a pixel from 0,0 to 39,29, found 40,0\n");
-    CHECK(run_strata(folder, {"explain", "teapot"}).err.find("found none") != std::string::npos);
+          "strata: --pixel must be a pixel from 0,0 to 39,29, not 40,0\n");
+    CHECK(run_strata(folder, {"explain", "teapot"}).err.find("must be a pixel from 0,0 to 1023,1023") !=
+          std::string::npos);
     CHECK(run_strata(folder, {"explain", "teapot", "--pixel", "4"}).err ==
           "strata: --pixel: expected two whole numbers from 0 such as 320,200, found '4'\n");
 }

@@ -39,7 +39,8 @@ TEST_CASE("256 slices and a cone of two layers: layer_peel 259 iterations, the l
     CHECK(render(256, "coherent_blend", 24).frame.iterations == 4);
 }
 
-TEST_CASE("hybrid takes 3 iterations for any number of slices; its work grows linearly, layer_peel's quadratically") {
+TEST_CASE(
+    "hybrid takes 3 iterations for any number of slices, and its work grows linearly, layer_peel's quadratically") {
     for (const int slices : {16, 64}) {
         CHECK(render(slices, "hybrid", 24).frame.iterations == 3);
         CHECK(render(slices, "layer_peel", 24).frame.iterations == slices + 3);

@@ -12,10 +12,9 @@ namespace strata::test {
 // Every command, in the order in which the help tells them.
 [[nodiscard]] inline std::vector<std::string> commands() {
     return {
-        "render",     "layers",     "passes",    "explain",    "report",         "bench", "effects",
-        "cost",       "invariance", "reproduce", "hard-cases", "hardware-check", "scene", "digest",
-        "compare",    "golden",     "diagnose",  "mistakes",   "reduce",         "probe", "infer",
-        "algorithms", "profiles",   "scenes",    "info",       "help",           "man",   "completions",
+        "render",    "layers",     "passes",         "explain", "report",  "bench",  "cost",        "invariance",
+        "reproduce", "hard-cases", "hardware-check", "scene",   "compare", "golden", "diagnose",    "reduce",
+        "probe",     "infer",      "list",           "info",    "help",    "man",    "completions",
     };
 }
 

@@ -73,12 +73,13 @@ TEST_CASE("a suite takes no options of other packs, and lists scenes that there 
     fails({"golden", "--suite", "-o", "set", "--algorithm", "dual"},
           "--suite: expected a folder for it alone, found --algorithm");
     fails({"golden", "teapot", "--suite", "-o", "set"},
-          "SCENE: expected a scene of the suite (strata mistakes --suite lists them), found 'teapot'");
-    fails({"golden", "--suite"}, "-o: expected a folder for the pack, found none");
+          "SCENE: expected a scene of the suite (strata diagnose --list --suite shows them), found 'teapot'");
+    fails({"golden", "--suite"}, "-o is missing: the folder for the pack");
     CHECK(folder.files().empty());
     std::ofstream{folder / "suite.json"} << R"({"format":"strata-suite","version":1,"scenes":[{"name":"moon.dual"}]})";
     fails({"golden", "--check", "suite.json"},
-          "./suite.json: /scenes/0/name: expected a scene of the suite (strata mistakes --suite lists them), found "
+          "./suite.json: /scenes/0/name: expected a scene of the suite (strata diagnose --list --suite shows them), "
+          "found "
           "'moon.dual'");
     std::ofstream{folder / "suite.json"} << R"({"format":"strata-suite","version":2,"scenes":[]})";
     fails({"golden", "--check", "suite.json"}, "./suite.json: /version: expected 1, found something else");

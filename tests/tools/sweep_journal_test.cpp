@@ -115,7 +115,7 @@ TEST_CASE("a line with any byte changed, taken away or put in counts for nothing
     CHECK(wrong == "");
 }
 
-TEST_CASE("lines go to the places of their cells; repeated ones and those of other keys count for nothing") {
+TEST_CASE("lines go to the places of their cells, and repeated ones and those of other keys count for nothing") {
     const Expected expected{.cells = {1, 4, 7},
                             .described = {{{"cell", 1}, {"scene", "a"}}, {{"cell", 4}, {"scene", "b"}}, {{"cell", 7}}},
                             .keys = {"cell", "found"}};

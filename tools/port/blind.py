@@ -39,7 +39,7 @@ def scene_of(draw):
              "close": [f"hard:case={draw.choice(['planes-1-unit-of-16-bits', 'planes-8-close'])}"],
              "opaque": ["hard:case=opaque-crossing"],
              "deep": [f"volume-beam:slices={draw.randrange(200, 321)},order={draw.choice(['near', 'far'])}"]}[kind]
-    words += ["--size", f"{width}x{height}", "--depth", draw.choice(["d24", "d32f"])]
+    words += ["--size", f"{width}x{height}", "--depth-format", draw.choice(["d24", "d32f"])]
     words += ["--color-format", draw.choice(["rgba8", "rgba8", "rgba16f"])]
     if draw.randrange(2) == 1:
         words += ["--background", ",".join(f"0.{draw.randrange(10)}" for _ in range(3))]

@@ -21,9 +21,9 @@ DRIVERS = ["llvmpipe", "llvmpipe_sse", "softpipe", "hardware"]
 PROFILES = ["llvmpipe", "llvmpipe_sse", "softpipe", "geforce8_dx101"]
 SCENES = {
     "teapot": ["teapot", "--alpha", "0.5", "--size", "97x73"],
-    "random, d24": ["random:seed=3,triangles=60", "--size", "121x91", "--depth", "d24"],
+    "random, d24": ["random:seed=3,triangles=60", "--size", "121x91", "--depth-format", "d24"],
     "random, rgba16f": ["random:seed=5,triangles=200", "--size", "67x83", "--color-format", "rgba16f"],
-    "random, rgba32f, d24": ["random:seed=9,triangles=120", "--size", "75x51", "--color-format", "rgba32f", "--depth", "d24"],
+    "random, rgba32f, d24": ["random:seed=9,triangles=120", "--size", "75x51", "--color-format", "rgba32f", "--depth-format", "d24"],
     "planes": ["planes:count=12", "--size", "65x49"],
     "beam": ["volume-beam:slices=16", "--size", "89x61"],
     "coincident": ["hard:case=coincident", "--size", "64x64"],

@@ -54,7 +54,7 @@ class Evidence {
         FieldFinding finding{.key = std::string{f.key}, .value = pipeline::text_of(f, found_)};
         if (!matters(f.key, found_)) {
             finding.state = FieldState::idle;
-            finding.reason = "has no effect beside the other values";
+            finding.reason = "has no effect next to the other values";
             return finding;
         }
         const std::vector<std::size_t> items = deciding_items(device_, f.key);
@@ -153,7 +153,7 @@ class Evidence {
 
     static void conclude(FieldFinding& finding) {
         if (finding.places == 0) {
-            finding.reason = "no pixel that the device drew tells its values apart";
+            finding.reason = "every pixel that the device drew is the same by all its values";
             return;
         }
         if (!finding.runners_up.empty() && finding.runners_up.front().agree >= finding.agree) {

@@ -59,7 +59,7 @@ void add_message_options(CLI::App& app) {
         ->trigger_on_parse();
     app.add_flag_callback(
            "-v,--verbose", [] { wanted().amount = Amount::verbose; },
-           "tell on standard error what is done, which files are written and how long it takes")
+           "say on standard error what is done, which files are written and how long it takes")
         ->trigger_on_parse();
     const std::vector<Choice<Colors>> choices{
         {"auto", Colors::automatic}, {"always", Colors::always}, {"never", Colors::never}};

@@ -94,7 +94,8 @@ std::string bounds_text(const scenes::Bounds& bounds) {
 std::string describe(const scenes::Scene& scene) {
     const Drawn all = drawn(scene.list, std::nullopt);
     std::vector<std::string> textures, cameras;
-    for (const auto& t : scene.list.textures) textures.push_back(fmt::format("{} {}x{}", t.name, t.width, t.height));
+    for (const auto& t : scene.list.textures)
+        textures.push_back(fmt::format("{} {}x{}", t.name.empty() ? "unnamed" : t.name, t.width, t.height));
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
     Table table{{{scene.name}, {fmt::format("scene {} of {}", scene.scene_index, scene.scene_count)}}, {}};
     table.rows.push_back({"meshes", fmt::format("{}, drawn {} times", scene.list.meshes.size(), all.instances)});
@@ -120,14 +121,14 @@ void warn_of_empty(const std::string& path, const scenes::Scene& scene) {
         path + ": nothing would be drawn, for the scene has no triangles; " +
         (scene.scene_count > 1
              ? fmt::format("--scene 0 to {} chooses another one of the file", scene.scene_count - 1)
-             : std::string("export its meshes as triangles, or try a built-in scene: strata scenes lists them")));
+             : std::string("export its meshes as triangles, or try a built-in scene: strata list scenes shows them")));
 }
 
 }  // namespace
 
 Command add_scene(CLI::App& root) {
     auto* app =
-        root.add_subcommand("scene", "tell what a model holds: meshes, alpha modes, textures, cameras, warnings");
+        root.add_subcommand("scene", "show what a model holds: meshes, alpha modes, textures, cameras, warnings");
     const auto options = std::make_shared<InspectOptions>();
     add_scene_options(*app, options->scene, options->scene_options);
     app->add_flag("--json", options->json, "one JSON document instead of the text");

@@ -112,12 +112,12 @@ std::span<const HardCase> sliver_cases() {
     static const HardCase cases[]{
         // The left side lies on the centres and owns them; the second strip begins behind them.
         {.name = "sliver-1-256",
-         .hard = "Two strips 1/256 of a pixel wide lie on and beside the centres of a column.",
+         .hard = "Two strips 1/256 of a pixel wide lie on and next to the centres of a column.",
          .answer = "The first strip covers the 32 pixels of column 16, the second one nothing.",
          .build = sliver_1_256,
          .counts = {32, 1, 1, 0}},
         {.name = "sliver-1-16",
-         .hard = "Two strips 1/16 of a pixel wide lie on and beside the centres of a column.",
+         .hard = "Two strips 1/16 of a pixel wide lie on and next to the centres of a column.",
          .answer = "The first strip covers the 32 pixels of column 16, the second one nothing.",
          .build = sliver_1_16,
          .counts = {32, 1, 1, 0},

@@ -182,7 +182,7 @@ TEST_CASE(
     CHECK(diagnosed(render(scene, blend), Fault::stencil_saturated) == 0);
 }
 
-TEST_CASE("E20: a count of 128 in pass 3 is said; a shorter run's is not") {
+TEST_CASE("E20: a count of 128 in pass 3 is said, and a shorter run's is not") {
     for (const Machine& machine : {stencil, blend}) {
         CHECK(diagnosed(render(stack(126, true), machine), Fault::count_limit) == 0);
         CHECK(diagnosed(render(stack(128, true), machine), Fault::count_limit) == 1);

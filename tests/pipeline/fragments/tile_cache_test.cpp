@@ -171,7 +171,7 @@ void add_twice(Region& region) {
 }  // namespace
 
 TEST_CASE(
-    "a pass rounds once at its end, where other devices round after each blend; and the next pass starts from codes") {
+    "a pass rounds once at its end, where other devices round after each blend, and the next pass starts from codes") {
     const FragmentScene scene = ten_on_each(8, 4, 0.34f / 255.0f, {5});
     const auto red_on = [&](const char* profile) {
         TestFrame test{scene, profile};

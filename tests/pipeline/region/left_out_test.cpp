@@ -184,7 +184,7 @@ std::string difference_with(const Body& body, const Instruments& instruments = {
 }  // namespace
 
 TEST_CASE(
-    "a target for which a batch is neutral keeps its bits and counts its bytes; a promise that does not hold is "
+    "a target for which a batch is neutral keeps its bits and counts its bytes, and a promise that does not hold is "
     "found") {
     CHECK(difference_with(ends_with(2, true)).empty());
     CHECK(difference_with(ends_with(2, true), {.check_selections = true}).empty());
@@ -278,7 +278,8 @@ Body nearest_depths(bool has_color) {
 
 }  // namespace
 
-TEST_CASE("what follows from keys is what the program would have left; where it does not follow, the program is run") {
+TEST_CASE(
+    "what follows from keys is what the program would have left, and where it does not follow, the program is run") {
     const auto depth = [](float z) { return z; };
     for (const float cleared : {-1.0f, 0.5f, 2.0f, -0.0f, not_a_number}) {
         for (const char* profile : {"ideal", "geforce8_dx101"})

@@ -106,7 +106,8 @@ TEST_CASE("product_floor cuts the binary32 product of 16 bits, and the exact one
 }
 
 TEST_CASE(
-    "under DepthLimits::wrap a code is the scaled depth's integer with its sign, in 32 bits; D32F keeps the depth") {
+    "under DepthLimits::wrap a code is the scaled depth's integer with its sign, in 32 bits, and D32F keeps the "
+    "depth") {
     const auto code = [](float z, DepthFormat format, DepthRounding rounding) {
         return to_wrapped_code(z, depth_conversion(format, rounding, 1.0f));
     };

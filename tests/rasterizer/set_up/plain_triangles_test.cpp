@@ -82,7 +82,7 @@ TEST_CASE("sixteen triangles of float spans at once become the records and count
 }
 
 TEST_CASE(
-    "float spans of a side whose slope is infinite are set up one after the other; of an infinite 1 / area, not at "
+    "float spans of a side whose slope is infinite are set up one after the other, and of an infinite 1 / area, not at "
     "all") {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 3 * TriangleGroup::size; ++i) indices.push_back(i % 3);
@@ -142,7 +142,7 @@ TEST_CASE("a run whose indices are lent is set up as one whose indices are the s
 }
 
 TEST_CASE(
-    "a tiny triangle's record holds the pixels that it covers; one that covers none has no record, and is counted",
+    "a tiny triangle's record holds the pixels that it covers, and one that covers none has no record, and is counted",
     "[slow]") {
     std::uint64_t wrong = 0, covered = 0, empty = 0;
     for (const DenseCase& dense : dense_cases()) {

@@ -67,7 +67,7 @@ TEST_CASE("depth codes and primitives of a deep EXR keep all 32 bits, and Z its 
         CHECK(std::bit_cast<std::uint32_t>(read.z[i]) == std::bit_cast<std::uint32_t>(written.z[i]));
 }
 
-TEST_CASE("a deep file is not a flat one and a flat one not deep; a deep PNG does not exist") {
+TEST_CASE("a deep file is not a flat one and a flat one not deep, and a deep PNG does not exist") {
     const TemporaryFolder folder;
     write_deep(folder / "deep.exr", random_fragments(3, 3, 2), {});
     write_image(folder / "flat.exr", {.color = strata::pipeline::Image{strata::pipeline::Format::rgba8, 3, 3}});

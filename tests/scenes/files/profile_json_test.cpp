@@ -73,11 +73,11 @@ TEST_CASE("an unknown key or name suggests the nearest") {
 
 TEST_CASE("a field that another one rules out is named with it") {
     CHECK(error_of(R"({"name": "mine", "base": "geforce3", "raster": {"coverage": "float_spans"}})") ==
-          "my.json: /raster/coverage: expected snapped_edges beside raster.color weights_8bit, found float_spans");
+          "my.json: /raster/coverage: expected snapped_edges with raster.color weights_8bit, found float_spans");
     CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "window_z"}})") ==
-          "my.json: /raster/coverage: expected snapped_edges beside raster.depth_path window_z, found float_spans");
+          "my.json: /raster/coverage: expected snapped_edges with raster.depth_path window_z, found float_spans");
     CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "w_buffer"}})") ==
-          "my.json: /raster/coverage: expected snapped_edges beside raster.depth_path w_buffer, found float_spans");
+          "my.json: /raster/coverage: expected snapped_edges with raster.depth_path w_buffer, found float_spans");
     CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "exact"}})") == "no error");
 }
 

@@ -42,7 +42,7 @@ std::string diagonal_camera(const std::string& entry) {
 
 }  // namespace
 
-TEST_CASE("a key that an object has twice is refused with its place; the same key in two objects is not") {
+TEST_CASE("a key that an object has twice is refused with its place, and the same key in two objects is not") {
     CHECK(refusal_of(R"({"a":1,"b":{"a":2},"c":[{"a":1},{"a":2}]})") == "");
     CHECK(refusal_of(R"({"a":1,"b":2,"a":1})") == "f: /a: expected each key once, found this one twice");
     CHECK(refusal_of(R"({"a":{"b":1,"c":{},"b":2}})") == "f: /a/b: expected each key once, found this one twice");
@@ -70,7 +70,7 @@ TEST_CASE("cameras and profiles with a key twice are refused") {
           }) == "p: /raster/subpixel_bits: expected each key once, found this one twice");
 }
 
-TEST_CASE("matrices that cannot be inverted, and numbers beyond 2^64, are refused; odd but sound ones are not") {
+TEST_CASE("matrices that cannot be inverted, and numbers beyond 2^64, are refused, and odd but sound ones are not") {
     for (const char* entry : {"1", "-1", "1e-15", "18446744073709551616", "\"0x1p-1000\""})
         CHECK(camera_refusal(diagonal_camera(entry)) == "");
     CHECK(camera_refusal(diagonal_camera("0")) ==

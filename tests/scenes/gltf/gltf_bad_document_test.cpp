@@ -187,7 +187,7 @@ TEST_CASE("Draco's data is not mistaken for zeros") {
     file.json["accessors"][0].erase("bufferView");
     file.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = Json::object();
     CHECK(refusal(to_bytes(file.document().dump())) ==
-          "test.gltf: /meshes/0/primitives/0/extensions: expected plain data beside KHR_draco_mesh_compression, found "
+          "test.gltf: /meshes/0/primitives/0/extensions: expected plain data next to KHR_draco_mesh_compression, found "
           "none "
           "[UNSUPPORTED_EXTENSION]");
 }

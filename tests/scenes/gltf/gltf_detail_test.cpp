@@ -124,7 +124,7 @@ TEST_CASE("a material is told to be invisible only if its factor alone keeps it 
     CHECK_FALSE(is_told("OPAQUE", 0, 0.5));
 }
 
-TEST_CASE("materials of one coverage share a texture; an opaque one has its own, for its alpha is 1") {
+TEST_CASE("materials of one coverage share a texture, and an opaque one has its own, for its alpha is 1") {
     GltfFile file = everything();
     Json primitive = file.json["meshes"][0]["primitives"][0];
     for (const char* mode : {"MASK", "OPAQUE", "OPAQUE"}) {
@@ -142,7 +142,7 @@ TEST_CASE("materials of one coverage share a texture; an opaque one has its own,
     for (std::size_t i = 0; i < 4; ++i) CHECK(list.materials[i].texture == expected[i]);
 }
 
-TEST_CASE("what has no name is numbered: meshes, their primitives, materials; a texture takes its image's") {
+TEST_CASE("what has no name is numbered: meshes, their primitives, materials, and a texture takes its image's") {
     GltfFile file = everything();
     file.json["images"][0]["name"] = "leaf.png";
     Json primitive = file.json["meshes"][0]["primitives"][0];

@@ -87,7 +87,8 @@ TEST_CASE("nodes may nest 100,000 deep, and a transform that overflows is refuse
 }
 
 TEST_CASE(
-    "the option --scene chooses, the file's own scene comes next, then the first; without scenes all nodes are shown") {
+    "the option --scene chooses, the file's own scene comes next, then the first, and without scenes all nodes are "
+    "shown") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     file.add("nodes", {{"mesh", 0}, {"translation", {2, 0, 0}}});
     file.add("scenes", {{"nodes", {1}}});

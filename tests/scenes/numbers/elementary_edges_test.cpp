@@ -124,7 +124,7 @@ TEST_CASE("a power that binary64 holds is found exactly: squares, cubes, their r
     CHECK(wrong == 0);
 }
 
-TEST_CASE("powers of zero, of one, and to zero are what they are by definition; what is left is NaN") {
+TEST_CASE("powers of zero, of one, and to zero are what they are by definition, and what is left is NaN") {
     for (const double exponent : {0.5, 1.0, 1e300}) {
         CHECK(same_bits(elementary::pow(0, exponent), 0.0));
         CHECK(elementary::pow(0, -exponent) == endless);

@@ -50,7 +50,7 @@ TEST_CASE("numbers stand as decimals and as bits, and come back bit by bit") {
     CHECK((wide[0] == doubles[0] && wide[1] == doubles[1]));
 }
 
-TEST_CASE("decimals or bits are enough alone; together they have to agree") {
+TEST_CASE("decimals or bits are enough alone, and together they have to agree") {
     CHECK(floats_of(R"({"x": {"bits": ["3f000000"]}})", 1)[0] == 0.5f);
     CHECK(floats_of(R"({"x": {"decimal": [0.5, 2]}})", 2)[1] == 2.0f);
     for (const char* wrong : {R"({"x": {"decimal": [0.5], "bits": ["3f000001"]}})", R"({"x": {"bits": ["3f00000"]}})",

@@ -79,7 +79,7 @@ TEST_CASE("a pack is refused where it is damaged or asked for what it has not") 
     CHECK_NOTHROW(load_scene(folder.path(), {}));
     CHECK_THROWS_WITH(load_scene(folder.path(), {.scene = 1}), Catch::Contains("--scene"));
     CHECK_THROWS_WITH(load_scene(folder.path(), {.color_space = pipeline::ColorSpace::linear}),
-                      Catch::Contains("--colour"));
+                      Catch::Contains("--color-space"));
     const std::string manifest = folder.path() + "/manifest.json";
     std::ifstream in{manifest};
     const std::string text{std::istreambuf_iterator<char>{in}, {}};

@@ -97,7 +97,8 @@ TEST_CASE("each vertex of the teapot is its patch's point at (i / n, j / n), and
 }
 
 TEST_CASE(
-    "each cell of a patch is two triangles from its first corner; at a collapsed row one has no area and is left out") {
+    "each cell of a patch is two triangles from its first corner, and at a collapsed row one has no area and is left "
+    "out") {
     const int n = 3;
     const Mesh pot = make_teapot({}, n).list.meshes.at(0);
     std::vector<std::uint32_t> expected;

@@ -124,7 +124,7 @@ TEST_CASE("a difference is within the bound if neither more pixels nor larger on
     CHECK(compare(picture, picture.image, "c.png").within_bound);
 }
 
-TEST_CASE("labels are white without alpha, in pictures of colours and of drawn pixels; in depths they are words") {
+TEST_CASE("labels are white without alpha, in pictures of colours and of drawn pixels, and in depths they are words") {
     for (const Reading reading : {Reading::color, Reading::drawn, Reading::depth16, Reading::depth24}) {
         Picture picture = colored({0, 0, 0, 0});
         picture.reading = reading;

@@ -195,7 +195,7 @@ TEST_CASE("integers that become floats by halves are rounded twice, those below 
     }) == 0);
 }
 
-TEST_CASE("halves by shifts are the nearest ones from 2^-14 to below 65,520; above there is no infinity") {
+TEST_CASE("halves by shifts are the nearest ones from 2^-14 to below 65,520, and above there is no infinity") {
     const Rule shifts("shader.pack-half", "nearest even by shifts, infinity is not made"),
         plain("shader.pack-half", "nearest even");
     int within = 0, above = 0;

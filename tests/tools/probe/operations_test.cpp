@@ -185,7 +185,7 @@ TEST_CASE("one changed word of a result names its operation, texel and inputs") 
     }
 }
 
-TEST_CASE("results in a pack are read as they were written; a pack without any has none") {
+TEST_CASE("results in a pack are read as they were written, and a pack without any has none") {
     const strata::test::OwnFolder folder;
     const std::vector<Item> items{kit().front()};
     ProbePack pack = answer(*pipeline::find_profile("geforce3"), items, {YDirection::up});

@@ -1,7 +1,7 @@
 // strata/compare.h - pictures of a program under test against reference pictures, for its own tests.
 //
 // Rule     `compare` tells kinds of mistakes; `check` also puts them into one message for a failed test, and leaves pictures behind in a folder:
-//          NAME.side.png with reference, candidate and heat map side by side, and NAME.candidate.npy with the codes of the candidate's
+//          NAME.side.png with reference, candidate, heat map and map of kinds side by side, and NAME.candidate.npy with the codes of the candidate's
 //          first target. The folder is STRATA_PICTURES of the environment, else strata-pictures in the current folder. Equal pictures
 //          leave nothing.
 // Tests    tests/tools/library/matchers_test.cpp

@@ -1,7 +1,7 @@
 // strata/diagnose.h - which known mistake, or which two, made a picture of a scene that another renderer drew.
 //
 // Rule     Machines with one mistake each draw the scene at the candidate's size; they are ranked by the pixels that are the candidate's
-//          (tools/oracle/mistakes/diagnosis.h). "None of mine" is an answer.
+//          (tools/oracle/mistakes/diagnosis.h). "None that is known" is an answer.
 // Cost     About a hundred pictures of the scene, and up to as many pairs again: meant for small scenes.
 // Tests    tests/tools/library/diagnose_test.cpp
 #pragma once
@@ -24,7 +24,7 @@ struct Diagnosed {
     [[nodiscard]] bool is_right() const noexcept { return diagnosis.verdict == oracle::Verdict::right; }
     // "right", "one_mistake", "two_mistakes", "none_of_mine"
     [[nodiscard]] std::string verdict() const;
-    // What is named: "culls_front"; of two, both. Empty for a right picture and for none of mine.
+    // What is named: "culls_front"; of two, both. Empty for a right picture and for none that is known.
     [[nodiscard]] std::vector<std::string> mistakes() const;
     // Others that leave the same picture of this scene.
     [[nodiscard]] std::vector<std::string> alike() const;

@@ -26,11 +26,11 @@ std::string first_line(const Diagnosis& d) {
     const Finding& best = d.findings.front();
     if (d.passes_contradict)
         return fmt::format(
-            "none of mine: the picture is that of: {}; but no known machine that leaves it has these passes\n",
+            "none that is known: the picture is that of: {}; but no known machine that leaves it has these passes\n",
             sentence_of(best.mistakes));
     if (d.verdict == Verdict::none_of_mine)
         return fmt::format(
-            "none of mine: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
+            "none that is known: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
             "explains them all\n",
             d.differing, d.pixels);
     return fmt::format("100 % of the pixels are{} those of: {}\n", d.is_nearly ? ", within one code," : "",

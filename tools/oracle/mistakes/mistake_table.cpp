@@ -167,7 +167,8 @@ std::string to_page(const std::vector<TableColumn>& columns, const std::string& 
     std::string page = "# Mistakes and the scenes that show them\n\n" + findings(columns);
     if (!plot.empty()) page += fmt::format("\n![What each scene of the suite shows of the mistakes]({})\n", plot);
     page +=
-        "\n`strata mistakes --table -o tools/oracle/MISTAKES.md` made this page: the pictures of machines with one "
+        "\n`strata diagnose --list --table -o tools/oracle/MISTAKES.md` made this page: the pictures of machines with "
+        "one "
         "mistake each are diagnosed like anybody's.\n"
         "1 named first; = the same picture as a mistake above it, which is named; . does not show, and the right "
         "machine is named; blank cannot be made here.\n\n| mistake |";

@@ -24,7 +24,8 @@ std::string verdict_line(const ScenesDiagnosis& d) {
     if (d.verdict != Verdict::none_of_mine)
         return fmt::format("all {} scenes are those of: {}\n", scenes, sentence_of(best.mistakes));
     return fmt::format(
-        "none of mine: {} of {} pixels differ from the right pictures, and no known mistake, nor two of them, explains "
+        "none that is known: {} of {} pixels differ from the right pictures, and no known mistake, nor two of them, "
+        "explains "
         "all {} scenes\n",
         d.differing, d.pixels, scenes);
 }
@@ -40,7 +41,8 @@ std::string kinds_of(const Comparison& comparison) {
 std::string line_of_scene(const Diagnosis& d, const SceneReport& report, bool fits) {
     const bool is_none = d.verdict == Verdict::none_of_mine;
     return fmt::format("  {}: {} of {} pixels differ{}; by itself {}{}\n", report.name, d.differing, d.pixels,
-                       kinds_of(report.comparison), is_none ? "none of mine" : sentence_of(d.findings.front().mistakes),
+                       kinds_of(report.comparison),
+                       is_none ? "none that is known" : sentence_of(d.findings.front().mistakes),
                        fits ? "" : "; not what is named above");
 }
 

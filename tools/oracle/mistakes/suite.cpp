@@ -52,7 +52,7 @@ std::vector<SuiteScene> scenes_of_suite() {
     add("float.dual", "binary32 colours: every rounding shows", "dual", "--color-format rgba32f",
         [](RenderOptions& o) { o.color_format = Format::rgba32f; });
     add("half.front_to_back", "fp16 colours over D24", "front_to_back",
-        "--color-format rgba16f --depth d24 --background 0.2,0.3,0.5", [](RenderOptions& o) {
+        "--color-format rgba16f --depth-format d24 --background 0.2,0.3,0.5", [](RenderOptions& o) {
             on_blue(o);
             o.color_format = Format::rgba16f;
             o.depth = DepthFormat::d24;
@@ -63,7 +63,7 @@ std::vector<SuiteScene> scenes_of_suite() {
             o.max_passes = 2;
         });
     add("offset.front_to_back", "a polygon offset, which must not be forgotten", "front_to_back",
-        "--polygon-offset 4,64 --depth d24", [](RenderOptions& o) {
+        "--polygon-offset 4,64 --depth-format d24", [](RenderOptions& o) {
             o.raster.polygon_offset = {true, 4, 64};
             o.depth = DepthFormat::d24;
         });

@@ -88,8 +88,8 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
         const std::string name = has_name ? entry["name"].get<std::string>() : "";
         scenes.push_back(find_suite_scene(name));
         if (scenes.back() == nullptr)
-            fail("/scenes/" + std::to_string(i) + "/name", "a scene of the suite (strata mistakes --suite lists them)",
-                 "'" + name + "'");
+            fail("/scenes/" + std::to_string(i) + "/name",
+                 "a scene of the suite (strata diagnose --list --suite shows them)", "'" + name + "'");
     }
     return scenes;
 }

@@ -16,7 +16,7 @@ rm -rf "$folder/packs"
 write() { build/release/strata golden "${@:2}" -o "$folder/packs/$1"; }
 mkdir "$folder/packs"
 write teapot teapot --alpha 0.5 --size 48x36 --profile geforce8 --algorithm front_to_back,dual,weighted_average,stencil_routed_k_buffer
-write showroom showroom --size 48x48 --profile geforce8_dx101 --algorithm dual_independent,coherent_stencil,layer_peel --depth d24
+write showroom showroom --size 48x48 --profile geforce8_dx101 --algorithm dual_independent,coherent_stencil,layer_peel --depth-format d24
 write random random:seed=7,triangles=200 --size 40x40 --profile geforce3 --algorithm shadow_map_depth_replace,painter
 write planes hard:case=planes-8-close --size 32x32 --profile ideal --algorithm front_to_back,a_buffer --color-format rgba32f
 write port teapot --alpha 0.5 --size 48x36 --profile llvmpipe --algorithm dual,front_to_back

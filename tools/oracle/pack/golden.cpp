@@ -56,7 +56,7 @@ Golden read_pack(const std::string& path) {
         result.text("algorithm", name);
         golden.algorithms.push_back(peeling::find_algorithm(name));
         if (golden.algorithms.back() == nullptr)
-            result.fail("algorithm", "an algorithm (strata algorithms lists them)");
+            result.fail("algorithm", "an algorithm (strata list algorithms shows them)");
     }
     return golden;
 }

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/oracle/verdict/verdict.h"
+
 namespace strata::oracle::verdict {
 
 namespace {
@@ -48,7 +50,7 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
 std::string reach_of(const Checked& c, const Verdict& v) {
     const std::uint64_t decided = c.changed - c.undecided;
     std::string text = fmt::format("so at all {} that it changes", pixels(c.changed));
-    if (c.undecided > 0) text += fmt::format(" ({} of them tell)", decided);
+    if (c.undecided > 0) text += fmt::format(" ({} of them decide it)", decided);
     return text + fmt::format("; right at the other {}", v.right.pixels - c.changed);
 }
 

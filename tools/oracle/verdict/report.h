@@ -2,9 +2,13 @@
 #pragma once
 #include <string>
 
-#include "tools/oracle/verdict/verdict.h"
+namespace strata::pipeline {
+struct DrawList;
+}
 
 namespace strata::oracle::verdict {
+
+struct Verdict;
 
 // The verdict on a line, what it rests on below it.
 [[nodiscard]] std::string to_text(const Verdict& verdict, const pipeline::DrawList& list);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
@@ -13,6 +14,7 @@
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
+#include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
@@ -32,6 +34,7 @@ struct DiagnoseOptions {
     oracle::Tolerances tolerances{};
     int limit = 0;  // geometry passes after which the candidate gives up
     std::string report;
+    MistakesOptions mistakes{};
     bool json = false;
 };
 
@@ -111,6 +114,27 @@ oracle::ShowProgress shown_by(Progress& bar) {
 // Right: 0. Whatever else made the picture, known or not: 1.
 int status_of(oracle::Verdict verdict) { return verdict == oracle::Verdict::right ? 0 : 1; }
 
+// The first line is the verdict; the others say why, up to the comparison, which has tables. A line further in belongs to the one before it.
+void add_lines(PlainPage& page, const std::string& text) {
+    std::istringstream lines(text);
+    std::string sentence;
+    std::getline(lines, sentence);
+    page.sentence(sentence);
+    std::vector<std::string> reasons;
+    std::size_t usual = std::string::npos;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (begin == std::string::npos) continue;
+        if (line.substr(begin).starts_with("compare:")) break;
+        usual = std::min(usual, begin);
+        if (begin > usual && !reasons.empty())
+            reasons.back() += (reasons.back().ends_with(':') ? " " : "; ") + line.substr(begin);
+        else
+            reasons.push_back(line.substr(begin));
+    }
+    page.items(reasons);
+}
+
 int diagnose_one(const DiagnoseOptions& options) {
     Progress machines("wrong machines");
     const auto opened = open_case(options, shown_by(machines));
@@ -120,12 +144,15 @@ int diagnose_one(const DiagnoseOptions& options) {
     const oracle::Comparison comparison = opened->comparison();
     if (!options.report.empty()) {
         PlainPage page{"Diagnosis", canonical_command("render", opened->options.run, opened->options.run.algorithms)};
-        page.heading("What was found");
-        page.lines(to_text(found, comparison));
+        add_lines(page, to_text(found, comparison));
         page.heading("Pictures");
         page.picture(oracle::as_shown(opened->laboratory->right()), "As it should be");
         page.picture(oracle::as_shown(opened->candidate), "The candidate");
         add_heat_map(page, comparison);
+        if (!comparison.equal) {
+            page.heading("What differs");
+            add_tables(page, comparison);
+        }
         write_page(options.report, page);
     }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
@@ -189,6 +216,11 @@ void check_several(const CLI::App& app) {
 }
 
 int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
+    if (options.mistakes.list) return show_mistakes(options.mistakes, options.json);
+    for (const char* name : {"SCENE", "CANDIDATE"})
+        if (app.count(name) == 0) throw CLI::RequiredError(name);
+    for (const char* name : {"--suite", "--table", "--output"})
+        if (app.count(name) > 0) throw CLI::ValidationError(std::string(name) + " goes with --list alone");
     const std::vector<std::string> packs = packs_in(options.run.scene);
     check_outputs({{"--report", options.report, {".html"}}});
     if (packs.empty()) return diagnose_one(options);
@@ -199,14 +231,14 @@ int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
 }  // namespace
 
 Command add_diagnose(CLI::App& root) {
-    auto* app = root.add_subcommand("diagnose", "tell which known mistake, or which two, made a picture of a scene");
+    auto* app = root.add_subcommand("diagnose", "show which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
     add_picture_options(*app, options->run);
+    app->get_option("SCENE")->required(false);  // --list has none
     app->add_option(
            "CANDIDATE", options->candidate,
            "an .exr, .png or .npy file, bare numbers with --layout, or a candidate's folder (PACK.md); of a folder of "
            "packs a folder with one of each")
-        ->required()
         ->type_name("");
     add_layout_option(*app, options->layout);
     add_tolerance_option(*app, options->tolerances);
@@ -218,9 +250,11 @@ Command add_diagnose(CLI::App& root) {
                    return number && *number >= 1 ? number : std::nullopt;
                });
     add_report_option(*app, options->report);
+    add_mistakes_options(*app, options->mistakes);
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
-        "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"
+        "The scene is drawn at the candidate's size, whatever --size says; strata diagnose --list shows what is "
+        "tried.\n"
         "A folder of packs, such as a suite, with a folder of pictures or of candidates' folders of the same names is "
         "diagnosed as a whole: "
         "one "
@@ -228,7 +262,7 @@ Command add_diagnose(CLI::App& root) {
         "Examples:\n"
         "  strata render showroom --size 64x64 -o mine.png && strata diagnose showroom mine.png\n"
         "  strata golden showroom --size 64x64 -o room && strata diagnose room room --json\n"
-        "Exit status: 0 right, 1 a mistake or none of mine, 2 bad input or usage, 3 the system failed, 130 "
+        "Exit status: 0 right, 1 a mistake, known or not, 2 bad input or usage, 3 the system failed, 130 "
         "interrupted.");
     return {app, [app, options] { return diagnose(*app, *options); }};
 }

@@ -95,7 +95,7 @@ int reduce(const ReduceOptions& options) {
     for (const char* word : {"{pack}", "{picture}"})
         if (options.command.find(word) == std::string::npos)
             throw CLI::ValidationError("COMMAND", fmt::format("expected {} in it, found '{}'", word, options.command));
-    if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the pack, found none");
+    if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
     oracle::Golden scene = oracle::read_pack(options.pack);
     if (!options.algorithm.empty())
         std::erase_if(scene.algorithms, [&](const peeling::Algorithm* a) { return a->name != options.algorithm; });
@@ -135,7 +135,8 @@ Command add_reduce(CLI::App& root) {
                     "what draws {pack} into {picture}, for the shell; both words are replaced")
         ->required()
         ->type_name("");
-    add_path(*app, options->output, {"-o", "PACK", "gets the smallest pack that still fails", "a folder's name"});
+    add_path(*app, options->output,
+             {"-o,--output", "PACK", "gets the smallest pack that still fails", "a folder's name"});
     add_path(*app, options->algorithm,
              {"--algorithm", "NAME", "the one of the pack that the command runs (default: its first)", "a name"});
     add_path(*app, options->ending,

@@ -84,8 +84,7 @@ std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, cons
 
 int hardware_check(const Options& options) {
     check_outputs({{"--report", options.report, {".html"}}});
-    if (options.hypotheses && !options.report.empty())
-        throw CLI::ValidationError("--report", "expected no --hypotheses beside it, found both");
+    if (options.hypotheses && !options.report.empty()) throw CLI::ValidationError("--report excludes --hypotheses");
     keep_freed_memory();
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);

@@ -94,7 +94,8 @@ TEST_CASE("what a failure does not need goes back to its default, and what it ne
     CHECK_THAT(other->sentence(), Catch::Contains("1 triangle in a frame of 1x1"));
 }
 
-TEST_CASE("a candidate that is right leaves nothing to reduce; one that draws nothing or another size is an error") {
+TEST_CASE(
+    "a candidate that is right leaves nothing to reduce, and one that draws nothing or another size is an error") {
     const Golden scene = golden_of("random.dual");
     CHECK_FALSE(reduce(scene, [](const Golden& s) { return std::optional{right_picture(s)}; }));
     CHECK_THROWS_AS(reduce(scene, [](const Golden&) { return std::optional<Picture>{}; }), InputError);
