@@ -89,6 +89,27 @@ TEST_CASE("the median of an odd number of times is the middle one, of an even nu
     CHECK(is({5, 4, 3, 2, 1}, 3, 1, 5));
 }
 
+TEST_CASE("two timings are apart if each has four runs or more and no run of the one is as long as one of the other") {
+    const Spread slow{5, 4, 6, 4}, quick{2, 1, 3.9, 4};
+    CHECK(is_apart(slow, quick));
+    CHECK(is_apart(quick, slow));
+    CHECK_FALSE(is_apart(slow, {2, 1, 4, 4}));
+    CHECK_FALSE(is_apart(slow, slow));
+    CHECK_FALSE(is_apart({5, 4, 6, 3}, quick));
+    CHECK_FALSE(is_apart(slow, {2, 1, 3.9, 3}));
+    // Of equal distributions: every order of four and four runs is equally likely, and 2 of 70 look apart.
+    int orders = 0, apart = 0;
+    for (unsigned first = 0; first < 256; ++first) {
+        std::vector<double> a, b;
+        for (int place = 0; place < 8; ++place) ((first >> place & 1) != 0 ? a : b).push_back(place);
+        if (a.size() != 4) continue;
+        ++orders;
+        apart += is_apart(spread_of(a), spread_of(b)) ? 1 : 0;
+    }
+    CHECK(orders == 70);
+    CHECK(apart == 2);
+}
+
 TEST_CASE("a job in JSON tells its words, its counts, its times and what follows from them") {
     const auto document = to_json(std::vector{result_of("dual", Execution::replay)}, {});
     CHECK(document.at("scene") == "planes:count=2");
@@ -138,7 +159,7 @@ TEST_CASE("a document names each scene once, in order, files without their folde
 }
 
 TEST_CASE("a ratio is the old median over the new one, of the job with the same words in all of them") {
-    const Baseline baseline{{replayed_name, 0.012}};
+    const Baseline baseline{{replayed_name, {0.012, 0.011, 0.013, 5}}};
     const auto ratio = [&](auto&& change) {
         BenchScene scene = planes();
         BenchResult result = result_of("dual", Execution::replay, scene);
@@ -165,8 +186,11 @@ TEST_CASE("what --json wrote is read as a baseline, and anything else is refused
     std::ofstream(folder / "old.json") << to_json(std::vector{result_of("dual", Execution::replay), other}, {}).dump(2);
     const Baseline baseline = load_baseline(folder / "old.json");
     REQUIRE(baseline.size() == 2);
-    CHECK(baseline.at(replayed_name) == 0.004);
-    CHECK(baseline.at("planes:count=2 depth literal scalar needed 64x48 geforce8 threads=3") == 0.5);
+    CHECK(baseline.at(replayed_name).median == 0.004);
+    CHECK(baseline.at(replayed_name).least == 0.002);
+    CHECK(baseline.at(replayed_name).greatest == 0.008);
+    CHECK(baseline.at(replayed_name).runs == 3);
+    CHECK(baseline.at("planes:count=2 depth literal scalar needed 64x48 geforce8 threads=3").median == 0.5);
     for (const char* text : {"", "{", "[]", "7", "{}", "{\"jobs\": 7}", "{\"jobs\": [{}]}", "{\"jobs\": [7]}",
                              "{\"jobs\": [{\"scene\": \"a\"}]}"})
         CHECK(refusal_of_baseline(text) ==
@@ -185,13 +209,25 @@ TEST_CASE("a row of the table has milliseconds, their spread, millions of fragme
 
 TEST_CASE("with several executions one more table sets them side by side, each over the last") {
     BenchResult literal = result_of("dual", Execution::literal), depth = result_of(nullptr, Execution::replay);
-    literal.seconds = {0.012};
-    const auto lines = lines_of(to_table({literal, result_of("dual", Execution::replay)}));
+    BenchResult replay = result_of("dual", Execution::replay);
+    literal.seconds = {0.012, 0.012, 0.011, 0.013};
+    replay.seconds = {0.004, 0.004, 0.003, 0.008};
+    const auto lines = lines_of(to_table({literal, replay}));
     REQUIRE(lines.size() == 6);
     CHECK(lines[3].empty());
     CHECK(words_in(lines[4]) == std::vector<std::string>{"ms", "literal", "replay", "ratio"});
     CHECK(words_in(lines[5]) ==
-          std::vector<std::string>{"planes:count=2", "dual", "scalar", "needed", "12.00", "4.00", "3.00", ":", "1.00"});
+          std::vector<std::string>{"planes:count=2", "dual", "scalar", "needed", "12.00", "4.00", "3.00", ":", "1"});
+    // A run of replay as long as one of literal execution, or fewer than four runs: the quotient says nothing.
+    replay.seconds.back() = 0.011;
+    for (const bool is_short : {false, true}) {
+        if (is_short) literal.seconds.pop_back(), replay.seconds = {0.004, 0.004, 0.003};
+        const auto noisy = lines_of(to_table({literal, replay}));
+        REQUIRE(noisy.size() == 7);
+        CHECK(words_in(noisy[5]) == std::vector<std::string>{"planes:count=2", "dual", "scalar", "needed", "12.00",
+                                                             "4.00", "noise", ":", "1"});
+        CHECK(noisy[6].starts_with("noise: "));
+    }
     CHECK(lines_of(to_table({literal, literal})).size() == 3);  // one execution alone: nothing to compare
     CHECK(lines_of(to_table({result_of("dual", Execution::replay), depth})).size() == 3);
 }
@@ -203,9 +239,12 @@ TEST_CASE("refusals stand under the table, each once") {
 }
 
 TEST_CASE("beside an earlier run stand old, new and old over new, then the jobs that only one of them has") {
-    const Baseline baseline{{replayed_name, 0.012}, {"gone a b c", 1}, {"also gone", 1}};
-    const auto lines = lines_of(to_ratios(
-        {result_of("dual", Execution::replay), result_of(nullptr, Execution::replay), refused("dual", "x")}, baseline));
+    Baseline baseline{
+        {replayed_name, {0.012, 0.009, 0.013, 4}}, {"gone a b c", {1, 1, 1, 4}}, {"also gone", {1, 1, 1, 4}}};
+    BenchResult dual = result_of("dual", Execution::replay);
+    dual.seconds = {0.002, 0.008, 0.004, 0.004};
+    const std::vector<BenchResult> results{dual, result_of(nullptr, Execution::replay), refused("dual", "x")};
+    const auto lines = lines_of(to_ratios(results, baseline));
     REQUIRE(lines.size() == 6);
     CHECK(lines[0].empty());
     CHECK(words_in(lines[1]) == std::vector<std::string>{"job", "old", "ms", "new", "ms", "old/new"});
@@ -214,6 +253,10 @@ TEST_CASE("beside an earlier run stand old, new and old over new, then the jobs 
     CHECK(lines[3] == "not in the baseline: planes:count=2 depth replay scalar needed 64x48 geforce8 threads=3");
     CHECK(lines[4] == "only in the baseline: also gone");
     CHECK(lines[5] == "only in the baseline: gone a b c");
+    baseline[replayed_name].least = 0.008;
+    const auto noisy = lines_of(to_ratios(results, baseline));
+    CHECK(words_in(noisy[2].substr(replayed_name.size())) == std::vector<std::string>{"12.00", "4.00", "noise"});
+    CHECK(noisy[3].starts_with("noise: "));
 }
 
 TEST_CASE("a picture that differs from the first one of its scene and algorithm is told, whatever the way of running") {

@@ -37,10 +37,10 @@ std::string wrong_with(const ordered_json& job) {
 
 }  // namespace
 
-TEST_CASE("strata bench --json - prints one document with every promised key, and names what the profile refuses") {
+TEST_CASE("strata bench --json prints one document with every promised key, and names what the profile refuses") {
     const Folder folder;
     const Ended ended = bench(folder, {"--algorithm", "depth,dual,dual_independent", "--execution", "all", "--simd",
-                                       "scalar,best", "--effects", "needed,all", "--counters", "--json", "-"});
+                                       "scalar,best", "--effects", "needed,all", "--counters", "--json"});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
     const auto document = ordered_json::parse(ended.out);
@@ -58,8 +58,7 @@ TEST_CASE("strata bench --json - prints one document with every promised key, an
 
 TEST_CASE("a job's literal fragments and picture are the same in every execution") {
     const Folder folder;
-    const Ended ended =
-        bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--counters", "--json", "-"});
+    const Ended ended = bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--counters", "--json"});
     const auto jobs = ordered_json::parse(ended.out).at("jobs");
     REQUIRE(jobs.size() == 2);
     for (const auto& job : jobs)
@@ -69,7 +68,7 @@ TEST_CASE("a job's literal fragments and picture are the same in every execution
 
 TEST_CASE("strata bench --baseline prints old over new for equal jobs and names those without a partner") {
     const Folder folder;
-    CHECK(bench(folder, {"--algorithm", "depth,dual", "--json", "old.json"}).status == 0);
+    CHECK(bench(folder, {"--algorithm", "depth,dual", "-o", "old.json"}).status == 0);
     auto old = ordered_json::parse(content_of(folder / "old.json"));
     old["jobs"][1]["seconds"]["median"] = 1e6;  // dual took so long that its ratio is recognised
     CHECK(shell(folder, "cat > old.json <<'END'\n" + old.dump() + "\nEND").status == 0);
@@ -80,7 +79,7 @@ TEST_CASE("strata bench --baseline prints old over new for equal jobs and names 
     CHECK(table.out.find("not in the baseline: random:seed=3,triangles=60 unsorted") != std::string::npos);
     CHECK(table.out.find("only in the baseline: random:seed=3,triangles=60 depth") != std::string::npos);
     auto with_json = words;
-    with_json.insert(with_json.end(), {"--json", "-"});
+    with_json.emplace_back("--json");
     const auto jobs = ordered_json::parse(bench(folder, with_json).out).at("jobs");
     CHECK(jobs[0]["ratio"].get<double>() == Approx(1e6 / jobs[0]["seconds"]["median"].get<double>()));
     CHECK(jobs[1]["ratio"].is_null());
@@ -88,23 +87,16 @@ TEST_CASE("strata bench --baseline prints old over new for equal jobs and names 
 
 TEST_CASE("a baseline's execution tiled is replay without fragment memory, and one without a memory had the usual") {
     const Folder folder;
-    const std::vector<std::string> unsorted{"--algorithm", "unsorted", "--json"};
-    const auto run = [&](std::vector<std::string> words) {
-        words.insert(words.end(), unsorted.begin(), unsorted.end());
-        return words;
-    };
-    auto with_file = run({});
-    with_file.push_back("old.json");
-    CHECK(bench(folder, with_file).status == 0);
+    CHECK(bench(folder, {"--algorithm", "unsorted", "-o", "old.json"}).status == 0);
     auto old = ordered_json::parse(content_of(folder / "old.json"));
     old["jobs"][0].erase("fragment_memory");
     for (const bool is_tiled : {false, true}) {
         if (is_tiled) old["jobs"][0]["execution"] = "tiled";
         CHECK(shell(folder, "cat > old.json <<'END'\n" + old.dump() + "\nEND").status == 0);
         for (const char* memory : {"0", "256M"}) {
-            auto words = run({"--baseline", "old.json", "--fragment-memory", memory});
-            words.emplace_back("-");
-            const auto job = ordered_json::parse(bench(folder, words).out).at("jobs")[0];
+            const Ended run = bench(
+                folder, {"--algorithm", "unsorted", "--json", "--baseline", "old.json", "--fragment-memory", memory});
+            const auto job = ordered_json::parse(run.out).at("jobs")[0];
             INFO("memory " << memory << ", tiled " << is_tiled);
             CHECK(job["ratio"].is_null() == ((memory[0] == '0') != is_tiled));
         }

@@ -122,3 +122,13 @@ TEST_CASE("every effect that can be timed has its time, whether it is simulated 
     }
     CHECK(row(plan, "culling").at("seconds").is_null());
 }
+
+TEST_CASE("with fewer than four runs no time of an effect and no ratio is a finding") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"bench", "volume-beam:slices=2", "--per-effect", "--size", "32x24",
+                                            "--repeat", "3", "--execution", "replay"});
+    CHECK(ended.status == 0);
+    CHECK(ended.out.find(" times as fast") == std::string::npos);
+    CHECK(ended.out.find("no difference beyond the noise (3 runs of each") != std::string::npos);
+    CHECK(ended.out.find(" noise  ") != std::string::npos);
+}

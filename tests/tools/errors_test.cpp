@@ -12,14 +12,6 @@ struct Wrong {
     std::string sentence;  // all of it, or where it ends in "..." its beginning
 };
 
-// render, layers ... or scenes
-std::string listed_commands() {
-    std::string listed;
-    for (const std::string& verb : commands())
-        listed += (listed.empty() ? "" : verb == commands().back() ? " or " : ", ") + verb;
-    return listed;
-}
-
 bool says(const std::string& err, const std::string& sentence) {
     if (sentence.ends_with("...")) return err.starts_with(sentence.substr(0, sentence.size() - 3));
     return err == sentence + "\n";
@@ -30,20 +22,20 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (" + listed_commands() + "), found 'rendr' (did you mean 'render'?)"},
+         "strata: strata has no command 'rendr' (did you mean 'render'?); strata --help lists them"},
         {{"render", "teapot", "--sise", "8x8"},
-         "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
-        {{"render", "teapot", "--sise=8x8"},
-         "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
+         "strata: strata render has no option '--sise' (did you mean '--size'?)"},
+        {{"render", "teapot", "--sise=8x8"}, "strata: strata render has no option '--sise' (did you mean '--size'?)"},
         {{"render", "teapot", "--size", "12by3"},
          "strata: --size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '12by3'"},
         {{"render", "teapot", "--size", "0x3"},
          "strata: --size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '0x3'"},
         {{"render", "teapot", "--size", "8x16385"},
          "strata: --size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '8x16385'"},
-        {{"render", "teapot", "--size"}, "strata: --size: expected one value, found none or several"},
+        {{"render", "teapot", "--size"}, "strata: --size needs one WIDTHxHEIGHT"},
         {{"render", "teapot", "--algorithm", "duel"},
-         "strata: --algorithm: expected names of algorithms (strata algorithms lists them) or all, found 'duel' (did "
+         "strata: --algorithm: expected names of algorithms (strata list algorithms shows them) or all, found 'duel' "
+         "(did "
          "you mean 'dual'?)"},
         {{"render", "teapot", "--profile", "geforce4"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
@@ -54,15 +46,15 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "teapot, volume-beam, random, planes, "
          "shadow-demo, showroom, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
-        {{"render", "teapot", "--depth", "d25"},
-         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found 'd25' (did you mean 'd24'?)"},
-        {{"render", "teapot", "--depth", "d\n24"},
-         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found 'd\\x0a24' (did you mean 'd24'?)"},
-        {{"render", "teapot", "--depth", "\xff\xc0\x80\x1b\xf4\x90\x80\x80\xed\xa0\x80\xc3\xa9\xe2\x82"},
-         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found "
+        {{"render", "teapot", "--depth-format", "d25"},
+         "strata: --depth-format: expected d16, d24, d32f, d16f or d24f, found 'd25' (did you mean 'd24'?)"},
+        {{"render", "teapot", "--depth-format", "d\n24"},
+         "strata: --depth-format: expected d16, d24, d32f, d16f or d24f, found 'd\\x0a24' (did you mean 'd24'?)"},
+        {{"render", "teapot", "--depth-format", "\xff\xc0\x80\x1b\xf4\x90\x80\x80\xed\xa0\x80\xc3\xa9\xe2\x82"},
+         "strata: --depth-format: expected d16, d24, d32f, d16f or d24f, found "
          "'\\xff\\xc0\\x80\\x1b\\xf4\\x90\\x80\\x80\\xed\\xa0\\x80\xc3\xa9\\xe2\\x82'"},
-        {{"render", "teapot", "--no-audit=-1"}, "strata: --no-audit: expected no value, found one"},
-        {{"scene", "teapot", "--json=nan"}, "strata: --json: expected no value, found one"},
+        {{"render", "teapot", "--no-audit=-1"}, "strata: --no-audit takes no value"},
+        {{"scene", "teapot", "--json=nan"}, "strata: --json takes no value"},
         {{"render", "teapot", "--tile", "33"},
          "strata: --tile: expected 8, 16, 32, 64 or 128, found '33' (did you mean '32'?)"},
         {{"render", "teapot", "--simd", "avx3"},
@@ -93,8 +85,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"bench", "teapot", "--execution", "replay,tile"},
          "strata: --execution: expected literal, replay or all, found 'tile'"},
         {{"bench", "teapot", "--execution", "replay,tiled"},
-         "strata: --execution: expected replay once, found it beside 'tiled', which is replay with --fragment-memory "
-         "0"},
+         "strata: --execution: 'tiled' and 'replay' exclude each other: tiled is replay with --fragment-memory 0"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
         {{"bench", "teapot", "--warm-up", "-1"}, "strata: --warm-up: expected seconds from 0 to 3600, found '-1'"},
         {{"bench", "teapot", "--warm-up=1e308"}, "strata: --warm-up: expected seconds from 0 to 3600, found '1e308'"},
@@ -129,31 +120,39 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "'planes'?)"},
         {{"reproduce", "carr2007", "-o", "page"},
          "strata: PAPER: expected carr2008, everitt2001 or bavoil2008, found 'carr2007' (did you mean 'carr2008'?)"},
-        {{"reproduce", "everitt2001"}, "strata: --output: expected one, found none; strata reproduce --help says more"},
-        {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"},
-         "strata: --orbit: expected either --orbit or --camera, found both"},
+        {{"reproduce", "everitt2001"}, "strata: --output is missing; strata reproduce --help says more"},
+        {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"}, "strata: --orbit excludes --camera"},
         {{"render", "teapot", "--camera", "top"},
          "strata: --camera: expected a .json file (the scene has no camera), found 'top'"},
         {{"render", "teapot", "--camera", "none.json"}, "strata: none.json: ..."},
         {{"render", "teapot", "-o", "out.jpg"},
          "strata: -o: expected a file that ends in .exr or .png, found 'out.jpg'"},
-        {{"render", "teapot", "-o", "nowhere/out.png"},
-         "strata: -o: expected a file in a folder that exists, found 'nowhere/out.png'"},
-        {{"render"}, "strata: SCENE: expected one, found none; strata render --help says more"},
-        {{"render", "teapot", "bunny"}, "strata: strata render: expected no further argument, found 'bunny'"},
-        {{"render", "none.glb"}, "strata: none.glb: ..."},
-        {{"digest", "none.exr"}, "strata: none.exr: ..."},
+        {{"render", "teapot", "-o", "nowhere/out.png"}, "strata: -o: there is no folder nowhere"},
+        {{"render"}, "strata: SCENE is missing; strata render --help says more"},
+        {{"render", "teapot", "bunny"}, "strata: strata render has no use for the argument 'bunny'"},
+        {{"render", "none.glb"}, "strata: none.glb: no such file"},
+        {{"digest", "none.exr"}, "strata: none.exr: no such file"},
         {{"layers", "teapot"}, "strata: ..."},
-        {{"layers", "teapot", "-o", "x.exr", "--deep", "x.exr"},
-         "strata: --deep: expected another file than that of -o, found 'x.exr'"},
+        {{"layers", "teapot", "-o", "x.exr", "--deep", "x.exr"}, "strata: --deep: 'x.exr' is the file of -o already"},
         {{"layers", "teapot", "-o", "x.exr", "--deep", "./x.exr"},
-         "strata: --deep: expected another file than that of -o, found './x.exr'"},
-        {{"render", "teapot", "-o", ""}, "strata: -o: expected a file name or -, found ''"},
-        {{"layers", "teapot", "--deep", ""}, "strata: --deep: expected a file name, found ''"},
-        {{"render", "teapot", "--stats", ""}, "strata: --stats: expected a file name or -, found ''"},
-        {{"render", "teapot", "--camera", ""}, "strata: --camera: expected a camera's name or file, found ''"},
-        {{"bench", "teapot", "--json", ""}, "strata: --json: expected a file name or -, found ''"},
-        {{"invariance", "teapot", "-o", ""}, "strata: -o: expected a folder, found ''"},
+         "strata: --deep: './x.exr' is the file of -o already"},
+        {{"render", "teapot", "-o", ""}, "strata: -o needs a file name or -"},
+        {{"layers", "teapot", "--deep", ""}, "strata: --deep needs a file name"},
+        {{"render", "teapot", "--stats", ""}, "strata: --stats needs a file name or -"},
+        {{"render", "teapot", "--camera", ""}, "strata: --camera needs a camera's name or file"},
+        {{"bench", "teapot", "-o", ""}, "strata: -o needs a file name"},
+        {{"bench", "teapot", "--per-effect", "-o", "x.json"},
+         "strata: --per-effect goes with neither -o nor --baseline"},
+        {{"diagnose", "teapot"}, "strata: CANDIDATE is missing; strata diagnose --help says more"},
+        {{"diagnose", "teapot", "a.png", "--suite"}, "strata: --suite goes with --list alone"},
+        {{"list"}, "strata: WHAT is missing; strata list --help says more"},
+        {{"list", "profile"},
+         "strata: WHAT: expected algorithms, profiles or scenes, found 'profile' (did you mean 'profiles'?)"},
+        {{"list", "scenes", "teapt"},
+         "strata: NAME: expected a built-in scene (teapot, volume-beam, random, planes, "
+         "shadow-demo, showroom or hard), found 'teapt' (did you mean 'teapot'?)"},
+        {{"invariance", "teapot"}, "strata: -o is missing: the folder for the results"},
+        {{"invariance", "teapot", "-o", ""}, "strata: -o needs a folder"},
         {{"profiles", "ideel"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
          "softpipe, or a JSON file, found "
@@ -170,7 +169,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
     CHECK(folder.files().empty());
 }
 
-TEST_CASE("two outputs that are one file through a linked folder are refused; a link to a file gives way to a file") {
+TEST_CASE(
+    "two outputs that are one file through a linked folder are refused, and a link to a file gives way to a file") {
     const Folder folder;
     std::filesystem::create_directory(folder / "real");
     std::filesystem::create_directory_symlink("real", folder / "linked");
@@ -183,7 +183,7 @@ TEST_CASE("two outputs that are one file through a linked folder are refused; a 
     };
     const Ended same = with("linked/x.exr");
     CHECK(same.status == 2);
-    CHECK(same.err == "strata: --deep: expected another file than that of -o, found 'linked/x.exr'\n");
+    CHECK(same.err == "strata: --deep: 'linked/x.exr' is the file of -o already\n");
     CHECK(std::filesystem::is_empty(folder / "real"));
     std::filesystem::create_symlink("x.exr", folder / "real/y.exr");
     CHECK(with("linked/y.exr").status == 0);

@@ -9,10 +9,10 @@ using Catch::Contains;
 
 TEST_CASE("a pack checks, is a scene of every command, and its state stands for options that are not given") {
     const Folder folder;
-    REQUIRE(
-        run_strata(folder, {"golden", "teapot:tessellation=3", "--size", "20x16", "--algorithm", "dual,front_to_back",
-                            "--depth", "d24", "--background", "0.2,0.4,0.6", "--colour", "linear", "-o", "pack"})
-            .status == 0);
+    REQUIRE(run_strata(folder, {"golden", "teapot:tessellation=3", "--size", "20x16", "--algorithm",
+                                "dual,front_to_back", "--depth-format", "d24", "--background", "0.2,0.4,0.6",
+                                "--color-space", "linear", "-o", "pack"})
+                .status == 0);
     const Ended check = run_strata(folder, {"golden", "--check", "pack"});
     CHECK(check.status == 0);
     CHECK(check.out == "pack: every file is what this program derives\n");
@@ -22,11 +22,11 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
         CHECK((is_missing || again.status == 0));
         if (simd == "scalar") CHECK_FALSE(is_missing);
     }
-    REQUIRE(
-        shell(folder,
-              "strata render teapot:tessellation=3 --size 20x16 --algorithm dual --depth d24 --background 0.2,0.4,0.6 "
-              "--colour linear -o scene.png && strata render pack --algorithm dual -o pack.png")
-            .status == 0);
+    REQUIRE(shell(folder,
+                  "strata render teapot:tessellation=3 --size 20x16 --algorithm dual --depth-format d24 --background "
+                  "0.2,0.4,0.6 "
+                  "--color-space linear -o scene.png && strata render pack --algorithm dual -o pack.png")
+                .status == 0);
     CHECK(run_strata(folder, {"compare", "scene.png", "pack.png"}).status == 0);
     CHECK(run_strata(folder, {"compare", "pack", "pack.png", "--algorithm", "dual"}).status == 1);  // PNG is encoded
     CHECK(shell(folder,
@@ -59,9 +59,9 @@ TEST_CASE("golden says what it cannot do, and which byte of a pack has changed")
         CHECK(ended.status == 2);
         CHECK_THAT(ended.err, Contains(sentence));
     };
-    fails({"golden"}, "strata: SCENE: expected a scene, or --check PACK, found none");
-    fails({"golden", "teapot"}, "strata: -o: expected a folder for the pack, found none");
-    fails({"golden", "teapot", "--check", "x"}, "strata: --check: expected a pack alone, found a scene beside it");
+    fails({"golden"}, "strata: SCENE is missing; --check PACK needs none");
+    fails({"golden", "teapot"}, "strata: -o is missing: the folder for the pack");
+    fails({"golden", "teapot", "--check", "x"}, "strata: --check takes no scene: the pack holds it");
     fails({"golden", "--check", "none"}, "none/manifest.json");
     fails({"golden", "teapot", "--profile", "geforce3", "--algorithm", "dual", "-o", "p"},
           "strata: dual: profile geforce3");
@@ -95,4 +95,19 @@ TEST_CASE("reversed depth and clip space from 0 to 1 are options of every pictur
                   "strata render teapot --size 24x18 --algorithm dual -o usual.exr")
                 .status == 0);
     CHECK(run_strata(folder, {"compare", "back.exr", "usual.exr", "--tolerance", "depth=4"}).status == 0);
+}
+
+TEST_CASE("golden and probe end with a word of what they wrote, but for -q") {
+    const Folder folder;
+    const Ended pack = shell(folder, "strata golden planes:count=2 --size 8x8 --algorithm dual,unsorted -o pack");
+    CHECK(pack.status == 0);
+    const std::string files = lines_of(shell(folder, "find pack -type f | wc -l").out).at(0);
+    CHECK(pack.out.starts_with("pack: " + files + " files, "));
+    CHECK(pack.out.find(" of 2 algorithms") != std::string::npos);
+    CHECK(shell(folder, "strata golden planes:count=2 --size 8x8 --algorithm dual -q -o quiet").out.empty());
+    const Ended kit = shell(folder, "strata probe -o kit");
+    CHECK(kit.status == 0);
+    CHECK(kit.out.starts_with("kit: kit.json and probe.html, "));
+    const Ended answers = shell(folder, "strata probe --profile geforce8 --unseen 1 -o answers");
+    CHECK(answers.out.starts_with("answers: the answers of geforce8 to "));
 }

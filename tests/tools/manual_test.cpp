@@ -96,7 +96,7 @@ TEST_CASE("bash completes commands, options, choices and scenes") {
     };
     CHECK(completed("strata rend") == "render\n");
     CHECK(completed("strata render --depth-p") == "--depth-path\n");
-    CHECK(completed("strata render --depth d2") == "d24 d24f\n");
+    CHECK(completed("strata render --depth-format d2") == "d24 d24f\n");
     CHECK(completed("strata render --algorithm dual_") == "dual_independent\n");
     CHECK(completed("strata render tea") == "teapot\n");
 }
@@ -128,8 +128,13 @@ TEST_CASE("a picture of another program has no command to tell") {
                                  0x55, 0,    0,    0,    0,    'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     std::ofstream(folder / "other.png", std::ios::binary).write(reinterpret_cast<const char*>(png), sizeof png);
     const Ended ended = run_strata(folder, {"info", "other.png"});
-    CHECK(ended.status == 2);
-    CHECK(ended.err.find("other.png: strata:command: expected a picture that strata wrote") != std::string::npos);
+    CHECK(ended.status == 0);
+    REQUIRE(lines_of(ended.out).size() == 3);
+    CHECK(lines_of(ended.out)[0] == "no command of strata in it");
+    CHECK(lines_of(ended.out)[2].find("1x1") != std::string::npos);
+    const Ended from = run_strata(folder, {"render", "--from", "other.png", "-o", "copy.png"});
+    CHECK(from.status == 2);
+    CHECK(from.err.find("other.png: strata:command: expected a picture that strata wrote") != std::string::npos);
 }
 
 TEST_CASE("an expected digest that no file has ends with status 1") {
@@ -140,7 +145,7 @@ TEST_CASE("an expected digest that no file has ends with status 1") {
     const std::string other = (digest[0] == '0' ? "1" : "0") + digest.substr(1);
     const Ended ended = run_strata(folder, {"digest", "--expect", other, "a.png"});
     CHECK(ended.status == 1);
-    CHECK(ended.err == "strata: --expect: expected " + other + ", found no such digest\n");
+    CHECK(ended.err == "strata: --expect: no target has the digest " + other + "\n");
     CHECK(run_strata(folder, {"digest", "--expect", "zz", "a.png"}).status == 2);
 }
 

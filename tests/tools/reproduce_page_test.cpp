@@ -60,18 +60,20 @@ TEST_CASE("a page holds its sections in order, their tables and pictures, and ev
     const Section first{
         "A < B & C", "text", {"numbers", {"x", "y > 0"}, {{"1", "a<b"}, {"2", "&"}}}, {{"p.png", "caption & more"}}},
         second{"Second", "no table", {}, {}};
-    const std::string page = page_with(folder, {"Title <1>", {first, second}});
+    const std::string page = page_with(folder, {"Title <1>", "Shows <all>", "https://paper", {first, second}});
     CHECK(page.starts_with("<!doctype html>"));
     CHECK(page.ends_with("</body></html>\n"));
+    CHECK(page.find("<p><a href=\"https://paper\">the paper</a></p>") != std::string::npos);
+    CHECK(page.find("<p class=\"lead\">Shows &lt;all></p>") < page.find("<h2>A"));
     CHECK(page.find("<title>Title &lt;1") != std::string::npos);
     CHECK(page.find("<h1>Title &lt;1") != std::string::npos);
     CHECK(page.find("<h2>A &lt; B &amp; C</h2>\n<p>text</p>") != std::string::npos);
-    CHECK(page.find("<tr><td>1</td><td>a&lt;b</td></tr>\n<tr><td>2</td><td>&amp;</td></tr>\n</table>") !=
+    CHECK(page.find("<tr><td>1</td><td>a&lt;b</td></tr>\n<tr><td>2</td><td>&amp;</td></tr>\n</tbody></table>") !=
           std::string::npos);
     CHECK(page.find("<a href=\"numbers.csv\">numbers.csv</a>") != std::string::npos);
     CHECK(page.find("<img src=\"p.png\" alt=\"caption &amp; more\"><figcaption>caption &amp; more</figcaption>") !=
           std::string::npos);
-    CHECK(count_of(page, "<table>") == 1);
+    CHECK(count_of(page, "<table class=\"sorts\">") == 1);
     CHECK(page.find("<h2>A") < page.find("<h2>Second"));
     CHECK(folder.files() == std::vector<std::string>{"index.html", "numbers.csv"});
 }
@@ -95,11 +97,11 @@ TEST_CASE(
 TEST_CASE("a table's file quotes fields with commas, quotes or ends of lines, and no others") {
     const Folder folder;
     const Sheet sheet{"t", {"plain", "with, comma"}, {{"say \"x\"", "two\nlines"}, {"", "a;b 'c'"}}};
-    static_cast<void>(page_with(folder, {"", {{"", "", sheet, {}}}}));
+    static_cast<void>(page_with(folder, {"", "", "", {{"", "", sheet, {}}}}));
     CHECK(content_of(folder / "t.csv") == "plain,\"with, comma\"\n\"say \"\"x\"\"\",\"two\nlines\"\n,a;b 'c'\n");
 }
 
-TEST_CASE("pictures differ by their largest channel at each pixel; alpha does not count") {
+TEST_CASE("pictures differ by their largest channel at each pixel, and alpha does not count") {
     const Image a = greys({10, 20, 30, 40});
     Image b = a;
     const auto is = [&](double largest, double mean, std::uint64_t pixels) {

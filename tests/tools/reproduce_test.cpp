@@ -14,7 +14,8 @@ namespace {
 std::vector<std::string> linked(const std::string& page) {
     const std::regex link{"(?:src|href)=\"([^\"]+)\""};
     std::vector<std::string> files;
-    for (std::sregex_iterator at{page.begin(), page.end(), link}, end; at != end; ++at) files.push_back((*at)[1]);
+    for (std::sregex_iterator at{page.begin(), page.end(), link}, end; at != end; ++at)
+        if (!(*at)[1].str().starts_with("https://")) files.push_back((*at)[1]);
     return files;
 }
 

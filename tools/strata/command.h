@@ -20,12 +20,10 @@ struct Command {
 [[nodiscard]] Command add_explain(CLI::App& root);
 [[nodiscard]] Command add_report(CLI::App& root);
 [[nodiscard]] Command add_diagnose(CLI::App& root);
-[[nodiscard]] Command add_mistakes(CLI::App& root);
 [[nodiscard]] Command add_reduce(CLI::App& root);
 [[nodiscard]] Command add_probe(CLI::App& root);
 [[nodiscard]] Command add_infer(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
-[[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_cost(CLI::App& root);
 [[nodiscard]] Command add_invariance(CLI::App& root);
 [[nodiscard]] Command add_golden(CLI::App& root);
@@ -33,11 +31,8 @@ struct Command {
 [[nodiscard]] Command add_hardware_check(CLI::App& root);
 [[nodiscard]] Command add_reproduce(CLI::App& root);
 [[nodiscard]] Command add_scene(CLI::App& root);
-[[nodiscard]] Command add_digest(CLI::App& root);
 [[nodiscard]] Command add_compare(CLI::App& root);
-[[nodiscard]] Command add_algorithms(CLI::App& root);
-[[nodiscard]] Command add_profiles(CLI::App& root);
-[[nodiscard]] Command add_scenes(CLI::App& root);
+[[nodiscard]] Command add_list(CLI::App& root);
 [[nodiscard]] Command add_info(CLI::App& root);
 [[nodiscard]] Command add_help(CLI::App& root);
 [[nodiscard]] Command add_man(CLI::App& root);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "peeling/render.h"
@@ -63,6 +64,16 @@ oracle::Golden golden_of(RunOptions& options) {
     return golden;
 }
 
+// "pack: 41 files, 212 KiB, of 2 algorithms".
+void say_written(const std::string& folder, const std::string& what) {
+    if (is_quiet()) return;
+    std::uintmax_t files = 0, bytes = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) ++files, bytes += entry.file_size();
+    print(fmt::format("{}: {} files, {} KiB, of {}; strata compare {} FOLDER holds a port's pictures against it\n",
+                      folder, files, (bytes + 1023) / 1024, what, folder));
+}
+
 // The whole suite, or the scene of it that is named.
 int write_suite(const GoldenOptions& options) {
     std::vector<const oracle::SuiteScene*> scenes;
@@ -70,11 +81,12 @@ int write_suite(const GoldenOptions& options) {
         if (options.run.scene.empty() || scene.name == options.run.scene) scenes.push_back(&scene);
     if (scenes.empty())
         throw CLI::ValidationError(
-            "SCENE",
-            "expected a scene of the suite (strata mistakes --suite lists them), found '" + options.run.scene + "'");
+            "SCENE", "expected a scene of the suite (strata diagnose --list --suite shows them), found '" +
+                         options.run.scene + "'");
     Progress bar("scenes of the suite");
     oracle::write_suite(
         options.run.output, scenes, [&](double share) { bar.show(share); }, options.copies());
+    say_written(options.run.output, fmt::format("{} scene{}", scenes.size(), scenes.size() == 1 ? "" : "s"));
     return 0;
 }
 
@@ -82,24 +94,25 @@ int write_suite(const GoldenOptions& options) {
 void check_alone(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options())
         if (const std::string name = option->get_name();
-            option->count() > 0 && name != "--suite" && name != "--exr" && name != "-o" && name != "SCENE")
+            option->count() > 0 && name != "--suite" && name != "--exr" && name != "--output" && name != "SCENE")
             throw CLI::ValidationError("--suite", "expected a folder for it alone, found " + name);
 }
 
 int golden(GoldenOptions& options) {
     if (!options.check.empty()) {
-        if (!options.run.scene.empty())
-            throw CLI::ValidationError("--check", "expected a pack alone, found a scene beside it");
+        if (!options.run.scene.empty()) throw CLI::ValidationError("--check takes no scene: the pack holds it");
         return check(options.check, options.run.simd);
     }
     if (options.run.scene.empty() && !options.suite)
-        throw CLI::ValidationError("SCENE", "expected a scene, or --check PACK, found none");
-    if (options.run.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the pack, found none");
+        throw CLI::ValidationError("SCENE is missing; --check PACK needs none");
+    if (options.run.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
     if (options.suite) return write_suite(options);
     complete(options.run);
     const oracle::Golden made = golden_of(options.run);
     if (made.algorithms.empty()) return 2;
     oracle::write_pack(made, options.run.output, options.copies());
+    say_written(options.run.output,
+                fmt::format("{} algorithm{}", made.algorithms.size(), made.algorithms.size() == 1 ? "" : "s"));
     return 0;
 }
 
@@ -112,14 +125,14 @@ Command add_golden(CLI::App& root) {
     add_picture_options(*app, options->run);
     app->get_option("SCENE")->required(false);
     add_path(*app, options->run.output,
-             {"-o", "PACK", "the folder to write; it must not exist or be empty", "a folder's name"});
+             {"-o,--output", "PACK", "the folder to write; it must not exist or be empty", "a folder's name"});
     add_path(
         *app, options->check,
         {"--check", "PACK", "derive a pack, or a suite of them, again, and name what differs", "a folder with a pack"});
     app->add_flag(
         "--suite", options->suite,
         "write the standard set: small scenes in which every known mistake shows; SCENE may name one of them");
-    app->add_flag("--exr", options->exr, "beside the arrays, EXR files of the picture, the layers and every pass");
+    app->add_flag("--exr", options->exr, "next to the arrays, EXR files of the picture, the layers and every pass");
     add_choice(*app, options->run.simd, "--simd", simds,
                "instruction set; same bits (default best: what the processor has)");
     app->footer(

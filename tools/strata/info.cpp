@@ -1,13 +1,17 @@
-// tools/strata/info.cpp - strata info: what a picture says of itself, first of all the command that made it.
+// tools/strata/info.cpp - strata info: what a picture says of itself, first of all the command that made it, and its digests.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/picture_attributes.h"
 #include "tools/strata/command.h"
+#include "tools/strata/digests.h"
+#include "tools/strata/messages.h"
+#include "tools/strata/options/option.h"
 #include "tools/strata/options/parse.h"
 #include "tools/strata/options/printable.h"
 #include "tools/strata/recorded_command.h"
@@ -17,9 +21,11 @@ namespace strata::tools {
 
 namespace {
 
+// The command line.
 struct InfoOptions {
-    std::string file;
-    bool json = false;
+    std::vector<std::string> files;
+    std::string expected;  // a digest
+    bool json = false, digests = false, channels = false;
 };
 
 std::string recorded(const std::string& file) {
@@ -30,18 +36,59 @@ std::string recorded(const std::string& file) {
     return found->second;
 }
 
-int info(const InfoOptions& options) {
-    const std::string command = recorded(options.file);  // first: a picture of another program is refused
-    const scenes::Attributes attributes = scenes::read_attributes(options.file);
-    if (options.json) {
-        const nlohmann::ordered_json document = attributes;
-        print(document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
-        return 0;
-    }
-    print(printable(command) + "\n");
+std::optional<std::string> to_digest(std::string_view text) {
+    const bool is_digest = text.size() == 32 && std::all_of(text.begin(), text.end(), [](char c) {
+                               return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+                           });
+    return is_digest ? std::optional(std::string(text)) : std::nullopt;
+}
+
+// The command that made the picture and what else fits a line; a picture of another program says nothing of the kind.
+std::string said_by(const std::string& file) {
+    const scenes::Attributes attributes = scenes::read_attributes(file);
+    const auto command = attributes.find("command");
+    if (command == attributes.end()) return "no command of strata in it\n";
+    std::string text = printable(command->second) + "\n";
     for (const auto& [key, value] : attributes)
-        if (key != "command" && value.size() <= 64) print(fmt::format("{}: {}\n", printable(key), printable(value)));
-    return 0;
+        if (key != "command" && value.size() <= 64) text += fmt::format("{}: {}\n", printable(key), printable(value));
+    return text;
+}
+
+// A file that says nothing of itself because it cannot be read has a sentence from the digests.
+std::string text_of(const InfoOptions& options, const FileDigests& digests) {
+    std::string text;
+    for (const std::string& file : options.files) {
+        if (std::ranges::none_of(digests.table.rows, [&](const auto& row) { return row.back() == file; })) continue;
+        text += (options.files.size() > 1 ? printable(file) + ":\n" : "") + said_by(file);
+    }
+    return text;
+}
+
+nlohmann::ordered_json document_of(const InfoOptions& options, const FileDigests& digests) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::array();
+    for (const std::string& file : options.files) {
+        nlohmann::ordered_json targets = nlohmann::ordered_json::array();
+        for (const auto& target : digests.document)
+            if (target["file"] == file) targets.push_back(target);
+        if (targets.empty()) continue;
+        document.push_back({{"file", file}, {"attributes", scenes::read_attributes(file)}, {"targets", targets}});
+    }
+    return document;
+}
+
+int info(const InfoOptions& options) {
+    const FileDigests digests = digests_of_files(options.files, options.channels);
+    if (options.json) {
+        const nlohmann::ordered_json document = options.digests ? digests.document : document_of(options, digests);
+        print(document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+    } else if (!digests.table.rows.empty()) {
+        print((options.digests ? "" : text_of(options, digests)) + titled(to_text(digests.table)));
+    }
+    if (!digests.all_read) return 2;
+    const auto is_expected = [&](const auto& row) { return row.front() == options.expected; };
+    if (options.expected.empty() || std::ranges::any_of(digests.table.rows, is_expected)) return 0;
+    say_error("--expect: no target has the digest " + options.expected);
+    return 1;
 }
 
 }  // namespace
@@ -80,17 +127,26 @@ void add_from_option(CLI::App& app) {
            [](const std::string& file) {
                throw CLI::ValidationError("--from", "expected a picture's name, found '" + file + "'");
            },
-           "run the command that made this picture again (strata info tells it)")
+           "run the command that made this picture again (strata info shows it)")
         ->type_name("FILE");
 }
 
 Command add_info(CLI::App& root) {
-    auto* app = root.add_subcommand("info", "tell which command made a picture; render --from FILE runs it again");
+    auto* app =
+        root.add_subcommand("info", "show which command made a picture, and its digests: equal strings, equal bits");
     const auto options = std::make_shared<InfoOptions>();
-    app->add_option("FILE", options->file, "an .exr or .png file that strata wrote")->required()->type_name("");
-    app->add_flag("--json", options->json, "all that it says: camera and profile, too");
+    app->add_option("FILE", options->files, ".exr and .png files; render --from FILE runs its command again")
+        ->required()
+        ->type_name("...");
+    app->add_flag("--digests", options->digests, "the digests alone, also of pictures that other programs made");
+    app->add_flag("--channels", options->channels, "a digest a channel instead of one a target");
+    add_option(*app, options->expected,
+               {"--expect", "DIGEST", "exit status 1 unless a target has this digest", "32 hexadecimal digits"},
+               to_digest);
+    app->add_flag("--json", options->json, "one JSON document with all that it says: camera and profile, too");
     app->footer(footer(
         "  strata render teapot --size 64x64 -o teapot.png && strata info teapot.png\n"
+        "  strata render teapot --size 64x64 -o teapot.exr && strata info --digests --channels teapot.exr\n"
         "  strata render teapot --size 64x64 -o a.png && strata render --from a.png -o b.png && cmp a.png b.png\n"));
     return {app, [options] { return info(*options); }};
 }

@@ -1,12 +1,17 @@
-// tools/strata/lists.cpp - strata algorithms, profiles, scenes: what there is to choose from.
+// tools/strata/lists.cpp - strata list: the algorithms, profiles and scenes that there are to choose from.
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "peeling/registry.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/scene.h"
 #include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
 #include "tools/strata/options/options.h"
+#include "tools/strata/papers.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -15,11 +20,42 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The command line of a list; `name` is given to `profiles` alone.
+enum class Listed : std::uint8_t { algorithms, profiles, scenes };
+
+// The command line; of an empty name all are listed.
 struct ListOptions {
+    Listed what = Listed::algorithms;
+    std::string name;
     bool json = false;
-    std::string name;  // profiles alone
 };
+
+// Where a paper is to be had.
+struct PaperLink {
+    std::string_view paper, link;
+};
+constexpr std::array paper_links{PaperLink{"Everitt 2001", everitt_2001_link},
+                                 PaperLink{"Bavoil and Myers 2008", bavoil_2008_link},
+                                 PaperLink{"Carr, Mech and Miller 2008", carr_2008_link}};
+
+std::string link_of(const std::string& paper) {
+    const auto found = std::ranges::find(paper_links, paper, &PaperLink::paper);
+    return found == paper_links.end() ? "" : std::string(found->link);
+}
+
+// Of those whose name is asked for: that one. `field` is the name's.
+template <class Range, class Name>
+auto chosen(const Range& all, const ListOptions& options, const std::string& what, Name name_of_one) {
+    std::vector<std::ranges::range_value_t<Range>> found;
+    std::vector<std::string> names;
+    for (const auto& one : all) {
+        names.push_back(name_of_one(one));
+        if (options.name.empty() || options.name == names.back()) found.push_back(one);
+    }
+    if (found.empty())
+        throw CLI::ValidationError(
+            "NAME", "expected " + what + " (" + one_of(names) + "), found " + found_but_near(options.name, names));
+    return found;
+}
 
 // Built-in profiles that do not refuse the algorithm.
 std::vector<std::string> profiles_that_run(const peeling::Algorithm& algorithm) {
@@ -51,11 +87,14 @@ int list_algorithms(const ListOptions& options) {
     ordered_json document = ordered_json::array();
     Table table{{{"algorithm"}, {"geometry passes"}, {"ties"}, {"exact"}, {"profiles"}, {"paper"}}, {}};
     Table summaries{{{"algorithm"}, {"what it does"}}, {}};
-    for (const peeling::Algorithm& a : peeling::algorithms()) {
+    std::set<std::string> links;
+    for (const peeling::Algorithm& a :
+         chosen(peeling::algorithms(), options, "an algorithm", [](const auto& one) { return one.name; })) {
         const auto profiles = profiles_that_run(a);
         document.push_back({{"name", a.name},
                             {"paper", a.paper},
                             {"section", a.section},
+                            {"link", link_of(a.paper)},
                             {"summary", a.summary},
                             {"needs", needs_of(a)},
                             {"pass_formula", a.pass_formula},
@@ -72,22 +111,28 @@ int list_algorithms(const ListOptions& options) {
         table.rows.push_back(
             {a.name, a.pass_formula, std::string(peeling::name(a.ties)), a.exact ? "yes" : "no", where, paper});
         summaries.rows.push_back({a.name, a.summary});
+        if (const std::string link = link_of(a.paper); !link.empty()) links.insert(a.paper + ": " + link);
     }
-    print(options.json ? document.dump(2) + '\n' : titled(to_text(table)) + '\n' + to_text(summaries));
+    std::string papers;
+    for (const std::string& link : links) papers += link + '\n';
+    print(options.json ? document.dump(2) + '\n'
+                       : titled(to_text(table)) + '\n' + to_text(summaries) + (papers.empty() ? "" : "\n" + papers));
     return 0;
 }
 
 int list_scenes(const ListOptions& options) {
     ordered_json document = ordered_json::array();
     Table table{{{"scene"}, {"what it is"}}, {}};
-    for (const auto& scene : scenes::procedural_scenes()) {
+    for (const auto& scene :
+         chosen(scenes::procedural_scenes(), options, "a built-in scene", [](const auto& one) { return one.name; })) {
         document.push_back(
             {{"name", scene.name}, {"parameters", scene.parameters}, {"description", scene.description}});
         table.rows.push_back(
             {scene.parameters.empty() ? scene.name : scene.name + ":" + scene.parameters, scene.description});
     }
-    print(options.json ? document.dump(2) + '\n'
-                       : titled(to_text(table)) + "Every .gltf and .glb file is a scene, too.\n");
+    print(options.json
+              ? document.dump(2) + '\n'
+              : titled(to_text(table)) + (options.name.empty() ? "Every .gltf and .glb file is a scene, too.\n" : ""));
     return 0;
 }
 
@@ -98,12 +143,13 @@ int list_profiles(const ListOptions& options) {
         document.push_back(ordered_json::parse(scenes::to_json(profile)));
         table.rows.push_back({profile.name, profile.description});
     }
-    print(options.json ? document.dump(2) + '\n'
-                       : titled(to_text(table)) + "strata profiles NAME prints its numbers and where each is from.\n");
+    print(options.json
+              ? document.dump(2) + '\n'
+              : titled(to_text(table)) + "strata list profiles NAME prints its numbers and where each is from.\n");
     return 0;
 }
 
-// Every number with its source: S specified, M measured, A assumed; then the page and section of the book.
+// Every number with its source.
 int show_profile(const ListOptions& options) {
     const pipeline::DeviceProfile profile = scenes::load_profile(options.name);
     if (options.json) {
@@ -114,52 +160,43 @@ int show_profile(const ListOptions& options) {
     }
     Table table{{{"key"}, {"value"}, {"source"}}, {}};
     for (const auto& entry : pipeline::describe(profile)) table.rows.push_back({entry.key, entry.value, entry.source});
-    print(profile.name + ": " + profile.description + "\n\n" + titled(to_text(table)));
+    print(
+        profile.name + ": " + profile.description + "\n\n" + titled(to_text(table)) +
+        "[S]: specified by a standard or the vendor. [M]: measured on the device. [A]: assumed, for nothing says it.\n"
+        "Behind it stands where that is written: a page of rasterizer/reference or pipeline/reference and its "
+        "section.\n");
     return 0;
 }
 
-// A listing subcommand: its words, and what runs.
-struct List {
-    std::string name, help, json_help, examples;
-    int (*run)(const ListOptions&);
-};
-
-Command add_list(CLI::App& root, const std::shared_ptr<ListOptions>& options, const List& list) {
-    auto* app = root.add_subcommand(list.name, list.help);
-    app->add_flag("--json", options->json, list.json_help);
-    app->footer(footer(list.examples));
-    return {app, [options, run = list.run] { return run(*options); }};
+int list(const ListOptions& options) {
+    switch (options.what) {
+        case Listed::algorithms: return list_algorithms(options);
+        case Listed::profiles: return options.name.empty() ? list_profiles(options) : show_profile(options);
+        case Listed::scenes: return list_scenes(options);
+    }
+    return 0;  // unreachable: the enum is closed
 }
-
-int list_or_show_profiles(const ListOptions& options) {
-    return options.name.empty() ? list_profiles(options) : show_profile(options);
-}
-
-constexpr auto json_instead = "one JSON document instead of the table";
 
 }  // namespace
 
-Command add_algorithms(CLI::App& root) {
-    return add_list(root, std::make_shared<ListOptions>(),
-                    {"algorithms", "list the algorithms: paper, passes, ties, and which profiles run them",
-                     json_instead, "  strata algorithms\n  strata algorithms --json\n", list_algorithms});
-}
-
-Command add_scenes(CLI::App& root) {
-    return add_list(
-        root, std::make_shared<ListOptions>(),
-        {"scenes", "list the built-in scenes", json_instead, "  strata scenes\n  strata scenes --json\n", list_scenes});
-}
-
-Command add_profiles(CLI::App& root) {
+Command add_list(CLI::App& root) {
+    auto* app = root.add_subcommand(
+        "list", "list the algorithms, emulated devices (profiles) or built-in scenes, or show one of them");
     const auto options = std::make_shared<ListOptions>();
-    const Command command = add_list(
-        root, options,
-        {"profiles", "list the emulated devices, or show the numbers of one and where each is from",
-         "JSON instead of the table; of one profile, what --profile FILE.json takes",
-         "  strata profiles\n  strata profiles geforce3\n  strata profiles --json ideal\n", list_or_show_profiles});
-    command.app->add_option("NAME", options->name, "a built-in profile, or a JSON file with one")->type_name("");
-    return command;
+    const std::vector<Choice<Listed>> choices{
+        {"algorithms", Listed::algorithms}, {"profiles", Listed::profiles}, {"scenes", Listed::scenes}};
+    add_choice(
+        *app, options->what, "WHAT", choices,
+        "algorithms: paper, passes, ties, and which profiles run them; profiles: each number of one, and where it "
+        "is from; scenes: their parameters")
+        ->required()
+        ->type_name("");
+    app->add_option("NAME", options->name, "show this one alone; a profile may be a JSON file")->type_name("");
+    app->add_flag("--json", options->json,
+                  "one JSON document instead of the table; of one profile, what --profile FILE.json takes");
+    app->footer(
+        footer("  strata list algorithms\n  strata list profiles geforce3\n  strata list scenes teapot --json\n"));
+    return {app, [options] { return list(*options); }};
 }
 
 }  // namespace strata::tools

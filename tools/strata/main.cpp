@@ -21,6 +21,7 @@
 #include "tools/strata/manual/manual.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/old_words.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 
@@ -49,7 +50,7 @@ using Clock = std::chrono::steady_clock;
 int fail_of(const std::vector<std::string>& sentences) {
     constexpr std::size_t most = 20;
     for (std::size_t i = 0; i < std::min(sentences.size(), most); ++i) say_error(sentences[i]);
-    if (sentences.size() > most) say_error(std::to_string(sentences.size() - most) + " more faults are not told");
+    if (sentences.size() > most) say_error(std::to_string(sentences.size() - most) + " more faults are not shown");
     return bad_input;
 }
 
@@ -77,33 +78,42 @@ std::vector<std::string> options_of(const CLI::App& app) {
     return names;
 }
 
+std::string unknown_command(const std::string& word, CLI::App& root) {
+    return "strata has no command " + found_but_near(word, names_of(root)) + "; strata --help lists them";
+}
+
 // The subcommand that was named, or the root if none was.
 CLI::App& parsed_app(CLI::App& root) {
     const auto subcommands = root.get_subcommands();
     return subcommands.empty() ? root : *subcommands.front();
 }
 
-// CLI11's own words, in the house's form. What our validators say has that form already.
+// "a word", "FILE.html": what an option's value is called in --help.
+std::string value_of(const CLI::App& app, const std::string& name) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    const std::string type = option == nullptr ? "" : option->get_type_name();
+    return type.empty() || type.size() > 40 ? "one value" : "one " + type;
+}
+
+// CLI11's own words, in plain ones. What our validators say is plain already.
 std::string sentence(const CLI::ParseError& error, CLI::App& root) {
     const CLI::App& app = parsed_app(root);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         const std::string extra = root.remaining(true).front();
-        if (!extra.starts_with('-') && &app == &root)
-            return "expected a command, found " + found_but_near(extra, names_of(root));
-        if (!extra.starts_with('-'))
-            return "strata " + app.get_name() + ": expected no further argument, found '" + extra + "'";
+        if (!extra.starts_with('-') && &app == &root) return unknown_command(extra, root);
+        if (!extra.starts_with('-')) return "strata " + app.get_name() + " has no use for the argument '" + extra + "'";
         const std::string option = extra.substr(0, extra.find('='));
-        return "expected an option of strata " + app.get_name() + ", found " + found_but_near(option, options_of(app));
+        return "strata " + app.get_name() + " has no option " + found_but_near(option, options_of(app));
     }
     if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
         const std::string missing = std::string(error.what()).substr(0, std::string(error.what()).find(' '));
-        return missing + ": expected one, found none; strata " + app.get_name() + " --help says more";
+        return missing + " is missing; strata " + app.get_name() + " --help says more";
     }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
         const std::string said = error.what();
         const std::string option = said.substr(0, said.find_first_of(": "));
-        if (said.ends_with("flag override")) return "--" + option + ": expected no value, found one";
-        return option + ": expected one value, found none or several";
+        if (said.ends_with("flag override")) return "--" + option + " takes no value";
+        return option + " needs " + value_of(app, option);
     }
     return error.what();
 }
@@ -149,22 +159,25 @@ int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vec
         print(short_help(commands));
         return 0;
     }
+    const std::vector<std::string> old_words = replace_old_words(words);
     const std::string first = words.front();
     if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
-        return fail("expected a command (" + one_of(names) + "), found " + found_but_near(first, names), bad_input);
+        return fail(unknown_command(first, root), bad_input);
     }
     if (words == std::vector<std::string>{"help"}) {
         print(short_help(commands));
         return 0;
     }
     expand_from(words);
+    static_cast<void>(replace_old_words(words));  // a picture's own command is spelled as it was made
     const Shown shown = take_amount_of_help(words);
     try {
         parse(root, words);
+        for (const std::string& sentence : old_words) say_warning(sentence);
         for (const Command& command : commands) {
             if (command.app->parsed()) return command.run();
         }
-        return fail("expected a command (" + one_of(names) + "), found none", bad_input);
+        return fail("a command is missing; strata --help lists them", bad_input);
     } catch (const CLI::CallForHelp&) {
         print(help_of(parsed_app(root), shown));
     } catch (const CLI::CallForVersion& version) {
@@ -182,13 +195,11 @@ int run(int count, char** words) {
     root.set_version_flag("--version", "strata " STRATA_VERSION);
     root.footer("strata COMMAND --help says more about a command, with examples.");
     const std::vector<Command> commands{
-        add_render(root),     add_layers(root),     add_passes(root),     add_explain(root),
-        add_report(root),     add_bench(root),      add_effects(root),    add_cost(root),
-        add_invariance(root), add_reproduce(root),  add_hard_cases(root), add_hardware_check(root),
-        add_scene(root),      add_digest(root),     add_compare(root),    add_golden(root),
-        add_diagnose(root),   add_mistakes(root),   add_reduce(root),     add_probe(root),
-        add_infer(root),      add_algorithms(root), add_profiles(root),   add_scenes(root),
-        add_info(root),       add_help(root),       add_man(root),        add_completions(root),
+        add_render(root),         add_layers(root), add_passes(root),      add_explain(root),   add_report(root),
+        add_bench(root),          add_cost(root),   add_invariance(root),  add_reproduce(root), add_hard_cases(root),
+        add_hardware_check(root), add_scene(root),  add_compare(root),     add_golden(root),    add_diagnose(root),
+        add_reduce(root),         add_probe(root),  add_infer(root),       add_list(root),      add_info(root),
+        add_help(root),           add_man(root),    add_completions(root),
     };
     add_message_options(root);
     for (const Command& command : commands) add_message_options(*command.app);

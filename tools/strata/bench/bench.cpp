@@ -6,6 +6,7 @@
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/bench/bench_report.h"
 #include "tools/strata/command.h"
+#include "tools/strata/effects/effects.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/parse.h"
@@ -25,7 +26,8 @@ struct BenchOptions {
     std::vector<Simd> simds{Simd::best};
     std::vector<pipeline::Effects> effects{pipeline::Effects::needed};
     Repetitions repetitions;
-    std::string json, baseline;
+    std::string output, baseline;
+    bool json = false, per_effect = false;
 };
 
 // All algorithms by name, and `depth`, which is no algorithm: null.
@@ -80,21 +82,32 @@ int exit_status(const std::vector<BenchResult>& results) {
     return std::all_of(results.begin(), results.end(), [](const BenchResult& r) { return r.is_refused(); }) ? 2 : 0;
 }
 
+// One scene; of each list the first.
+int show_effects_of(BenchOptions& options) {
+    if (options.scenes.size() > 1) throw CLI::ValidationError("--per-effect takes one scene");
+    if (!options.output.empty() || !options.baseline.empty())
+        throw CLI::ValidationError("--per-effect goes with neither -o nor --baseline");
+    std::erase(options.algorithms, nullptr);
+    options.run.algorithms = options.algorithms;
+    options.run.render.execution = options.executions.front();
+    options.run.render.effects = options.effects.front();
+    options.run.simd = options.simds.front();
+    check_simd(options.run.simd);
+    return show_effects(open_scenes(options).front(), options.repetitions.timed, options.json);
+}
+
 int bench(BenchOptions& options) {
     complete(options.run);
-    check_outputs({{"--json", options.json == "-" ? "" : options.json, {".json"}}});
+    check_outputs({{"-o", options.output, {".json"}}});
+    if (options.per_effect) return show_effects_of(options);
     // The baseline is read first: a wrong file ends the command before the time is spent.
     const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
     const std::vector<BenchScene> scenes = open_scenes(options);
     const auto results = measure(jobs_of(options, scenes), options.repetitions);
     const std::string document =
         to_json(results, baseline).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
-    if (options.json == "-") {
-        print(document);
-    } else {
-        if (!options.json.empty()) scenes::write_file(options.json, document);
-        print(to_table(results) + (options.baseline.empty() ? "" : to_ratios(results, baseline)));
-    }
+    if (!options.output.empty()) scenes::write_file(options.output, document);
+    print(options.json ? document : to_table(results) + (options.baseline.empty() ? "" : to_ratios(results, baseline)));
     return exit_status(results);
 }
 
@@ -110,9 +123,10 @@ Command add_bench(CLI::App& root) {
         ->type_name("...");
     add_reading_options(*app, options->run.scene_options);
     add_choices(*app, options->algorithms, "--algorithm", names, values_of(names),
-                "algorithms with commas between; depth is one opaque depth pass (default all)");
+                "algorithms with commas between; depth is one opaque depth pass (default all; dual with --per-effect)");
     add_profile_option(*app, options->run.profile);
     add_machine_options(*app, options->run.render);
+    add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
     accept_tiled(*add_choices(*app, options->executions, "--execution", executions, values_of(executions),
                               "ways of running (default replay)"),
@@ -128,15 +142,23 @@ Command add_bench(CLI::App& root) {
                to_seconds);
     app->add_flag("--counters", options->repetitions.counters,
                   "also count the fragments and bytes of the passes, in a literal run of each job");
-    add_path(*app, options->json,
-             {"--json", "FILE|-", "the times as JSON; - is standard output instead of the table", "a file name or -"});
+    app->add_flag("--per-effect", options->per_effect,
+                  "which effects a run simulates, which pass asks for each, and what it costs, instead of times");
+    add_path(*app, options->output,
+             {"-o,--output", "FILE.json", "the times as JSON, next to the table", "a file name"});
+    app->add_flag("--json", options->json, "one JSON document instead of the table");
     add_path(*app, options->baseline,
-             {"--baseline", "FILE", "what --json wrote before: also print old/new", "a file name"});
+             {"--baseline", "FILE", "what -o or --json wrote before: also print old/new", "a file name"});
     app->footer(
         footer("  strata bench teapot --size 200x150 --algorithm depth,dual --execution all --repeat 3\n"
-               "  strata bench volume-beam:slices=4 random:triangles=300 --size 64x64 --warm-up 0 --repeat 1 --json "
-               "times.json\n"));
-    return {app, [options] { return bench(*options); }};
+               "  strata bench volume-beam:slices=4 random:triangles=300 --size 64x64 --warm-up 0 --repeat 1 -o "
+               "times.json\n"
+               "  strata bench teapot --per-effect --size 200x150\n"));
+    return {app, [app, options] {
+                if (options->per_effect && app->count("--algorithm") == 0)
+                    options->algorithms = {peeling::find_algorithm("dual")};
+                return bench(*options);
+            }};
 }
 
 }  // namespace strata::tools

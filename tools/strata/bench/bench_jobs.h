@@ -30,7 +30,7 @@ struct BenchJob {
     pipeline::Execution execution = pipeline::Execution::replay;
     Simd simd = Simd::scalar;
     pipeline::Effects effects = pipeline::Effects::needed;
-    // An effect that `strata effects` has simulated once more, to measure it; none in a benchmark.
+    // An effect that --per-effect has simulated once more, to measure it; none in a benchmark.
     pipeline::Effect once_more = pipeline::Effect::none;
     // True: fragment memory 0, whatever the scene's options say.
     bool is_never_replayed = false;

@@ -89,7 +89,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     job["bytes_per_fragment"] = per_fragment(result, bytes_per_fragment(result));
     job["digest"] = result.digest;
     if (const auto old = baseline.find(name_of_job(result.job)); old != baseline.end())
-        job["ratio"] = old->second / spread.median;
+        job["ratio"] = old->second.median / spread.median;
     else
         job["ratio"] = nullptr;
     return job;
@@ -115,10 +115,28 @@ std::vector<std::string> cells(const BenchResult& result) {
             per_fragment(result, bytes_per_fragment(result), 1)};
 }
 
+// The quotient of two medians, or that their runs overlap: then it says nothing.
+std::string ratio(const Spread& a, const Spread& b) {
+    return is_apart(a, b) ? fmt::format("{:.2f}", a.median / b.median) : "noise";
+}
+
+// What the word means, where a table has it.
+std::string about_noise(const Table& table) {
+    for (const auto& row : table.rows)
+        if (row.back().find("noise") != std::string::npos)
+            return "noise: fewer than four runs, or some run of the one takes as long as some run of the other\n";
+    return "";
+}
+
+// As `seconds` of a job in a document of --json.
+Spread spread_in(const ordered_json& seconds) {
+    return {seconds.at("median"), seconds.at("min"), seconds.at("max"), seconds.at("all").size()};
+}
+
 // One row a scene, algorithm, instruction set and effects; one column of milliseconds an execution, then each over
 // replay.
 std::string side_by_side(const std::vector<BenchResult>& results) {
-    std::map<std::string, std::map<pipeline::Execution, double>> rows;
+    std::map<std::string, std::map<pipeline::Execution, Spread>> rows;
     std::vector<std::string> order;
     std::set<pipeline::Execution> used;
     for (const BenchResult& r : results) {
@@ -126,7 +144,7 @@ std::string side_by_side(const std::vector<BenchResult>& results) {
         const std::string name = fmt::format("{} {} {} {}", scene_name(r.job), algorithm_name(r.job),
                                              name_of(simds, r.job.simd), name_of(effects, r.job.effects));
         if (!rows.contains(name)) order.push_back(name);
-        rows[name][r.job.execution] = spread_of(r.seconds).median;
+        rows[name][r.job.execution] = spread_of(r.seconds);
         used.insert(r.job.execution);
     }
     // One execution has nothing to stand beside.
@@ -137,25 +155,19 @@ std::string side_by_side(const std::vector<BenchResult>& results) {
     for (const std::string& name : order) {
         std::vector<std::string> row{name}, ratios;
         // The executions are in the order of their enum: replay is the last one.
-        const double last = rows[name][*used.rbegin()];
+        const Spread last = rows[name][*used.rbegin()];
         for (const auto execution : used) {
-            row.push_back(fmt::format("{:.2f}", rows[name][execution] * 1e3));
-            ratios.push_back(fmt::format("{:.2f}", rows[name][execution] / last));
+            const Spread& own = rows[name][execution];
+            row.push_back(fmt::format("{:.2f}", own.median * 1e3));
+            ratios.push_back(execution == *used.rbegin() ? "1" : ratio(own, last));
         }
         row.push_back(fmt::format("{}", fmt::join(ratios, " : ")));
         table.rows.push_back(row);
     }
-    return '\n' + to_text(table);
+    return '\n' + to_text(table) + about_noise(table);
 }
 
 }  // namespace
-
-Spread spread_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    const double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-    return {median, values.front(), values.back()};
-}
 
 Baseline load_baseline(const std::string& path) {
     // 64 MiB is far more than a run of every job writes.
@@ -164,8 +176,7 @@ Baseline load_baseline(const std::string& path) {
     if (!document.is_object() || !document.contains("jobs")) throw unusable;
     Baseline baseline;
     try {
-        for (const ordered_json& job : document.at("jobs"))
-            baseline[name_of_words(job)] = job.at("seconds").at("median").get<double>();
+        for (const ordered_json& job : document.at("jobs")) baseline[name_of_words(job)] = spread_in(job.at("seconds"));
     } catch (const ordered_json::exception&) {
         throw unusable;
     }
@@ -213,16 +224,16 @@ std::string to_ratios(const std::vector<BenchResult>& results, const Baseline& b
         const std::string name = name_of_job(result.job);
         met.insert(name);
         const auto old = baseline.find(name);
-        const double now = spread_of(result.seconds).median;
+        const Spread now = spread_of(result.seconds);
         if (old == baseline.end())
             lonely += "not in the baseline: " + name + '\n';
         else
-            table.rows.push_back({name, fmt::format("{:.2f}", old->second * 1e3), fmt::format("{:.2f}", now * 1e3),
-                                  fmt::format("{:.2f}", old->second / now)});
+            table.rows.push_back({name, fmt::format("{:.2f}", old->second.median * 1e3),
+                                  fmt::format("{:.2f}", now.median * 1e3), ratio(old->second, now)});
     }
     for (const auto& [name, seconds] : baseline)
         if (!met.contains(name)) lonely += "only in the baseline: " + name + '\n';
-    return '\n' + to_text(table) + lonely;
+    return '\n' + to_text(table) + about_noise(table) + lonely;
 }
 
 std::vector<std::string> differing(const std::vector<BenchResult>& results) {

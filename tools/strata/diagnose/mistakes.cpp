@@ -1,12 +1,11 @@
-// tools/strata/diagnose/mistakes.cpp - strata mistakes: the catalogue that diagnose tries, and the suite that shows it.
+#include "tools/strata/diagnose/mistakes.h"
+
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "scenes/files/atomic_file.h"
 #include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/mistake_table.h"
-#include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/table.h"
@@ -14,11 +13,6 @@
 namespace strata::tools {
 
 namespace {
-
-struct MistakesOptions {
-    bool suite = false, table = false, json = false;
-    std::string output;
-};
 
 std::string list_mistakes(bool json) {
     nlohmann::ordered_json document = nlohmann::ordered_json::array();
@@ -59,10 +53,12 @@ std::string make_page(const std::string& path) {
     return to_page(columns, plot.filename().string());
 }
 
-int mistakes(const MistakesOptions& options) {
+}  // namespace
+
+int show_mistakes(const MistakesOptions& options, bool json) {
     const std::string text = options.table   ? make_page(options.output)
-                             : options.suite ? list_suite(options.json)
-                                             : list_mistakes(options.json);
+                             : options.suite ? list_suite(json)
+                                             : list_mistakes(json);
     if (options.output.empty())
         print(text);
     else
@@ -70,20 +66,15 @@ int mistakes(const MistakesOptions& options) {
     return 0;
 }
 
-}  // namespace
-
-Command add_mistakes(CLI::App& root) {
-    auto* app = root.add_subcommand("mistakes", "list the mistakes that diagnose knows, and the scenes that show them");
-    const auto options = std::make_shared<MistakesOptions>();
-    app->add_flag("--suite", options->suite, "list the scenes of the suite, each as a command");
-    app->add_flag("--table", options->table,
-                  "diagnose every mistake on every scene of the suite: a page in Markdown, and beside FILE.md a "
-                  "drawing, FILE.svg");
-    add_path(*app, options->output,
-             {"-o", "FILE", "gets the list or the page (default: standard output)", "a file name"});
-    app->add_flag("--json", options->json, "lists as one JSON document");
-    app->footer(footer("  strata mistakes\n  strata mistakes --suite\n"));
-    return {app, [options] { return mistakes(*options); }};
+void add_mistakes_options(CLI::App& app, MistakesOptions& options) {
+    app.add_flag("--list", options.list, "list the mistakes that are known, instead of a diagnosis");
+    app.add_flag("--suite", options.suite, "with --list: the scenes that show them, each as a command");
+    app.add_flag("--table", options.table,
+                 "with --list: diagnose every mistake on every scene of the suite: a page in Markdown, and next to "
+                 "FILE.md a drawing, FILE.svg");
+    add_path(
+        app, options.output,
+        {"-o,--output", "FILE", "with --list: gets the list or the page (default: standard output)", "a file name"});
 }
 
 }  // namespace strata::tools

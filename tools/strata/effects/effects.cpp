@@ -1,11 +1,11 @@
-// tools/strata/effects/effects.cpp - strata effects: what a run simulates and why, what it costs, what leaving the
+// tools/strata/effects/effects.cpp - strata bench --per-effect: what a run simulates and why, what it costs, what leaving the
 // rest out saved.
+#include "tools/strata/effects/effects.h"
+
 #include <fmt/format.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "tools/strata/command.h"
 #include "tools/strata/effects/effects_costs.h"
 #include "tools/strata/effects/effects_plan.h"
 #include "tools/strata/options/choices.h"
@@ -17,12 +17,6 @@ namespace strata::tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-struct EffectsOptions {
-    BenchScene scene;
-    int repeat = 3;
-    bool json = false;
-};
 
 // The answer of the command for one algorithm.
 struct Explained {
@@ -59,12 +53,29 @@ ordered_json to_json(const Explained& e, const BenchScene& scene) {
                                        {"why", row.why},
                                        {"passes", row.passes},
                                        {"fragments", row.fragments},
-                                       {"seconds", row.seconds ? ordered_json(*row.seconds) : ordered_json(nullptr)}});
+                                       {"seconds", row.seconds ? ordered_json(*row.seconds) : ordered_json(nullptr)},
+                                       {"noise", row.is_noise}});
     const auto& t = e.plan.tiles;
     document["tiles"] = {{"all", t.tiles},     {"empty", t.empty},     {"opaque_only", t.opaque_only},
                          {"single", t.single}, {"layered", t.layered}, {"with_opaque", t.with_opaque}};
-    document["seconds"] = {{"needed", e.times.needed}, {"all", e.times.all}, {"as_asked", e.times.as_asked}};
+    document["seconds"] = {
+        {"needed", e.times.needed.median}, {"all", e.times.all.median}, {"as_asked", e.times.as_asked.median}};
     return document;
+}
+
+std::string milliseconds(const EffectRow& row) {
+    if (!row.seconds) return "-";
+    return row.is_noise ? "noise" : fmt::format("{:.2f}", *row.seconds * 1e3);
+}
+
+// "x 2.00 ms, y 3.00 ms: WORDS 1.50 times as fast", or that the runs of both overlap.
+std::string compared(const std::string& names, const Spread& with, const Spread& without, const char* words) {
+    const std::string times = fmt::format(fmt::runtime(names), with.median * 1e3, without.median * 1e3);
+    if (is_apart(with, without))
+        return fmt::format("{}: {} {:.2f} times as fast\n", times, words, without.median / with.median);
+    return fmt::format(
+        "{}: no difference beyond the noise ({} runs of each, {:.2f} to {:.2f} ms and {:.2f} to {:.2f} ms)\n", times,
+        with.runs, with.least * 1e3, with.greatest * 1e3, without.least * 1e3, without.greatest * 1e3);
 }
 
 // Simulated effects first, then those left out.
@@ -82,8 +93,8 @@ std::string to_text(const Explained& e, const BenchScene& scene) {
             if (row.is_simulated == simulated)
                 table.rows.push_back({row.effect, simulated ? "simulated" : "left out",
                                       row.passes > 0 ? fmt::format("{}", row.passes) : "-",
-                                      row.fragments > 0 ? fmt::format("{}", row.fragments) : "-",
-                                      row.seconds ? fmt::format("{:.2f}", *row.seconds * 1e3) : "-", row.why});
+                                      row.fragments > 0 ? fmt::format("{}", row.fragments) : "-", milliseconds(row),
+                                      row.why});
     const auto& t = e.plan.tiles;
     std::string text = to_text(table);
     const peeling::ListOrder order = e.algorithm->order;
@@ -91,50 +102,32 @@ std::string to_text(const Explained& e, const BenchScene& scene) {
         text += "fragments: as if every pass drew the whole list; a pass over a part of it draws fewer\n";
     text +=
         "ms: what an effect costs in the whole run, or what leaving it out saves; each pass rasterizes, medians of "
-        "runs in turn\n";
+        "runs in turn; noise: less than the runs vary by, or fewer than four of them\n";
     text += fmt::format(
         "{} tiles: {} empty, {} with opaque fragments alone, {} with one transparent fragment a pixel at most, {} that "
         "need peeling; {} need opaque priming\n",
         t.tiles, t.empty, t.opaque_only, t.single, t.layered, t.with_opaque);
-    text += fmt::format("needed {:.2f} ms, all {:.2f} ms: leaving the others out makes it {:.2f} times as fast\n",
-                        e.times.needed * 1e3, e.times.all * 1e3, e.times.all / e.times.needed);
+    text += compared("needed {:.2f} ms, all {:.2f} ms", e.times.needed, e.times.all, "leaving the others out makes it");
     if (scene.options.render.execution == pipeline::Execution::replay)
-        text += fmt::format("replay {:.2f} ms: rasterizing once makes it {:.2f} times as fast\n",
-                            e.times.as_asked * 1e3, e.times.needed / e.times.as_asked);
+        text += compared("replay {:.2f} ms, every pass rasterized {:.2f} ms", e.times.as_asked, e.times.needed,
+                         "rasterizing once makes it");
     return text;
-}
-
-int explain_all(EffectsOptions& options) {
-    complete(options.scene.options);
-    options.scene.session = open_session(options.scene.options);
-    ordered_json documents = ordered_json::array();
-    std::string text;
-    bool any = false;
-    for (const peeling::Algorithm* algorithm : options.scene.options.algorithms) {
-        const Explained explained = explain(options.scene, *algorithm, options.repeat);
-        any |= explained.refusal.empty();
-        documents.push_back(to_json(explained, options.scene));
-        text += (text.empty() ? "" : "\n") + to_text(explained, options.scene);
-    }
-    print(options.json ? documents.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n' : text);
-    return any ? 0 : 2;
 }
 
 }  // namespace
 
-Command add_effects(CLI::App& root) {
-    auto* app =
-        root.add_subcommand("effects", "tell which effects a run simulates, who calls for them, what they cost");
-    const auto options = std::make_shared<EffectsOptions>();
-    add_picture_options(*app, options->scene.options);
-    add_execution_options(*app, options->scene.options);
-    add_option(*app, options->repeat, {"--repeat", "N", "runs of each timing (default 3)", "a whole number from 1"},
-               to_positive);
-    app->add_flag("--json", options->json, "one JSON document instead of the tables");
-    app->footer(
-        footer("  strata effects teapot --size 200x150\n"
-               "  strata effects volume-beam:slices=4 --algorithm dual,weighted_average --size 64x64 --json\n"));
-    return {app, [options] { return explain_all(*options); }};
+int show_effects(const BenchScene& scene, int repeat, bool json) {
+    ordered_json documents = ordered_json::array();
+    std::string text;
+    bool any = false;
+    for (const peeling::Algorithm* algorithm : scene.options.algorithms) {
+        const Explained explained = explain(scene, *algorithm, repeat);
+        any |= explained.refusal.empty();
+        documents.push_back(to_json(explained, scene));
+        text += (text.empty() ? "" : "\n") + to_text(explained, scene);
+    }
+    print(json ? documents.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n' : text);
+    return any ? 0 : 2;
 }
 
 }  // namespace strata::tools

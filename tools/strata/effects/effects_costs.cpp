@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "tools/strata/bench/bench_report.h"
+#include "tools/strata/bench/bench_jobs.h"
 #include "tools/strata/effects/effects_plan.h"
 
 namespace strata::tools {
@@ -19,21 +19,25 @@ double seconds_of(const std::function<void()>& run) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Median seconds of each; a first round warms up. The runs of a round stand next to each other in
+// The seconds of each; a first round warms up. The runs of a round stand next to each other in
 // time, so that a machine that becomes slower changes all of them alike.
-std::vector<double> in_turn(const std::vector<std::function<void()>>& runs, int repeat) {
+std::vector<Spread> in_turn(const std::vector<std::function<void()>>& runs, int repeat) {
     std::vector<std::vector<double>> seconds(runs.size());
     for (int round = 0; round <= repeat; ++round)
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const double taken = seconds_of(runs[i]);
             if (round > 0) seconds[i].push_back(taken);
         }
-    std::vector<double> medians;
-    for (const auto& values : seconds) medians.push_back(spread_of(values).median);
-    return medians;
+    std::vector<Spread> spreads;
+    for (const auto& values : seconds) spreads.push_back(spread_of(values));
+    return spreads;
 }
 
-double cost(double with, double without) { return std::max(0.0, with - without); }
+// What the runs with an effect take longer than those without, `times` times over.
+void set_cost(EffectRow& row, const Spread& with, const Spread& without, double times = 1) {
+    row.seconds = std::max(0.0, with.median - without.median) * times;
+    row.is_noise = !is_apart(with, without);
+}
 
 // True for an array that is computed for each fragment; the other effects are stages.
 bool is_value(Effect effect) {
@@ -65,10 +69,10 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     add(Effect::none);
     for (const EffectRow& row : plan.rows)
         if (is_walked(row)) add(row.effect_id);
-    const std::vector<double> medians = in_turn(walks, repeat);
+    const std::vector<Spread> spreads = in_turn(walks, repeat);
     std::size_t next = 1;
     for (EffectRow& row : plan.rows)
-        if (is_walked(row)) row.seconds = cost(medians[0], medians[next++]) * static_cast<double>(row.passes);
+        if (is_walked(row)) set_cost(row, spreads[0], spreads[next++], static_cast<double>(row.passes));
 }
 
 }  // namespace
@@ -90,10 +94,10 @@ EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan
     }
     std::vector<std::function<void()>> runs;
     for (const BenchJob& job : jobs) runs.push_back([&job] { static_cast<void>(run_once(job)); });
-    const std::vector<double> medians = in_turn(runs, repeat);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->seconds = cost(medians[3 + i], medians[0]);
+    const std::vector<Spread> spreads = in_turn(runs, repeat);
+    for (std::size_t i = 0; i < rows.size(); ++i) set_cost(*rows[i], spreads[3 + i], spreads[0]);
     measure_values(asked, repeat, plan);
-    return {medians[0], medians[1], medians[2]};
+    return {spreads[0], spreads[1], spreads[2]};
 }
 
 }  // namespace strata::tools

@@ -8,18 +8,20 @@
 //          Effects::all does not use it.
 // Tests    tests/tools/effects_test.cpp
 #pragma once
+#include "tools/strata/bench/spread.h"
+
 namespace strata::tools {
 
 struct BenchJob;
 struct EffectsPlan;
 
-// Median seconds of whole runs.
+// Seconds of whole runs.
 struct EffectTimes {
-    double needed = 0, all = 0, as_asked = 0;
+    Spread needed, all, as_asked;
 };
 
-// Fills EffectRow::seconds where it can be measured. Costs are differences of measured times: one below 0 is noise,
-// and 0.
+// Fills EffectRow::seconds where it can be measured, and whether it is more than the noise of the runs. Costs are differences of measured
+// times; one below 0 is 0.
 [[nodiscard]] EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan);
 
 }  // namespace strata::tools

@@ -23,6 +23,7 @@ struct EffectRow {
     std::uint64_t fragments = 0;                          // that go through it in these, in literal execution
     pipeline::Effect effect_id = pipeline::Effect::none;  // of those whose cost can be measured
     std::optional<double> seconds;  // what it costs in the whole run; where it is left out, what that saved
+    bool is_noise = false;          // `seconds` is less than the runs vary by
 };
 
 struct EffectsPlan {

@@ -18,11 +18,14 @@ struct Group {
 // An option of no group stands under "Options". Titles are in the order in which --help has them.
 const std::vector<Group>& groups() {
     static const std::vector<Group> all{
-        {"What is drawn", Shown::usual, {"scene", "colour", "no-light", "algorithm", "profile", "depth", "from"}},
+        {"What is drawn",
+         Shown::usual,
+         {"scene", "color-space", "no-light", "algorithm", "profile", "depth-format", "from"}},
         {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background"}},
         {"Results",
          Shown::usual,
-         {"output", "format", "stats", "no-audit", "json", "csv", "expect", "channels", "report", "map", "region"}},
+         {"output", "format", "stats", "no-audit", "json", "csv", "digests", "expect", "channels", "report", "map",
+          "region"}},
         {"Messages", Shown::usual, {"quiet", "verbose", "color"}},
         {"Depths and positions, rarely needed",
          Shown::all,

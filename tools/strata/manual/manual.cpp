@@ -43,7 +43,7 @@ int write_pages(CLI::App& root, const std::string& folder) {
 }  // namespace
 
 Command add_help(CLI::App& root) {
-    auto* app = root.add_subcommand("help", "tell a command's options; with all behind it the rare ones, too");
+    auto* app = root.add_subcommand("help", "show a command's options; with all behind it the rare ones, too");
     const auto about = std::make_shared<About>();
     app->add_option("COMMAND", about->command, "a command; without one, the list of them")->type_name("");
     app->add_option("AMOUNT", about->amount, "all")->type_name("")->check([](const std::string& given) -> std::string {

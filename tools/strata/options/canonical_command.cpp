@@ -48,7 +48,7 @@ void add_scene(Words& words, const RunOptions& options) {
     const scenes::SceneOptions& scene = options.scene_options;
     if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));
     if (scene.color_space != pipeline::ColorSpace::encoded)
-        add(words, "--colour", name_of(color_spaces, scene.color_space));
+        add(words, "--color-space", name_of(color_spaces, scene.color_space));
     if (!scene.light) words.emplace_back("--no-light");
 }
 
@@ -82,7 +82,7 @@ void add_comparison(Words& words, const peeling::RenderOptions& render) {
 }
 
 void add_machine(Words& words, const peeling::RenderOptions& render) {
-    if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
+    if (render.depth) add(words, "--depth-format", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
     add_comparison(words, render);
     if (render.raster.depth_order != rasterizer::DepthOrder::less)

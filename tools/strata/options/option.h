@@ -38,7 +38,7 @@ inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionTex
     OptionText named = text;
     named.name = text.name.substr(0, text.name.find(','));
     const auto fill = [&target, named](const std::string& given) {
-        if (given.empty()) throw CLI::ValidationError(named.name, "expected " + named.expected + ", found ''");
+        if (given.empty()) throw CLI::ValidationError(named.name + " needs " + named.expected);
         target = given;
     };
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);

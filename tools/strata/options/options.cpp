@@ -129,9 +129,9 @@ std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
         if (algorithm == nullptr) {
             auto names = algorithm_names();
             names.emplace_back("all");
-            throw CLI::ValidationError("--algorithm",
-                                       "expected names of algorithms (strata algorithms lists them) or all, found " +
-                                           found_but_near(name, names));
+            throw CLI::ValidationError(
+                "--algorithm", "expected names of algorithms (strata list algorithms shows them) or all, found " +
+                                   found_but_near(name, names));
         }
         add(*algorithm);
     }
@@ -148,7 +148,7 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
 void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
     app.add_option_function<std::string>(
            "SCENE", take,
-           "a .gltf or .glb file, - for one from standard input, a pack, or a built-in scene (strata scenes)")
+           "a .gltf or .glb file, - for one from standard input, a pack, or a built-in scene (strata list scenes)")
         ->required()
         ->type_name("");
 }
@@ -163,7 +163,7 @@ void add_profile_option(CLI::App& app, std::string& profile) {
 
 // Options are declared in the order in which --help shows them.
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
-    add_choice(app, options.depth, "--depth", depth_formats,
+    add_choice(app, options.depth, "--depth-format", depth_formats,
                "depth buffer (default d32f, or d24 where that is missing)");
     add_choice(app, options.depth_path, "--depth-path", depth_paths(),
                "how depth is computed (default: the profile's own)");
@@ -234,7 +234,7 @@ void add_reading_options(CLI::App& app, scenes::SceneOptions& options) {
     add_option(app, options.scene,
                {"--scene", "N", "which scene of a glTF file (default: the file's own)", "a whole number from 0"},
                to_count);
-    add_choice(app, options.color_space, "--colour", color_spaces,
+    add_choice(app, options.color_space, "--color-space", color_spaces,
                "blend sRGB values as they are, or decoded to linear light (default encoded)");
     app.add_flag_callback(
         "--no-light", [&options] { options.light = false; }, "draw every material unlit");
@@ -314,8 +314,7 @@ void accept_tiled(CLI::Option& execution, RunOptions& options) {
         }
         if (has_tiled && has_replay)
             throw CLI::ValidationError(
-                "expected replay once, found it beside 'tiled', which is replay "
-                "with --fragment-memory 0");
+                "'tiled' and 'replay' exclude each other: tiled is replay with --fragment-memory 0");
         if (has_tiled) say_warning("--execution tiled is replay with --fragment-memory 0");
         options.keeps_no_fragments = has_tiled;
         return words;
@@ -373,20 +372,19 @@ void add_format_option(CLI::App& app, RunOptions& options, const std::string& he
 void complete(RunOptions& options) {
     const bool is_piped = scenes::is_standard_output(options.output);
     if (options.format && !is_piped)
-        throw CLI::ValidationError(
-            "--format",
-            "expected -o - beside it, for another file's name says what it is, found '" + options.output + "'");
+        throw CLI::ValidationError("--format goes with -o - alone: the name '" + options.output +
+                                   "' says what the file is");
     if (is_piped && scenes::is_standard_output(options.stats))
-        throw CLI::ValidationError("--stats",
-                                   "expected a file beside -o -, found standard output, which the picture takes");
+        throw CLI::ValidationError("--stats needs a file's name, for with -o - the picture takes standard output");
     if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     if (options.orbit && !options.camera.empty()) {
-        throw CLI::ValidationError("--orbit", "expected either --orbit or --camera, found both");
+        throw CLI::ValidationError("--orbit excludes --camera");
     }
     if (is_piped && options.algorithms.size() > 1)
-        throw CLI::ValidationError("-o", "expected one algorithm for standard output, found " +
-                                             std::to_string(options.algorithms.size()) + "; name a file instead");
+        throw CLI::ValidationError("-o", "standard output takes one picture, not those of " +
+                                             std::to_string(options.algorithms.size()) +
+                                             " algorithms; name a file instead");
 }
 
 }  // namespace strata::tools

@@ -38,7 +38,7 @@ struct RunOptions {
     std::optional<scenes::ImageFile> format;  // --format: what a picture to standard output is
 };
 
-// SCENE, --scene, --colour, --no-light.
+// SCENE, --scene, --color-space, --no-light.
 void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options);
 
 // Adds SCENE and all options that a result bit depends on.
@@ -52,8 +52,8 @@ void take_scene(RunOptions& options, const std::string& scene);
 void add_execution_options(CLI::App& app, RunOptions& options);
 
 // Parts of both, for a command that takes lists of the rest.
-void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --colour, --no-light
-void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth ... --max-passes
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --color-space, --no-light
+void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth-format ... --max-passes
 void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
 void add_profile_option(CLI::App& app, std::string& profile);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background

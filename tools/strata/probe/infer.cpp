@@ -141,7 +141,7 @@ Command add_infer(CLI::App& root) {
     add_path(*app, options->pack, {"PACK", "", "answers: a folder or a tar archive of it", "a folder or an archive"})
         ->required();
     add_path(*app, options->output,
-             {"-o", "FILE.json", "the profile, as --profile takes it; - is standard output", "a file's name"});
+             {"-o,--output", "FILE.json", "the profile, as --profile takes it; - is standard output", "a file's name"});
     add_orientation(*app, options->orientation, "the answers that count (default up)");
     app->add_flag("--json", options->json, "print one JSON object instead of the table");
     app->footer(

@@ -10,6 +10,7 @@
 #include "tools/probe/comparison.h"
 #include "tools/probe/kit.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/probe/items.h"
@@ -76,18 +77,25 @@ void write_kit(const std::vector<probe::Item>& items, bool with_operations, cons
 int run(const ProbeOptions& options) {
     const std::vector<probe::Item> items = items_of(options.unseen);
     if (!options.compare.empty()) {
-        if (options.profile.empty()) throw CLI::ValidationError("--compare", "expected --profile with it, found none");
+        if (options.profile.empty()) throw CLI::ValidationError("--compare needs --profile, too");
         return compare(options, items);
     }
-    if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder, found none");
+    if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the kit or the answers");
     if (options.profile.empty()) {
         write_kit(items, options.unseen == 0, options.output);
+        if (!is_quiet())
+            print(fmt::format(
+                "{0}: kit.json and probe.html, {1} scenes. Open probe.html on the device, or draw kit.json there;\n"
+                "strata infer ANSWERS finds the profile of what comes back\n",
+                options.output, items.size()));
     } else {
         const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
         const auto& both = enum_values<probe::YDirection>;
         probe::ProbePack pack = answer(profile, items, {both.begin(), both.end()});
         if (options.unseen == 0) pack.operations = probe::answer_operations();
         write_pack(pack, items, options.output);
+        if (!is_quiet())
+            print(fmt::format("{}: the answers of {} to {} scenes\n", options.output, profile.name, items.size()));
     }
     return 0;
 }
@@ -98,7 +106,7 @@ Command add_probe(CLI::App& root) {
     auto* app = root.add_subcommand("probe", "write scenes that measure a device, or answer them as a profile would");
     const auto options = std::make_shared<ProbeOptions>();
     add_path(*app, options->output,
-             {"-o", "FOLDER", "the kit; with --profile the answers, a candidate pack", "a folder's name"});
+             {"-o,--output", "FOLDER", "the kit; with --profile the answers, a candidate pack", "a folder's name"});
     add_path(*app, options->profile, {"--profile", "NAME|FILE", "the device that answers", "a profile"});
     add_path(*app, options->compare,
              {"--compare", "PACK", "hold the profile's answers against a device's", "a folder or a tar archive"});

@@ -10,8 +10,8 @@ namespace strata::tools {
 
 namespace {
 
-// Of a frame of one colour and one depth a pixel: its codes as numbers, and what a library of images makes of them.
-constexpr std::uint64_t png_bytes_a_pixel = 44, exr_bytes_a_pixel = 28;
+// Of a frame of one colour and one depth a pixel: copies of its codes as numbers, and what OpenEXR makes of them.
+constexpr std::uint64_t png_bytes_a_pixel = 36, exr_bytes_a_pixel = 28;
 
 // "NAME:   123 kB", as files below /proc have it.
 std::optional<std::uint64_t> kilobytes(const char* file, const std::string& name) {
@@ -48,7 +48,13 @@ bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint6
     return !options.max_memory && !options.render.keep_layers && most < limit;
 }
 
-std::string in_megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + "M"; }
+// "16.5 GB", "300 MB": of 2^30 and 2^20 bytes, as options take G and M.
+std::string in_words(std::uint64_t bytes) {
+    constexpr std::uint64_t megabyte = std::uint64_t{1} << 20, gigabyte = std::uint64_t{1} << 30;
+    if (bytes < gigabyte) return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
+    const std::uint64_t tenths = (bytes * 10 + gigabyte - 1) / gigabyte;
+    return std::to_string(tenths / 10) + (tenths % 10 == 0 ? "" : "." + std::to_string(tenths % 10)) + " GB";
+}
 
 }  // namespace
 
@@ -73,10 +79,10 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
         peeling::memory_need(session.scene.list, session.view, session.profile, options.render, algorithm).total();
     if (need <= *limit) return;
     throw CLI::ValidationError(
-        "--max-memory", "expected about " + in_megabytes(need) + " for " + algorithm.name + " at " +
-                            std::to_string(options.render.width) + "x" + std::to_string(options.render.height) +
-                            " (a smaller --size or --fragment-memory takes less), found " + in_megabytes(*limit) +
-                            (options.max_memory ? "" : ", which is what this machine has free"));
+        "--max-memory", algorithm.name + " at " + std::to_string(options.render.width) + "x" +
+                            std::to_string(options.render.height) + " needs about " + in_words(need) +
+                            (options.max_memory ? ", the limit is " : ", this machine has free ") + in_words(*limit) +
+                            "; a smaller --size or --fragment-memory takes less");
 }
 
 }  // namespace strata::tools

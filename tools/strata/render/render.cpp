@@ -48,7 +48,7 @@ void write_picture(const RunOptions& options, const Finished& finished) {
                         kind_of(options, scenes::ImageFile::png));
 }
 
-// Names with commas between, as `strata mistakes` lists them.
+// Names with commas between, as `strata diagnose --list` shows them.
 std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
     std::vector<const oracle::Mistake*> chosen;
     std::vector<std::string> names;
@@ -56,8 +56,9 @@ std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
     for (const std::string& name : split(text, ',')) {
         const oracle::Mistake* const mistake = oracle::find_mistake(name);
         if (mistake == nullptr)
-            throw CLI::ValidationError("--mistake", "expected names of mistakes (strata mistakes lists them), found " +
-                                                        found_but_near(name, names));
+            throw CLI::ValidationError(
+                "--mistake",
+                "expected names of mistakes (strata diagnose --list shows them), found " + found_but_near(name, names));
         chosen.push_back(mistake);
     }
     return chosen;
@@ -66,9 +67,8 @@ std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
 // The picture of a wrong machine: without statistics, for nothing of it is to be trusted.
 int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake*>& mistakes) {
     complete(options);
-    if (options.algorithms.size() != 1)
-        throw CLI::ValidationError("--mistake", "expected one algorithm beside it, found several");
-    if (options.output.empty()) throw CLI::ValidationError("--mistake", "expected -o beside it, found none");
+    if (options.algorithms.size() != 1) throw CLI::ValidationError("--mistake takes one algorithm");
+    if (options.output.empty()) throw CLI::ValidationError("--mistake needs -o FILE");
     const Session session = open_session(options);
     const oracle::Laboratory laboratory{{session.scene.list, session.view, session.profile, options.render},
                                         *options.algorithms[0]};
@@ -92,8 +92,7 @@ int render(RenderCommand& command) {
     const std::vector<std::string> pictures{".exr", ".png"}, map_endings{".png"};
     check_outputs({{"-o", options.output, command.map ? map_endings : pictures, Piped::possibly},
                    {"--report", command.report, {".html"}}});
-    if (command.map && options.output.empty())
-        throw CLI::ValidationError("--map", "expected -o FILE.png beside it, found none");
+    if (command.map && options.output.empty()) throw CLI::ValidationError("--map needs -o FILE.png");
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
     const int status = run_algorithms(options, [&](const Finished& finished) {
         command.map ? write_map(options, *command.map, finished) : write_picture(options, finished);
@@ -116,7 +115,7 @@ Command add_render(CLI::App& root) {
     add_format_option(*app, options->run, "what -o - writes (default png)");
     app->add_option_function<std::string>(
            "--mistake", [options = options.get()](const std::string& text) { options->mistakes = to_mistakes(text); },
-           "draw like a machine with these mistakes, to try strata diagnose (strata mistakes lists them)")
+           "draw like a machine with these mistakes, to try strata diagnose (strata diagnose --list shows them)")
         ->type_name("NAME[,NAME...]");
     add_choice(*app, options->map, "--map", map_names(),
                "write a map as the .png of -o: fragments a pixel, fragments at another one's depth, or the difference "

@@ -25,26 +25,13 @@ namespace strata::tools {
 
 namespace {
 
-// The view of --camera or of the orbit; without either, the scene's own if it has one. A name means a camera of the
-// scene first, then a file.
+// The view of --camera or of the orbit; without either, the scene's own if it has one.
 pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) {
     const double aspect = double(options.render.width) / options.render.height;
     if (options.takes_own_view) return *scene.own_view;
-    if (options.camera.empty()) {
-        const Orbit orbit = options.orbit.value_or(Orbit{});
-        return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
-    }
-    std::vector<std::string> names;
-    for (const auto& camera : scene.cameras) {
-        if (camera.name == options.camera) return scenes::camera_view(camera, aspect);
-        names.push_back(camera.name);
-    }
-    std::error_code unreadable;  // such as a link to itself: no file
-    const bool is_file = options.camera.ends_with(".json") || std::filesystem::exists(options.camera, unreadable);
-    if (is_file) return scenes::load_camera(options.camera, aspect);
-    const std::string cameras =
-        names.empty() ? "a .json file (the scene has no camera)" : one_of(names) + ", or a .json file";
-    throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(options.camera, names));
+    if (!options.camera.empty()) return view_named(options.camera, scene, aspect);
+    const Orbit orbit = options.orbit.value_or(Orbit{});
+    return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
 }
 
 // --sorted names what the scene has.
@@ -70,7 +57,7 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
     };
     if (std::none_of(scene.list.instances.begin(), scene.list.instances.end(), has_triangles)) {
         say_warning(options.scene +
-                    ": nothing is drawn, for the scene has no triangles; strata scene tells what it "
+                    ": nothing is drawn, for the scene has no triangles; strata scene shows what it "
                     "holds, and --scene chooses another one of the file");
         return;
     }
@@ -85,6 +72,19 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
 }
 
 }  // namespace
+
+pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect) {
+    std::vector<std::string> names;
+    for (const auto& camera : scene.cameras) {
+        if (camera.name == name) return scenes::camera_view(camera, aspect);
+        names.push_back(camera.name);
+    }
+    std::error_code unreadable;  // such as a link to itself: no file
+    if (name.ends_with(".json") || std::filesystem::exists(name, unreadable)) return scenes::load_camera(name, aspect);
+    const std::string cameras =
+        names.empty() ? "a .json file (the scene has no camera)" : one_of(names) + ", or a .json file";
+    throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(name, names));
+}
 
 Session open_session(RunOptions& options) {
     check_simd(options.simd);
@@ -239,8 +239,7 @@ void check_output(const Output& output) {
     }
     const auto folder = std::filesystem::path(output.path).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-        throw CLI::ValidationError(output.option,
-                                   "expected a file in a folder that exists, found '" + output.path + "'");
+        throw CLI::ValidationError(output.option, "there is no folder " + folder.string());
     }
 }
 
@@ -261,18 +260,13 @@ void check_outputs(const std::vector<Output>& outputs) {
         check_output(output);
         const auto [found, is_new] = places.emplace(place_of(output.path), &output);
         if (!is_new) {
-            throw CLI::ValidationError(output.option, "expected another file than that of " + found->second->option +
-                                                          ", found '" + output.path + "'");
+            throw CLI::ValidationError(output.option,
+                                       "'" + output.path + "' is the file of " + found->second->option + " already");
         }
     }
-    const auto is_png = [](const std::string& name) { return name.ends_with(".png"); };
-    const bool has_png = std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) {
-        return is_png(output.path) || (output.is_piped() && is_png(output.endings.front()));
-    });
     const bool has_exr =
         std::ranges::any_of(outputs, [](const Output& output) { return output.path.ends_with(".exr"); });
     if (has_exr) static_cast<void>(scenes::exr::start_threads());
-    if (has_png) static_cast<void>(scenes::image_module());  // else it would be missed after the last pixel
 }
 
 }  // namespace strata::tools

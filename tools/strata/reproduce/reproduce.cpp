@@ -53,11 +53,11 @@ int reproduce(const ReproduceOptions& options) {
 
 Command add_reproduce(CLI::App& root) {
     auto* app =
-        root.add_subcommand("reproduce", "a paper's figures and tables beside our own: one page, CSV and pictures");
+        root.add_subcommand("reproduce", "a paper's figures and tables next to our own: one page, CSV and pictures");
     const auto options = std::make_shared<ReproduceOptions>();
     app->add_option("PAPER", options->paper, "carr2008, everitt2001 or bavoil2008")->required()->type_name("");
     app->add_option("MODEL", options->models,
-                    "glTF files to run beside the built-in scenes (dragon.glb, sponza.glb, a car ...)")
+                    "glTF files to run with the built-in scenes (dragon.glb, sponza.glb, a car ...)")
         ->type_name("");
     add_path(*app, options->folder,
              {"-o,--output", "DIR", "the folder that takes the page; made if it is not there", "a folder"})

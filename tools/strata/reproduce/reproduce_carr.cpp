@@ -89,7 +89,7 @@ Printed printed_of(int slices, const std::string& algorithm, int iterations) {
 constexpr auto beam_text =
     "volume-beam:slices=N,order=near at {0}x{0}; slices arrive front to back, the cone of two layers after them. The "
     "paper, for 256 slices: layer peeling 257 iterations, hybrid 3 and 62 times faster (Figure 1; 52 in section 8), "
-    "coherent about 6 times slower than hybrid; of Figure 3 only the curves' shapes are told: hybrid and coherent "
+    "coherent about 6 times slower than hybrid; of Figure 3 only the curves' shapes are described: hybrid and coherent "
     "constant in passes and linear in time, layer peeling linear in passes and worse in time. Fragments are counted "
     "over "
     "all geometry passes.";
@@ -286,7 +286,10 @@ Section table(const ReproduceOptions& options, const std::vector<Model>& models)
 }  // namespace
 
 Page reproduce_carr(const ReproduceOptions& options, const std::vector<Model>& models) {
-    return {"Carr, Mech and Miller 2008: Coherent Layer Peeling", {beam(options), table(options, models)}};
+    return {"Carr, Mech and Miller 2008: Coherent Layer Peeling",
+            page_sentence,
+            carr_2008_link,
+            {beam(options), table(options, models)}};
 }
 
 }  // namespace strata::tools

@@ -95,6 +95,8 @@ Section composites(const ReproduceOptions& options, const Teapot& teapot) {
 Page reproduce_everitt(const ReproduceOptions& options) {
     const Teapot teapot;
     return {"Everitt 2001: Interactive Order-Independent Transparency",
+            page_sentence,
+            everitt_2001_link,
             {layers(options, teapot), composites(options, teapot)}};
 }
 

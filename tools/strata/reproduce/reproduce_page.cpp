@@ -57,32 +57,32 @@ std::string csv(const Sheet& sheet) {
 
 // The table and a link to its CSV.
 std::string html(const Sheet& sheet) {
-    std::string text =
-        fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n<tr>", sheet.file);
+    std::string text = fmt::format(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table class=\"sorts\">\n<thead><tr>",
+        sheet.file);
     for (const auto& column : sheet.columns) text += fmt::format("<th scope=\"col\">{}</th>", escaped(column));
-    text += "</tr>\n";
+    text += "</tr></thead>\n<tbody>\n";
     for (const auto& row : sheet.rows) {
         text += "<tr>";
         for (const auto& cell : row) text += fmt::format("<td>{}</td>", escaped(cell));
         text += "</tr>\n";
     }
-    return text + fmt::format("</table></div>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
+    return text + fmt::format("</tbody></table></div>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
 }
 
-// The page needs no other file than its pictures, and has the report's style. {0} is the title.
+// The page needs no other file than its pictures, and has the report's style. {0} is the title, {2} the paper's address, {3} a sentence.
 constexpr auto head = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{0}</title><style>
-{1}figure {{ display: inline-block; max-width: 18em; vertical-align: top; margin-right: 1em }}
-td {{ white-space: normal }}
-</style></head><body>
-<header><h1>{0}</h1></header>
+{1}</style></head><body>
+<header><h1>{0}</h1><p><a href="{2}">the paper</a></p></header>
 <main>
+<p class="lead">{3}</p>
 )";
 
 }  // namespace
 
 void write_page(const std::string& folder, const Page& page) {
-    std::string text = fmt::format(head, escaped(page.title), page_css());
+    std::string text = fmt::format(head, escaped(page.title), page_css(), page.link, escaped(page.sentence));
     for (const Section& section : page.sections) {
         text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(section.title), escaped(section.text));
         // A section without rows leaves no table and no CSV.
@@ -94,7 +94,8 @@ void write_page(const std::string& folder, const Page& page) {
             text += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
                                 picture.file, escaped(picture.caption));
     }
-    scenes::write_file(folder + "/index.html", text + "</main></body></html>\n");
+    scenes::write_file(folder + "/index.html",
+                       text + "</main>\n<script>\n" + std::string(plain_js()) + "</script>\n</body></html>\n");
 }
 
 Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,

@@ -7,6 +7,7 @@
 #include "peeling/render_options.h"
 #include "pipeline/formats/image.h"
 #include "scenes/scene.h"
+#include "tools/strata/papers.h"
 
 namespace strata::tools {
 
@@ -30,9 +31,17 @@ struct Section {
     std::vector<Picture> pictures{};
 };
 
+// The sentence of every page.
+inline constexpr const char* page_sentence =
+    "The paper's figures and tables by its algorithms on the devices that it was written for, next to the paper's own "
+    "numbers where it has any, and why "
+    "ours differ where they do.";
+
 // The page of one paper: its sections from top to bottom.
 struct Page {
     std::string title;
+    std::string sentence;   // what the page shows
+    std::string_view link;  // where the paper is to be had
     std::vector<Section> sections{};
 };
 

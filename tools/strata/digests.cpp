@@ -1,8 +1,8 @@
-// tools/strata/digest.cpp - strata digest: one string a target, equal exactly if the bits are.
+#include "tools/strata/digests.h"
+
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -10,9 +10,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
 #include "tools/oracle/picture.h"
-#include "tools/strata/command.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/option.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -20,13 +18,6 @@ namespace strata::tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-// The command line.
-struct DigestOptions {
-    std::vector<std::string> files;
-    std::string expected;
-    bool json = false, channels = false;
-};
 
 using Digests = std::vector<scenes::FileDigest>;
 
@@ -86,57 +77,29 @@ std::optional<Digests> digests_or_reason(const std::string& file, bool channels)
     }
 }
 
-std::optional<std::string> to_digest(std::string_view text) {
-    const bool is_digest = text.size() == 32 && std::all_of(text.begin(), text.end(), [](char c) {
-                               return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-                           });
-    return is_digest ? std::optional(std::string(text)) : std::nullopt;
-}
-
-int digest(const DigestOptions& options) {
-    ordered_json document = ordered_json::array();
-    Table table{{{"digest"}, {"target"}, {"part"}, {"format"}, {"size"}, {"file"}}, {}};
-    bool all_read = true, is_found = false;
-    for (const std::string& file : options.files) {
-        const auto digests = digests_or_reason(file, options.channels);
-        all_read &= digests.has_value();
-        for (const auto& [part, target, format, width, height, value] : digests.value_or(Digests{})) {
-            is_found |= value == options.expected;
-            document.push_back({{"file", file},
-                                {"part", part},
-                                {"target", target},
-                                {"format", format},
-                                {"width", width},
-                                {"height", height},
-                                {"digest", value}});
-            table.rows.push_back({value, target, part.empty() ? "-" : part, format,
-                                  std::to_string(width) + "x" + std::to_string(height), file});
-        }
-    }
-    if (options.json) print(document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n');
-    if (!options.json && !table.rows.empty()) print(titled(to_text(table)));
-    if (!all_read) return 2;
-    if (options.expected.empty() || is_found) return 0;
-    say_error("--expect: expected " + options.expected + ", found no such digest");
-    return 1;
-}
-
 }  // namespace
 
-Command add_digest(CLI::App& root) {
-    auto* app = root.add_subcommand("digest", "print the digests of images: equal strings, equal bits");
-    const auto options = std::make_shared<DigestOptions>();
-    app->add_option("FILE", options->files, ".exr and .png files")->required()->type_name("");
-    app->add_flag("--json", options->json, "one JSON document instead of the table");
-    app->add_flag("--channels", options->channels, "a digest a channel instead of one a target");
-    add_option(*app, options->expected,
-               {"--expect", "DIGEST", "exit status 1 unless a file has this digest", "32 hexadecimal digits"},
-               to_digest);
-    app->footer(
-        footer("  strata render teapot --size 64x64 -o teapot.exr && strata digest teapot.exr\n"
-               "  strata render teapot --size 64x64 -o teapot.png && strata digest --json teapot.png\n"
-               "  strata render teapot --size 64x64 -o teapot.png && strata digest --channels teapot.png\n"));
-    return {app, [options] { return digest(*options); }};
+FileDigests digests_of_files(const std::vector<std::string>& files, bool channels) {
+    FileDigests found{.document = ordered_json::array(),
+                      .table = {{{"digest"}, {"target"}, {"part"}, {"format"}, {"size"}, {"file"}}, {}}};
+    bool all_read = true;
+    for (const std::string& file : files) {
+        const auto digests = digests_or_reason(file, channels);
+        all_read &= digests.has_value();
+        for (const auto& [part, target, format, width, height, value] : digests.value_or(Digests{})) {
+            found.document.push_back({{"file", file},
+                                      {"part", part},
+                                      {"target", target},
+                                      {"format", format},
+                                      {"width", width},
+                                      {"height", height},
+                                      {"digest", value}});
+            found.table.rows.push_back({value, target, part.empty() ? "-" : part, format,
+                                        std::to_string(width) + "x" + std::to_string(height), file});
+        }
+    }
+    found.all_read = all_read;
+    return found;
 }
 
 }  // namespace strata::tools
