@@ -24,7 +24,7 @@ PAGES = {
                        "strata hardware-check captures --report captures.html", "captures.html"),
     "diagnose": ("strata render showroom --size 64x64 -q -o mine.png; strata diagnose showroom mine.png --report diagnose.html", "diagnose.html"),
     "cost": ("strata cost planes:count=3 --size 32x24 --knob average_count --repeat 1 -o cost --report cost.html", "cost.html"),
-    "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth d16,d32f --no-moves -o hard --report hard.html",
+    "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth-format d16,d32f --no-moves -o hard --report hard.html",
                    "hard.html"),
     "invariance": ("strata invariance planes:gap=8 --size 32x24 --remedy none,bias:4 -o pairs --report invariance.html", "invariance.html"),
     "reproduce": ("strata reproduce everitt2001 --size 32 -o everitt", "everitt/index.html"),
@@ -55,8 +55,7 @@ def check_sorting(driver):
 
 def check(driver, name, path):
     driver.get("file://" + path)
-    if name != "reproduce":  # which has no script
-        pages.wait_until_ready(driver)
+    pages.wait_until_ready(driver)
     wrong = [f"axe-core: {rule}" for rule in pages.violations(driver)]
     broken = driver.execute_script("return [...document.images].filter((i) => !i.complete || i.naturalWidth === 0).map((i) => i.alt)")
     wrong += [f"no picture of {alt}" for alt in broken]

@@ -17,7 +17,7 @@ import pages
 
 SCENES = [
     ["teapot", "--size", "96x72"],
-    ["volume-beam:slices=8", "--size", "64x48", "--profile", "ideal", "--colour", "linear"],
+    ["volume-beam:slices=8", "--size", "64x48", "--profile", "ideal", "--color-space", "linear"],
     ["random:triangles=200", "--size", "48x64", "--profile", "geforce3"],
 ]
 

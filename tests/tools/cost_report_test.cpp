@@ -27,7 +27,8 @@ CostRow row_of(const std::string& knob, const std::string& value, double rmse, d
     row.value = value;
     row.rmse = rmse;
     row.from_default = 0.25;
-    row.usual = TimeSpread{time, time * 0.5, time * 2};
+    row.usual = Spread{time, time * 0.9, time * 1.2, 5};
+    row.literal = Spread{4 * time, time * 3.6, time * 4.8, 5};
     row.modelled = 3 * time;
     return row;
 }
@@ -68,7 +69,33 @@ TEST_CASE("a sentence says what its row's knob changes, in the row's own figures
     CHECK(
         sentences[0] ==
         "made-up: depth d16 exact (with d16) instead of the default: 25.0000 % of pixels differ, RMSE 0.75 instead of "
-        "0.5, 1.50 times the time (0.75 to 3.00), 1.50 times the card's.");
+        "0.5, 1.50 times the time (1.35 to 1.80), run literally 1.50 times the default's literal time, 1.50 times the "
+        "card's.");
+    // Rounds that overlap with those of the default, or too few of them, are no finding.
+    const std::string errors = sentences[0].substr(0, sentences[0].find(", 1.50 times the time"));
+    rows[1].usual->least = rows[0].usual->greatest;
+    rows[1].literal->runs = 3;
+    CHECK(sentences_of(rows)[0] == errors + ", no other time beyond the noise of 5 rounds, 1.50 times the card's.");
+}
+
+TEST_CASE(
+    "the table of a page has a row a choice, and noise where the rounds of the default and of the choice overlap") {
+    std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2), row_of("depth", "d16", 0.75, 3),
+                              row_of("depth", "d24", 0.5, 2.2), row_of("effects", "all", 0.5, 9)};
+    rows[2].from_default = 0;
+    rows[3].refusal = "no";
+    const Table table = choice_table(rows);
+    REQUIRE(table.rows.size() == 4);
+    const std::vector<std::string> right{"made-up", "depth", "d16", "25.0000", "0.75", "1.50", "1.50", "1.50"};
+    CHECK(table.rows[1] == right);
+    CHECK(table.rows[0][5] == "1");
+    CHECK(table.rows[2][5] == "noise");
+    CHECK(table.rows[2][6] == "noise");
+    CHECK(table.rows[3][4] == "refused");
+    CHECK(found_sentence(rows) ==
+          "Of 3 choices other than the default, 1 change the picture, 1 do not, 1 are refused; 1 take another time "
+          "beyond the "
+          "noise of the rounds.");
 }
 
 TEST_CASE("a refused row and a link of the chain have sentences of their own") {
@@ -86,7 +113,7 @@ TEST_CASE("times are told as ratios to the cheapest cell of their column, and a 
     const auto timing = [](int cell, double median) {
         return nlohmann::ordered_json{
             {"cell", cell},
-            {"default", {{"median", median}, {"least", median / 2}, {"greatest", 2 * median}}},
+            {"default", {{"median", median}, {"least", median / 2}, {"greatest", 2 * median}, {"rounds", 5}}},
             {"literal", nullptr}};
     };
     const auto rows = cost_rows(lines, {timing(0, 9), timing(1, 5), timing(0, 10)});
@@ -136,6 +163,6 @@ TEST_CASE("the picture of a frontier names its points and no others") {
 TEST_CASE("the name of a scene with a comma in it is quoted in the table") {
     std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2)};
     rows[0].scene = "random:seed=1,triangles=3";
-    CHECK(table_csv(rows).find("\n\"random:seed=1,triangles=3\",default,dual,done,0.5,0.25,2,1,4,,,,6\n") !=
+    CHECK(table_csv(rows).find("\n\"random:seed=1,triangles=3\",default,dual,done,0.5,0.25,2,1.8,2.4,8,7.2,9.6,6\n") !=
           std::string::npos);
 }

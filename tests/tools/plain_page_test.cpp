@@ -6,6 +6,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
+#include "scenes/images/png_encode.h"
 #include "tests/tools/program.h"
 #include "tools/strata/report/picture_bytes.h"
 #include "tools/strata/sweep/csv.h"
@@ -42,26 +43,17 @@ TEST_CASE("a plain page has its parts in their order, and every character of a t
     page.heading("First");
     page.paragraph("x < y & \"z\"\x1b");
     page.table({{{"n"}, {"m"}}, {{"1", "</td>"}}}, "numbers");
-    page.lines("one\ntwo");
+    page.sentence("found & said");
+    page.items({"one <li>", "two"});
+    page.items({});
     const std::string html = page.html();
-    for (const std::string part : {"<title>Title &lt;1&gt;</title>", "<p>a &amp; b</p>", "<h2>First</h2>",
-                                   "<p>x &lt; y &amp; &quot;z&quot;\\x1b</p>", "<caption>numbers</caption>",
-                                   "<td>1</td><td>&lt;/td&gt;</td>", "one\ntwo</pre>"})
+    for (const std::string part :
+         {"<title>Title &lt;1&gt;</title>", "<p>a &amp; b</p>", "<h2>First</h2>",
+          "<p>x &lt; y &amp; &quot;z&quot;\\x1b</p>", "<caption>numbers</caption>", "<td>1</td><td>&lt;/td&gt;</td>",
+          "<p class=\"lead\">found &amp; said</p>", "<ul>\n<li>one &lt;li&gt;</li>\n<li>two</li>\n</ul>"})
         CHECK(times_in(html, part) == 1);
     CHECK(html.find("First") < html.find("<caption>"));
     CHECK(stands_alone(html));
-}
-
-TEST_CASE("lines of a page break where they are sentences, and not where they are columns") {
-    const auto breaks = [](const std::string& text) {
-        PlainPage page{"t", "s"};
-        page.lines(text);
-        return times_in(page.html(), "<pre class=\"wrapped\"") == 1;
-    };
-    CHECK(breaks("one sentence\n  one that is set in\n    and one further in\n"));
-    CHECK_FALSE(breaks("a sentence\nname  number\n"));
-    CHECK_FALSE(breaks("  name  number"));
-    CHECK(breaks(""));
 }
 
 TEST_CASE("a legend of a page has a swatch a colour, with its words") {
@@ -75,7 +67,7 @@ TEST_CASE("a legend of a page has a swatch a colour, with its words") {
 TEST_CASE("a picture of a page is a PNG that another reader reads back") {
     const Folder folder;
     const auto image = checkered(7, 5);
-    std::ofstream(folder / "a.png", std::ios::binary) << png_bytes(image);
+    std::ofstream(folder / "a.png", std::ios::binary) << strata::scenes::png_bytes(image);
     CHECK(strata::scenes::read_images(folder / "a.png").at(0).image.codes == image.codes);
     CHECK(base64("") == "");
     CHECK(base64("f") == "Zg==");
@@ -90,7 +82,7 @@ TEST_CASE("pictures that would make a page larger than 8 MiB are left out, and i
     CHECK(times_in(html, "<img") == 3);
     CHECK(html.find("2 pictures, so that this page has at most 8 MiB") != std::string::npos);
     CHECK(stands_alone(html));
-    page.lines(std::string(std::size_t{9} << 20, 'x'));
+    page.paragraph(std::string(std::size_t{9} << 20, 'x'));
     CHECK_THROWS_AS(page.html(), strata::InputError);
 }
 
@@ -112,7 +104,8 @@ TEST_CASE("every command with --report leaves one page that stands alone") {
         "strata diagnose planes:count=2 t.dual.png --report p.html",
         "strata invariance planes:count=2 --size 16x12 --remedy none -o i --report p.html",
         "strata cost planes:count=2 --size 16x12 --knob average_count --repeat 1 -o c --report p.html",
-        "strata hard-cases coincident --algorithm dual --profile ideal --depth d32f --no-moves -o h --report p.html"};
+        "strata hard-cases coincident --algorithm dual --profile ideal --depth-format d32f --no-moves -o h --report "
+        "p.html"};
     for (const std::string& line : lines) {
         const Ended ended = shell(folder, line + " && ls p.html");
         INFO(line << "\n" << ended.out << ended.err);
@@ -121,6 +114,19 @@ TEST_CASE("every command with --report leaves one page that stands alone") {
         CHECK(page.starts_with("<!doctype html>"));
         CHECK(page.ends_with("</html>\n"));
         CHECK(stands_alone(page));
+        // What was found is said first, numbers are tables, and no picture has the name of a file for its text.
+        const std::size_t sentence = page.find("<p class=\"lead\">");
+        if (line.find("render") == std::string::npos) {
+            CHECK(sentence != std::string::npos);
+            CHECK(sentence < page.find("<table"));
+            CHECK(sentence < page.find("<img"));
+            CHECK(page.find("<pre") == std::string::npos);
+        }
+        for (std::size_t at = page.find("<figcaption>"); at != std::string::npos;
+             at = page.find("<figcaption>", at + 1)) {
+            const std::string caption = page.substr(at + 12, page.find("</figcaption>", at) - at - 12);
+            CHECK(caption.find(' ') != std::string::npos);
+        }
         std::filesystem::remove(folder / "p.html");
     }
     CHECK(run_strata(folder, {"compare", "t.dual.png", "t.dual.png", "--report", "p.txt"}).err ==

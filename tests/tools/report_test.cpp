@@ -276,7 +276,7 @@ TEST_CASE("no name in a scene can end the data of a page") {
 TEST_CASE("report asks for a folder, and writes nothing where every algorithm is refused but says so") {
     const Folder folder;
     CHECK(run_strata(folder, {"report", "teapot"}).err ==
-          "strata: -o: expected a folder for report.html, found none\n");
+          "strata: -o is missing: the page, FILE.html, or a folder for it\n");
     const UnpackedReport some =
         report_of(folder, "teapot --size 16x12 --profile geforce3 --algorithm dual,depth_units");
     CHECK(some.document["algorithms"][0]["refusal"].get<std::string>().find("geforce3 has no ") != std::string::npos);
@@ -286,4 +286,17 @@ TEST_CASE("report asks for a folder, and writes nothing where every algorithm is
     CHECK(none.status == 2);
     CHECK(none.err.find("strata: dual: profile geforce3 has no ") == 0);
     CHECK_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST_CASE(
+    "report -o FILE.html writes the page, in a folder that is made, and another name is a folder that gets "
+    "report.html") {
+    const Folder folder;
+    const std::string report = "strata report planes:count=2 --size 16x12 --algorithm dual ";
+    const Ended file = shell(folder, report + "-o new/page.html"), in_folder = shell(folder, report + "--output out");
+    CHECK(file.status == 0);
+    CHECK(file.out.starts_with("new/page.html: "));
+    CHECK(in_folder.out.starts_with("out/report.html: "));
+    CHECK(content_of(folder / "new/page.html") == content_of(folder / "out/report.html"));
+    CHECK(content_of(folder / "new/page.html").find("planes:count=2") != std::string::npos);
 }

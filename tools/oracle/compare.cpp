@@ -89,6 +89,17 @@ class Sorter {
     Tolerances tolerances_;
 };
 
+std::array<bool, kind_count> tested_kinds(const std::vector<Pair>& pairs, const Sorter& sorter) {
+    std::array<bool, kind_count> tested{};
+    const auto of = [&](Kind kind) -> bool& { return tested[static_cast<std::size_t>(kind)]; };
+    of(Kind::coverage) = of(Kind::background) = sorter.masks().has_value();
+    for (const Kind kind :
+         {Kind::layer_missing, Kind::layer_doubled, Kind::layer_swapped, Kind::layer_merged, Kind::layer_other})
+        of(kind) = sorter.has_layers();
+    for (const Pair& pair : pairs) of(pair.reference->meaning == Meaning::depth ? Kind::depth : Kind::color) = true;
+    return tested;
+}
+
 // Takes a pixel down in the report of its kind. The first pixel is the first that is not forgiven.
 void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width, bool forgiven) {
     KindReport& report = kinds[static_cast<std::size_t>(kind)];
@@ -115,6 +126,7 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     for (const Pair& pair : pairing.pairs) measure(pair, worst, result);
 
     const Sorter sorter{reference, candidate, pairing, tolerances, background};
+    result.is_tested = tested_kinds(pairing.pairs, sorter);
     std::vector<KindReport> kinds(kind_count);
     result.kind_of.resize(pixels);
     result.distance_of.resize(pixels);

@@ -63,6 +63,7 @@ struct Comparison {
     std::vector<std::string> not_compared{};   // targets and channels of one picture alone
     std::vector<Kind> kind_of{};               // each pixel
     std::vector<std::uint32_t> distance_of{};  // each pixel's greatest distance
+    std::array<bool, kind_count> is_tested{};  // whether the targets can show the kind: layers, depths, a background
     bool equal = false, accepted = false;      // without and with tolerances
 };
 

@@ -16,8 +16,9 @@ namespace {
 using pipeline::ChannelType;
 using pipeline::Image;
 
-// Wide pictures lose pixels, small ones are enlarged: below 60 pixels a column has no room for its name.
-constexpr int most_width_px = 160, least_width_px = 60, space_px = 4, caption_px = letter_height_px + 2, left_px = 64;
+// Wide pictures lose pixels, small ones are enlarged: below 96 pixels a column has no room for its name.
+constexpr int most_width_px = 160, least_width_px = 96, space_px = 4, letters = 2;
+constexpr int caption_px = letters * letter_height_px + 4, left_px = 128;
 
 // Of sample 0.
 double value_of(const Image& image, int x, int y, int c) {
@@ -109,11 +110,11 @@ Image ContactSheet::image() const {
                 caption_px + row_px * static_cast<int>(rows_.size())};
     fill(sheet, 0, 0, sheet.width, sheet.height, 48);
     for (std::size_t c = 0; c < columns_.size(); ++c)
-        draw_text(sheet, left_px + column_px * static_cast<int>(c), 1,
-                  columns_[c].substr(0, static_cast<std::size_t>(column_px / letter_width_px)));
+        draw_text(sheet, left_px + column_px * static_cast<int>(c), 2,
+                  columns_[c].substr(0, static_cast<std::size_t>(column_px / (letters * letter_width_px))), letters);
     int top = caption_px;
     for (const Row& row : rows_) {
-        draw_text(sheet, 2, top + 2, row.caption);
+        draw_text(sheet, 2, top + 2, row.caption, letters);
         for (const Cell& cell : row.cells) {
             const auto column = static_cast<int>(std::ranges::find(columns_, cell.target) - columns_.begin());
             const int left = left_px + column_px * column;

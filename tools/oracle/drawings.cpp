@@ -1,7 +1,8 @@
 #include "tools/oracle/drawings.h"
 
 #include <algorithm>
-#include <bit>
+
+#include "tools/oracle/small_text.h"
 
 namespace strata::oracle {
 
@@ -13,6 +14,43 @@ constexpr std::uint32_t gap_grey = 96;
 void put(pipeline::Image& image, int x, int y, const std::array<std::uint32_t, 3>& rgb) {
     for (std::size_t c = 0; c < 3; ++c) image.codes[image.index(x, y, static_cast<int>(c))] = rgb[c];
     image.codes[image.index(x, y, 3)] = 255;
+}
+
+pipeline::Image blank(int width, int height, std::uint32_t grey) {
+    pipeline::Image image{pipeline::Format::rgba8, width, height};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) put(image, x, y, {grey, grey, grey});
+    return image;
+}
+
+// `color` of each pixel.
+template <class Color>
+pipeline::Image drawn(const Comparison& comparison, Color color) {
+    pipeline::Image image{pipeline::Format::rgba8, comparison.width, comparison.height};
+    for (int y = 0; y < comparison.height; ++y)
+        for (int x = 0; x < comparison.width; ++x) {
+            const std::array<std::uint8_t, 3> rgb = color(image.index(x, y) / 4);
+            put(image, x, y, {rgb[0], rgb[1], rgb[2]});
+        }
+    return image;
+}
+
+// A square in the colour of each kind that occurs, and its name next to it, as far as there is room.
+void draw_kinds(pipeline::Image& image, int x, int y, const Comparison& comparison) {
+    constexpr int letter_px = 2, square_px = 10, row_px = 12;
+    const int left = x;
+    for (const KindReport& kind : comparison.kinds) {
+        const std::string_view words = name(kind.kind);
+        const int wide = square_px + 4 + letter_px * letter_width_px * static_cast<int>(words.size());
+        if (x > left && x + wide > image.width) x = left, y += row_px;
+        if (y + square_px > image.height) return;
+        const auto rgb = color_of(kind.kind);
+        for (int i = 0; i < square_px * square_px; ++i)
+            if (x + i % square_px < image.width)
+                put(image, x + i % square_px, y + i / square_px, {rgb[0], rgb[1], rgb[2]});
+        draw_text(image, x + square_px + 4, y, words, letter_px);
+        x += wide + 2 * letter_px * letter_width_px;
+    }
 }
 
 void paste(const pipeline::Image& from, int left, pipeline::Image& to) {
@@ -40,17 +78,24 @@ std::array<std::uint8_t, 3> color_of(Kind kind) noexcept {
     return {};  // unreachable: the enum is closed
 }
 
-// The distance's bit length, 1 to 32, over the range 128 to 255.
+HeatScale heat_scale(const Comparison& comparison) {
+    return HeatScale{comparison.distance_of.empty() ? 0 : std::ranges::max(comparison.distance_of)};
+}
+
 pipeline::Image heat_map(const Comparison& comparison) {
-    pipeline::Image image{pipeline::Format::rgba8, comparison.width, comparison.height};
-    for (int y = 0; y < comparison.height; ++y)
-        for (int x = 0; x < comparison.width; ++x) {
-            const std::size_t i = image.index(x, y) / 4;
-            const auto length = static_cast<std::uint32_t>(std::bit_width(comparison.distance_of[i]));
-            const std::uint32_t share = std::min(128 + length * 4, 255u);
-            const auto full = color_of(comparison.kind_of[i]);
-            put(image, x, y, {full[0] * share / 255, full[1] * share / 255, full[2] * share / 255});
-        }
+    const HeatScale scale = heat_scale(comparison);
+    return drawn(comparison, [&](std::size_t pixel) { return scale.color(comparison.distance_of[pixel]); });
+}
+
+pipeline::Image kind_map(const Comparison& comparison) {
+    return drawn(comparison, [&](std::size_t pixel) { return color_of(comparison.kind_of[pixel]); });
+}
+
+pipeline::Image heat_map_with_legend(const Comparison& comparison) {
+    pipeline::Image image =
+        blank(std::max(comparison.width, least_legend_width_px), comparison.height + legend_height_px, 0);
+    paste(heat_map(comparison), 0, image);
+    draw_legend(image, 0, comparison.height, comparison.width, heat_scale(comparison));
     return image;
 }
 
@@ -75,13 +120,14 @@ pipeline::Image as_shown(const Picture& picture) {
 }
 
 pipeline::Image side_by_side(const Picture& reference, const Picture& candidate, const Comparison& comparison) {
-    const int w = comparison.width, h = comparison.height;
-    pipeline::Image image{pipeline::Format::rgba8, 3 * w + 2 * gap_px, h};
-    for (int y = 0; y < h; ++y)
-        for (int x = 0; x < image.width; ++x) put(image, x, y, {gap_grey, gap_grey, gap_grey});
+    const int step = std::max(comparison.width, least_legend_width_px) + gap_px;
+    pipeline::Image image = blank(4 * step - gap_px, comparison.height + legend_height_px, gap_grey);
     paste(as_shown(reference), 0, image);
-    paste(as_shown(candidate), w + gap_px, image);
-    paste(heat_map(comparison), 2 * (w + gap_px), image);
+    paste(as_shown(candidate), step, image);
+    paste(heat_map(comparison), 2 * step, image);
+    paste(kind_map(comparison), 3 * step, image);
+    draw_legend(image, 2 * step, comparison.height, comparison.width, heat_scale(comparison));
+    draw_kinds(image, 3 * step, comparison.height + 1, comparison);
     return image;
 }
 

@@ -73,7 +73,10 @@ std::string of_line(const Line& line) {
 std::string to_text(const History& history) {
     std::string text = fmt::format("pixel {},{} by {} on {}: {} fragments in submission order\n", history.x, history.y,
                                    history.algorithm, history.profile, history.fragments.size());
-    if (history.is_reversed) text += "  depth is reversed: depths are told as keys, of which the less is nearer\n";
+    if (history.fragments.empty())
+        text += fmt::format("  no fragment covers this pixel: it shows what was there before{}\n",
+                            history.lines.empty() ? "" : ", " + hex(history.lines.back().held.at(0).before));
+    if (history.is_reversed) text += "  depth is reversed: depths are shown as keys, of which the less is nearer\n";
     for (std::size_t f = 0; f < history.fragments.size(); ++f) text += of_fragment(history.fragments[f], f);
     for (const Line& line : history.lines) text += fmt::format("  pass {}: {}\n", line.pass, of_line(line));
     return text;

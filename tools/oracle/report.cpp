@@ -115,7 +115,10 @@ std::string failure_of(const KindReport& kind) {
 std::string to_junit(const std::vector<JunitCase>& cases) {
     const auto failures = std::ranges::count_if(cases, [](const JunitCase& c) { return !c.failure.empty(); });
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-    text += fmt::format("<testsuite name=\"strata compare\" tests=\"{}\" failures=\"{}\">\n", cases.size(), failures);
+    const auto skipped =
+        std::ranges::count_if(cases, [](const JunitCase& c) { return c.failure.empty() && c.is_skipped; });
+    text += fmt::format("<testsuite name=\"strata compare\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
+                        cases.size(), failures, skipped);
     for (const JunitCase& c : cases) {
         text += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(c.group), escaped(c.name));
         if (!c.failure.empty())
@@ -132,7 +135,7 @@ std::string to_junit(const Comparison& c) {
         const auto kind = static_cast<Kind>(k);
         const auto found = std::ranges::find(c.kinds, kind, &KindReport::kind);
         const bool fails = found != c.kinds.end() && found->beyond > 0;
-        cases.push_back({"strata.compare", std::string{name(kind)}, fails ? failure_of(*found) : ""});
+        cases.push_back({"strata.compare", std::string{name(kind)}, fails ? failure_of(*found) : "", !c.is_tested[k]});
     }
     return to_junit(cases);
 }

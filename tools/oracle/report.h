@@ -20,7 +20,7 @@ struct JunitCase {
 // "31 pixels, first at 4,7": those beyond the tolerance.
 [[nodiscard]] std::string failure_of(const KindReport& kind);
 
-// A test case a kind, failed where pixels differ beyond the tolerance.
+// A test case a kind, failed where pixels differ beyond the tolerance, skipped where the targets cannot show it.
 [[nodiscard]] std::string to_junit(const Comparison& comparison);
 
 }  // namespace strata::oracle

@@ -29,15 +29,17 @@ unsigned bits_of(char character) {
 
 }  // namespace
 
-void draw_text(pipeline::Image& rgba8, int x, int y, std::string_view text) {
+void draw_text(pipeline::Image& rgba8, int x, int y, std::string_view text, int scale) {
     for (const char character : text) {
         const unsigned bits = bits_of(character);
-        for (int i = 0; i < 15; ++i) {
-            const int px = x + i % 3, py = y + i / 3;
-            if ((bits >> (14 - i) & 1u) == 0 || px < 0 || py < 0 || px >= rgba8.width || py >= rgba8.height) continue;
-            for (int c = 0; c < 4; ++c) rgba8.codes[rgba8.index(px, py, c)] = 255;
-        }
-        x += letter_width_px;
+        for (int row = 0; row < 5 * scale; ++row)
+            for (int column = 0; column < 3 * scale; ++column) {
+                const int bit = row / scale * 3 + column / scale, px = x + column, py = y + row;
+                const bool is_inside = px >= 0 && py >= 0 && px < rgba8.width && py < rgba8.height;
+                if ((bits >> (14 - bit) & 1u) == 0 || !is_inside) continue;
+                for (int c = 0; c < 4; ++c) rgba8.codes[rgba8.index(px, py, c)] = 255;
+            }
+        x += letter_width_px * scale;
     }
 }
 

@@ -9,7 +9,7 @@ namespace strata::oracle {
 inline constexpr int letter_width_px = 4, letter_height_px = 6;  // with the gap to the next
 
 // White on whatever is there; small letters a to z, digits and " ._-:/()"; any other character is a full block. Cut at the image's
-// edge.
-void draw_text(pipeline::Image& rgba8, int x, int y, std::string_view text);
+// edge. Each pixel of a letter is a square of `scale` by `scale`.
+void draw_text(pipeline::Image& rgba8, int x, int y, std::string_view text, int scale = 1);
 
 }  // namespace strata::oracle

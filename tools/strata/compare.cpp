@@ -75,7 +75,7 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
     for (const oracle::PackComparison& c : found) {
         const auto shown = shown_pair(reference, candidate, c);
         if (!shown) continue;
-        write_png(path_of(options.heat, c.algorithm, is_only), oracle::heat_map(shown->comparison));
+        write_png(path_of(options.heat, c.algorithm, is_only), oracle::heat_map_with_legend(shown->comparison));
         write_png(path_of(options.side, c.algorithm, is_only),
                   oracle::side_by_side(shown->reference, shown->candidate, shown->comparison));
     }
@@ -117,7 +117,7 @@ void check_without_files(const CompareOptions& options) {
                                      {"--junit", &options.junit},
                                      {"--report", &options.report}})
         if (!path->empty())
-            throw CLI::ValidationError(name, "expected --exact beside it, or a picture as the reference");
+            throw CLI::ValidationError(std::string(name) + " needs --exact, or a picture as the reference");
 }
 
 // Files first: what stands on standard output has been written.
@@ -136,7 +136,7 @@ int compare(const CompareOptions& options) {
     const oracle::Picture reference = reference_of(options);
     const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
     const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances, options.background);
-    write_png(options.heat, oracle::heat_map(found));
+    write_png(options.heat, oracle::heat_map_with_legend(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));
     if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
     if (!options.report.empty()) write_page(options.report, page_of(paths_of(options), reference, candidate, found));
@@ -160,7 +160,7 @@ void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pi
 }  // namespace
 
 Command add_compare(CLI::App& root) {
-    auto* app = root.add_subcommand("compare", "tell how a picture differs from a reference, by kinds of mistakes");
+    auto* app = root.add_subcommand("compare", "show how a picture differs from a reference, by kinds of mistakes");
     const auto options = std::make_shared<CompareOptions>();
     app->add_option_function<std::string>(
            "REFERENCE",
@@ -178,14 +178,16 @@ Command add_compare(CLI::App& root) {
     add_layout_option(*app, options->layout);
     add_tolerance_option(*app, options->tolerances);
     app->add_flag("--exact", options->exact,
-                  "of a scene or a pack: hold the picture to every bit, and tell where it differs");
+                  "of a scene or a pack: hold the picture to every bit, and show where it differs");
     add_path(*app, options->algorithm,
              {"--algorithm", "NAME", "of a pack: compare this one alone (default: all); of a scene: what the port runs",
               "an algorithm"});
-    add_path(*app, options->heat, {"--heat", "FILE.png", "where which kind of difference is", "a file name"});
-    add_path(*app, options->side,
-             {"--side", "FILE.png",
-              "reference, candidate and heat map side by side; of a folder NAME.ALGORITHM.png each", "a file name"});
+    add_path(*app, options->heat,
+             {"--heat", "FILE.png", "how many codes each pixel is off, with a legend", "a file name"});
+    add_path(
+        *app, options->side,
+        {"--side", "FILE.png",
+         "reference, candidate, heat map and kinds side by side; of a folder NAME.ALGORITHM.png each", "a file name"});
     add_path(
         *app, options->junit,
         {"--junit", "FILE.xml",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/report.h"
@@ -30,6 +31,17 @@ void add_pictures(PlainPage& page, const ShownPair& shown, const ComparedPaths& 
     add_heat_map(page, shown.comparison);
 }
 
+// The lines of an algorithm's text as sentences; the pictures are described by tables.
+void add_findings(PlainPage& page, const oracle::PackComparison& c) {
+    std::vector<std::string> sentences;
+    std::istringstream lines(oracle::to_text(std::vector{c}));
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (begin != std::string::npos && begin <= 2) sentences.push_back(line.substr(begin));
+    }
+    page.items(sentences);
+}
+
 struct Verdict {
     std::string_view words;
     Paint paint;
@@ -55,23 +67,66 @@ std::string painted_line(const std::string& line) {
 }  // namespace
 
 void add_heat_map(PlainPage& page, const oracle::Comparison& found) {
-    page.picture(oracle::heat_map(found),
-                 found.equal
-                     ? "Where they differ: nowhere, so all of it is black"
-                     : "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+    page.picture(oracle::heat_map_with_legend(found),
+                 found.equal ? "How far apart: nowhere, so all of it is black"
+                             : "How far apart each pixel is, in codes of the reference's format: black is equal");
+    if (found.kinds.empty()) return;
+    page.picture(oracle::kind_map(found), "Which kind of difference is where: black is equal");
     std::vector<PlainPage::Swatch> kinds;
     for (const oracle::KindReport& kind : found.kinds)
         kinds.push_back({oracle::color_of(kind.kind), std::string(name(kind.kind))});
-    if (!kinds.empty()) page.legend(kinds);
+    page.legend(kinds);
+}
+
+void add_tables(PlainPage& page, const oracle::Comparison& found) {
+    Table targets{{{"target"}, {"reference"}, {"candidate"}, {"pixels that differ"}, {"at most, codes"}}, {}};
+    for (const oracle::TargetReport& t : found.targets)
+        targets.rows.push_back({t.part.empty() ? t.name : t.part + " " + t.name, std::string(oracle::name(t.reference)),
+                                std::string(oracle::name(t.candidate)), std::to_string(t.differing),
+                                std::to_string(t.greatest)});
+    page.table(targets, "Each target that both pictures have");
+    if (!found.kinds.empty()) {
+        Table kinds{{{"kind"}, {"pixels"}, {"beyond the tolerance"}, {"first at"}, {"what is seen of it"}}, {}};
+        for (const oracle::KindReport& k : found.kinds)
+            kinds.rows.push_back({std::string(name(k.kind)), std::to_string(k.pixels), std::to_string(k.beyond),
+                                  std::to_string(k.first_x) + "," + std::to_string(k.first_y),
+                                  k.detail.empty() ? "-" : k.detail});
+        page.table(kinds, "Kinds of differences");
+    }
+    if (!found.explanations.empty()) {
+        Table known{{{"known mistake"},
+                     {"differing pixels that it explains"},
+                     {"of"},
+                     {"equal pixels against it"},
+                     {"they are those of"}},
+                    {}};
+        for (const oracle::Explanation& e : found.explanations)
+            known.rows.push_back({std::string(e.mistake), std::to_string(e.explained), std::to_string(e.of),
+                                  std::to_string(e.contradicted), std::string(e.sentence)});
+        page.table(known, "Known mistakes whose picture is near");
+    }
+    std::vector<std::string> left_out;
+    for (const std::string& what : found.not_compared) left_out.push_back("Not compared: " + what);
+    page.items(left_out);
+}
+
+std::string sentence_of(const oracle::Comparison& found) {
+    if (found.equal) return "The pictures are equal in every bit.";
+    std::uint32_t greatest = 0;
+    for (const oracle::TargetReport& target : found.targets) greatest = std::max(greatest, target.greatest);
+    const auto pixels = static_cast<std::uint64_t>(found.width) * static_cast<std::uint64_t>(found.height);
+    return std::to_string(found.differing) + " of " + std::to_string(pixels) + " pixels differ, by at most " +
+           std::to_string(greatest) + " code" + (greatest == 1 ? "" : "s") +
+           (found.accepted ? ", which the tolerance allows." : ".");
 }
 
 PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference, const oracle::Picture& candidate,
                   const oracle::Comparison& found) {
     PlainPage page{title_of(found.equal, found.accepted), command_of(paths)};
-    page.heading("What differs");
-    page.lines(oracle::to_text(found));
-    page.heading("Pictures");
+    page.sentence(sentence_of(found));
     add_pictures(page, {reference, candidate, found, ""}, paths);
+    page.heading("What differs");
+    add_tables(page, found);
     return page;
 }
 
@@ -97,10 +152,16 @@ PlainPage page_of(const ComparedPaths& paths, const std::vector<oracle::PackPict
     PlainPage page{title_of(std::ranges::all_of(found, &oracle::PackComparison::equal),
                             std::ranges::all_of(found, &oracle::PackComparison::accepted)),
                    command_of(paths)};
+    const auto right = std::ranges::count_if(found, &oracle::PackComparison::accepted);
+    page.sentence(std::to_string(right) + " of " + std::to_string(found.size()) +
+                  " algorithms come out as the pack has them.");
     for (const oracle::PackComparison& c : found) {
         page.heading(c.algorithm);
-        page.lines(oracle::to_text(std::vector{c}));
-        if (const auto shown = shown_pair(reference, candidate, c)) add_pictures(page, *shown, paths);
+        add_findings(page, c);
+        if (const auto shown = shown_pair(reference, candidate, c)) {
+            add_pictures(page, *shown, paths);
+            if (!shown->comparison.equal) add_tables(page, shown->comparison);
+        }
     }
     return page;
 }

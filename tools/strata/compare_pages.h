@@ -1,6 +1,6 @@
 // tools/strata/compare_pages.h - what compare leaves beside its text: pages of --report, and the verdicts in colours.
 //
-// Rule     A page holds what is printed, and reference, candidate and heat map of each picture compared; no path of this machine.
+// Rule     A page holds what is printed, as a sentence and tables, and reference, candidate and heat map of each picture compared; no path of this machine.
 // Tests    tests/tools/compare_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <optional>
@@ -20,8 +20,11 @@ struct ComparedPaths {
 [[nodiscard]] PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference,
                                 const oracle::Picture& candidate, const oracle::Comparison& found);
 
-// Where two pictures differ, with a legend of the kinds that are there.
+// How far apart two pictures are, with a legend in codes, and which kind is where.
 void add_heat_map(PlainPage& page, const oracle::Comparison& found);
+// Targets, kinds and known mistakes as tables; "12 of 640 pixels differ, by at most 3 codes."
+void add_tables(PlainPage& page, const oracle::Comparison& found);
+[[nodiscard]] std::string sentence_of(const oracle::Comparison& found);
 
 // Of a pack and a folder: what an algorithm's pictures show. The end, or, where that is alike, the first pass that is not.
 struct ShownPair {

@@ -7,6 +7,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/verdict/report.h"
+#include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"

@@ -39,10 +39,9 @@ int explain(ExplainOptions& options) {
     const auto [x, y] = options.pixel.value_or(Pixel{});
     const peeling::RenderOptions& render = options.run.render;
     if (!options.pixel || x >= render.width || y >= render.height)
-        throw CLI::ValidationError("--pixel",
-                                   "expected a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +
-                                       std::to_string(render.height - 1) + ", found " +
-                                       (options.pixel ? std::to_string(x) + "," + std::to_string(y) : "none"));
+        throw CLI::ValidationError("--pixel must be a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +
+                                   std::to_string(render.height - 1) +
+                                   (options.pixel ? ", not " + std::to_string(x) + "," + std::to_string(y) : ""));
     const Session session = open_session(options.run);
     std::vector<oracle::History> histories;
     for (const peeling::Algorithm* algorithm : options.run.algorithms)
@@ -65,7 +64,7 @@ int explain(ExplainOptions& options) {
 
 Command add_explain(CLI::App& root) {
     auto* app =
-        root.add_subcommand("explain", "tell what happened at one pixel: its fragments, and what each pass did");
+        root.add_subcommand("explain", "show what happened at one pixel: its fragments, and what each pass did");
     const auto options = std::make_shared<ExplainOptions>();
     add_picture_options(*app, options->run);
     add_option(*app, options->pixel,

@@ -99,11 +99,13 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
     scenes::write_image(path("contact.png"), {.color = sheet.image()});
     scenes::write_file(path("passes.json"), document.dump(2) + '\n');
     page.heading(algorithm.name);
-    page.paragraph(
-        algorithm.summary +
-        ". The sheet has a row a pass and a column a target; a light frame is round what the pass has written.");
+    page.sentence(fmt::format("{} draws {} in {} passes: {}.", algorithm.name, options.scene, table.rows.size(),
+                              algorithm.summary));
     page.table(table, "The passes of " + algorithm.name);
-    page.picture(sheet.image(), "Every target of " + algorithm.name + " after every pass");
+    page.picture_with_letters(
+        sheet.image(),
+        "Every target of " + algorithm.name +
+            " after every pass: a row a pass, a column a target; a light frame is round what the pass has written.");
     print((prefix.empty() ? "" : algorithm.name + ":\n") + titled(to_text(table)));
 }
 
@@ -112,9 +114,8 @@ int passes(PassesOptions& command) {
     RunOptions& options = command.run;
     complete(options);
     check_outputs({{"--report", command.report, {".html"}}});
-    if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the files, found none");
+    if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the files");
     static_cast<void>(scenes::exr::start_threads());
-    static_cast<void>(scenes::image_module());  // else it would be missed after the first pass
     const Session session = open_session(options);
     std::filesystem::create_directories(options.output);
     int status = 2;
@@ -138,7 +139,7 @@ Command add_passes(CLI::App& root) {
     add_picture_options(*app, options->run);
     add_report_option(*app, options->report);
     add_path(*app, options->run.output,
-             {"-o", "FOLDER",
+             {"-o,--output", "FOLDER",
               "gets pass.000.exr ..., passes.json and contact.png; NAME.pass.000.exr with several algorithms",
               "a folder's name"});
     app->footer(footer(

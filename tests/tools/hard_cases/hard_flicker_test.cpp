@@ -71,7 +71,7 @@ TEST_CASE("one who loses a triangle in every second frame flips in coverage, and
 }
 
 // Stored depths flicker at one unit's distance, whatever the format, and exact ones do not.
-TEST_CASE("a device's stored depths flicker where planes are one unit apart, by path; exact depths never do",
+TEST_CASE("a device's stored depths flicker where planes are one unit apart, by path, and exact depths never do",
           "[slow]") {
     const scenes::HardCase& hard = hard_named("planes-1-unit");
     const tools::MovedMachine machine{hard};

@@ -101,7 +101,8 @@ TEST_CASE("no algorithm fails on a choice of hard cases on any of four devices")
     CHECK(rows > 350);
 }
 
-TEST_CASE("every case runs in every way; a deep one literally and with all effects at once, a huge frame in one way") {
+TEST_CASE(
+    "every case runs in every way, and a deep one literally and with all effects at once, a huge frame in one way") {
     std::vector<std::string> deep, other;
     for (const scenes::HardCase& hard : scenes::hard_cases()) {
         const std::vector<std::string> ways = tools::ways_of(hard);

@@ -50,7 +50,7 @@ TEST_CASE("layers of a pixel are equal, missing, doubled, swapped or merged, wha
     CHECK(kind_of({layer_a}, {layer_a, layer_x, layer_b}) == Kind::layer_other);
 }
 
-TEST_CASE("two layers of one depth that became one are merged whatever its colour; one that is left is no merger") {
+TEST_CASE("two layers of one depth that became one are merged whatever its colour, and one that is left is no merger") {
     const std::vector<std::uint32_t> depths{5, 5, 9}, fewer{5, 9};
     CHECK(compare(layered({layer_a, layer_b, layer_c}, 3, depths), layered({layer_x, layer_c}, 3, fewer)).kind_of[0] ==
           Kind::layer_merged);

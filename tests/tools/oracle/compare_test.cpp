@@ -103,7 +103,7 @@ TEST_CASE("depths are told apart by codes, with a histogram, and decide what is 
     CHECK(compare(make_picture({depth(0)}), make_picture({depth(2)}), {.depth_codes = 2}).accepted);
 }
 
-TEST_CASE("pictures of unequal size, or without a common target, are no input; a missing alpha is told") {
+TEST_CASE("pictures of unequal size, or without a common target, are no input, and a missing alpha is told") {
     const Picture reference = ellipse();
     CHECK_THROWS_AS(compare(reference, make_picture({make_target("", Code::unorm8, 39, 30, 4, ellipse_texel)})),
                     strata::InputError);
@@ -122,34 +122,70 @@ TEST_CASE("reports name every kind, and JUnit fails those alone that are beyond 
     const std::string strict = to_junit(compare(reference, candidate));
     CHECK(strict.find("failures=\"1\"") != std::string::npos);
     CHECK(strict.find("name=\"color\">") != std::string::npos);
-    CHECK(strict.find("name=\"depth\"/>") != std::string::npos);
+    CHECK(strict.find("name=\"coverage\"/>") != std::string::npos);
     CHECK(to_junit(compare(reference, candidate, {.color_codes = 1})).find("failures=\"0\"") != std::string::npos);
     CHECK(to_text(compare(reference, candidate)).starts_with("different: 1 of 1200 pixels differ\n"));
     CHECK(to_text(compare(reference, candidate, {.color_codes = 1})).starts_with("accepted: 1 of 1200"));
     CHECK(to_json(compare(reference, candidate)).find("\"kind\": \"color\"") != std::string::npos);
 }
 
-TEST_CASE("a heat map is black exactly where the pictures are equal, and has the colour of the kind elsewhere") {
+TEST_CASE("JUnit skips the kinds that the compared targets cannot show") {
+    const auto skipped = [](const Picture& picture) {
+        const std::string xml = to_junit(compare(picture, picture));
+        std::vector<std::string> names;
+        for (std::size_t at = xml.find("<skipped/>"); at != xml.npos; at = xml.find("<skipped/>", at + 1)) {
+            const std::size_t begin = xml.rfind(" name=\"", at) + 7;
+            names.push_back(xml.substr(begin, xml.find('"', begin) - begin));
+        }
+        CHECK(xml.find("skipped=\"" + std::to_string(names.size()) + "\"") != xml.npos);
+        CHECK(xml.find("tests=\"9\"") != xml.npos);
+        return names;
+    };
+    const std::vector<std::string> layers{"layer_missing", "layer_doubled", "layer_swapped", "layer_merged",
+                                          "layer_other"};
+    std::vector<std::string> flat = layers;
+    flat.push_back("depth");
+    CHECK(skipped(ellipse()) == flat);  // a colour alone, with a background to read
+    Target depth = make_target("", Code::unorm24, 40, 30, 1, ellipse_texel);
+    depth.name = "depth";
+    depth.meaning = Meaning::depth;
+    CHECK(skipped(make_picture({make_target("", Code::unorm8, 40, 30, 4, ellipse_texel), depth})) == layers);
+}
+
+TEST_CASE("a heat map is black exactly where the pictures are equal, and has the colour of so many codes elsewhere") {
     const Picture reference = ellipse();
     Picture candidate = reference;
-    candidate.targets[0].codes[inside_pixel() * 4] += 1;
+    candidate.targets[0].codes[inside_pixel() * 4] += 44;
     const Comparison found = compare(reference, candidate);
-    const strata::pipeline::Image heat = heat_map(found);
-    int lit = 0;
-    for (std::size_t i = 0; i < heat.codes.size(); i += 4)
-        lit += heat.codes[i] + heat.codes[i + 1] + heat.codes[i + 2] > 0 ? 1 : 0;
-    CHECK(lit == 1);
-    CHECK(heat.codes[inside_pixel() * 4] >= 128);
-    const strata::pipeline::Image side = side_by_side(reference, candidate, found);
-    CHECK(side.width == 3 * 40 + 8);
+    const strata::pipeline::Image heat = heat_map(found), kinds = kind_map(found);
+    const auto lit = [](const strata::pipeline::Image& image) {
+        int count = 0;
+        for (std::size_t i = 0; i < image.codes.size(); i += 4)
+            count += image.codes[i] + image.codes[i + 1] + image.codes[i + 2] > 0 ? 1 : 0;
+        return count;
+    };
+    CHECK(lit(heat) == 1);
+    CHECK(lit(kinds) == 1);
+    for (std::size_t c = 0; c < 3; ++c) {
+        CHECK(heat.codes[inside_pixel() * 4 + c] == HeatScale{44}.color(44)[c]);
+        CHECK(kinds.codes[inside_pixel() * 4 + c] == color_of(Kind::color)[c]);
+    }
+    const strata::pipeline::Image side = side_by_side(reference, candidate, found),
+                                  legend = heat_map_with_legend(found);
+    CHECK(side.width == 4 * 96 + 3 * 4);
+    CHECK(legend.width == 96);
+    CHECK(legend.height == 30 + legend_height_px);
+    CHECK(lit(legend) > 96 * 8);
     int wrong = 0;
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x)
             for (int c = 0; c < 3; ++c) {
                 const std::size_t own = static_cast<std::size_t>((y * 40 + x) * 4 + c);
                 wrong += side.codes[side.index(x, y, c)] != reference.targets[0].codes[own] ? 1 : 0;
-                wrong += side.codes[side.index(x + 44, y, c)] != candidate.targets[0].codes[own] ? 1 : 0;
-                wrong += side.codes[side.index(x + 88, y, c)] != heat.codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 100, y, c)] != candidate.targets[0].codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 200, y, c)] != heat.codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 300, y, c)] != kinds.codes[own] ? 1 : 0;
+                wrong += legend.codes[legend.index(x, y, c)] != heat.codes[own] ? 1 : 0;
             }
     CHECK(wrong == 0);
 }

@@ -161,7 +161,7 @@ TEST_CASE("a contact sheet has a place for every target after every pass") {
         for (const NamedImage& target : pass.targets) columns.insert(target.name);
     }
     const pipeline::Image image = sheet.image();
-    // Pixels of a frame of 24 x 16 are shown as squares of 3 x 3.
-    CHECK(image.width == 64 + (3 * 24 + 4) * static_cast<int>(columns.size()));
-    CHECK(image.height == 8 + (3 * 16 + 4) * static_cast<int>(rows));
+    // Pixels of a frame of 24 x 16 are shown as squares of 4 x 4.
+    CHECK(image.width == 128 + (4 * 24 + 4) * static_cast<int>(columns.size()));
+    CHECK(image.height == 16 + (4 * 16 + 4) * static_cast<int>(rows));
 }

@@ -57,8 +57,7 @@ struct CostSweep {
         scene.name = name_of_scene(name);
         for (std::size_t i = 0; i + 1 < sweep.scenes.size(); ++i)
             if (sweep.scenes[i].name == scene.name)
-                throw CLI::ValidationError("SCENE",
-                                           "expected scenes of different names, found '" + scene.name + "' twice");
+                throw CLI::ValidationError("SCENE", "'" + scene.name + "' is the name of two scenes");
         scene.session = open_session(run);
         scene.base = {.scene = sweep.scenes.size() - 1,
                       .profile = scene.session.profile,
@@ -133,16 +132,34 @@ struct CostSweep {
                 }};
 }
 
+// What the page of --report says; `folder` holds the times.
+[[nodiscard]] Findings findings(const Lines& lines, const std::string& folder) {
+    const auto rows = cost_rows(lines, read_journal((std::filesystem::path(folder) / "timings.jsonl").string()).lines);
+    return {found_sentence(rows), choice_table(rows), "Each choice next to the default", {}};
+}
+
+// "frontier.teapot.default.svg".
+[[nodiscard]] std::string caption_of(const std::string& name, const Lines&) {
+    const auto parts = split(name, '.');
+    const std::string& column = parts.at(parts.size() - 2);
+    return fmt::format("Error over time on {}, {}: the line joins the choices that no other beats in both",
+                       name.substr(9, name.size() - column.size() - 14),
+                       column == "default"   ? "as it runs by default"
+                       : column == "literal" ? "every pass rasterized"
+                                             : "as the card's rates would have it");
+}
+
 int cost(CostOptions& options) {
     if (options.run.output.empty() && !options.dry_run)
-        throw CLI::ValidationError("-o", "expected a folder for the results, found none");
-    if (options.merge > 0 && options.shard.count > 1)
-        throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
+        throw CLI::ValidationError("-o is missing: the folder for the results");
+    if (options.merge > 0 && options.shard.count > 1) throw CLI::ValidationError("--merge excludes --shard");
     check_outputs({{"--report", options.report, {".html"}}});
     complete(options.run);
     CostSweep sweep = planned(options);
     Work work = work_of(options, sweep);
     work.report = options.report;
+    work.findings = [folder = options.run.output](const Lines& lines) { return findings(lines, folder); };
+    work.caption = caption_of;
     if (options.dry_run) return dry_run(work, options.shard), 0;
     const std::string& folder = options.run.output;
     if (options.merge > 0) return merge_shards(work, folder, static_cast<std::size_t>(options.merge));
@@ -170,13 +187,13 @@ Command add_cost(CLI::App& root) {
     add_profile_option(*app, options->run.profile);
     add_view_options(*app, options->run);
     add_resource_options(*app, options->run);
-    add_option(
-        *app, options->timing.rounds,
-        {"--repeat", "N",
-         "rounds in which a cell is timed beside the default (default 5, and up to 25 while they last under 2 s: short "
-         "runs vary most)",
-         "a whole number from 1"},
-        to_positive);
+    add_option(*app, options->timing.rounds,
+               {"--repeat", "N",
+                "rounds in which a cell is timed next to the default (default 5, and up to 25 while they last under 2 "
+                "s: short "
+                "runs vary most)",
+                "a whole number from 1"},
+               to_positive);
     add_choice(*app, options->timing.clock, "--clock", cost_clocks,
                "a time as a user waits, or what all threads took of the processor, which other processes hardly change "
                "(default wall)");

@@ -19,16 +19,19 @@ namespace {
     return defaults;
 }
 
-// "1.25 times the time (1.20 to 1.31)" of the default's: the quotient of two ratios to the cheapest cell.
+// "1.25 times the time (1.20 to 1.31)" of the default's: the quotient of two ratios to the cheapest cell; or that the rounds of both overlap.
 [[nodiscard]] std::string times_of(const CostRow& row, const CostRow& standard) {
     std::string text;
     if (row.usual && standard.usual) {
         const double unit = standard.usual->median;
-        text += fmt::format(", {:.2f} times the time ({:.2f} to {:.2f})", row.usual->median / unit,
-                            row.usual->least / unit, row.usual->greatest / unit);
+        text += is_apart(*row.usual, *standard.usual)
+                    ? fmt::format(", {:.2f} times the time ({:.2f} to {:.2f})", row.usual->median / unit,
+                                  row.usual->least / unit, row.usual->greatest / unit)
+                    : fmt::format(", no other time beyond the noise of {} rounds", row.usual->runs);
     }
-    if (row.literal && standard.usual)
-        text += fmt::format(", literally {:.2f} times the cheapest literal one", row.literal->median);
+    if (row.literal && standard.literal && is_apart(*row.literal, *standard.literal))
+        text += fmt::format(", run literally {:.2f} times the default's literal time",
+                            row.literal->median / standard.literal->median);
     if (row.modelled && standard.modelled)
         text += fmt::format(", {:.2f} times the card's", *row.modelled / *standard.modelled);
     return text;
@@ -45,7 +48,7 @@ namespace {
 [[nodiscard]] std::string number(const std::optional<double>& value) {
     return value ? fmt::format("{:.6g}", *value) : "";
 }
-[[nodiscard]] std::string number(const std::optional<TimeSpread>& s) {
+[[nodiscard]] std::string number(const std::optional<Spread>& s) {
     return s ? fmt::format("{:.6g},{:.6g},{:.6g}", s->median, s->least, s->greatest) : ",,";
 }
 
@@ -86,6 +89,59 @@ std::vector<std::string> sentences_of(const std::vector<CostRow>& rows) {
         }
     }
     return sentences;
+}
+
+Table choice_table(const std::vector<CostRow>& rows) {
+    Table table{{{"scene"},
+                 {"knob"},
+                 {"value"},
+                 {"pixels that differ, %", Align::right},
+                 {"RMSE / 255", Align::right},
+                 {"time / default", Align::right},
+                 {"literally / default", Align::right},
+                 {"card / default", Align::right}},
+                {}};
+    const auto defaults = defaults_of(rows);
+    const auto ratio = [](const std::optional<Spread>& own, const std::optional<Spread>& standard) -> std::string {
+        if (!own || !standard) return "-";
+        return is_apart(*own, *standard) ? fmt::format("{:.2f}", own->median / standard->median) : "noise";
+    };
+    for (const CostRow& row : rows) {
+        const CostRow& standard = *defaults.at(row.scene);
+        const std::string value = row.value + (row.opened.empty() ? "" : " (with " + row.opened + ")");
+        if (!row.refusal.empty()) {
+            table.rows.push_back({row.scene, row.knob, value, "-", "refused", "-", "-", "-"});
+            continue;
+        }
+        const bool has_card = row.modelled && standard.modelled;
+        const bool is_default = &row == &standard;
+        table.rows.push_back({row.scene, row.knob, value, fmt::format("{:.4f}", 100 * row.from_default),
+                              fmt::format("{:.6g}", row.rmse), is_default ? "1" : ratio(row.usual, standard.usual),
+                              is_default ? "1" : ratio(row.literal, standard.literal),
+                              has_card ? fmt::format("{:.2f}", *row.modelled / *standard.modelled) : "-"});
+    }
+    return table;
+}
+
+std::string found_sentence(const std::vector<CostRow>& rows) {
+    std::size_t tried = 0, refused = 0, same = 0, apart = 0;
+    const auto defaults = defaults_of(rows);
+    for (const CostRow& row : rows) {
+        if (row.knob == "default" || row.is_chain()) continue;
+        ++tried;
+        const CostRow& standard = *defaults.at(row.scene);
+        if (!row.refusal.empty()) {
+            ++refused;
+            continue;
+        }
+        if (row.from_default == 0) ++same;
+        if (row.usual && standard.usual && is_apart(*row.usual, *standard.usual)) ++apart;
+    }
+    return fmt::format(
+        "Of {} choices other than the default, {} change the picture, {} do not, {} are refused; {} take another time "
+        "beyond the "
+        "noise of the rounds.",
+        tried, tried - refused - same, same, refused, apart);
 }
 
 std::string table_csv(const std::vector<CostRow>& rows) {

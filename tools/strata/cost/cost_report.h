@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/strata/cost/cost_row.h"
+#include "tools/strata/table.h"
 
 namespace strata::tools {
 
@@ -18,6 +19,12 @@ struct CostPoint {
 
 // Numbers of the points on the frontier, cheapest first.
 [[nodiscard]] std::vector<std::size_t> frontier_of(const std::vector<CostPoint>& points);
+
+// A row a choice: knob, value, share of pixels that differ from the default's picture, RMSE, and times in those of the default, where they differ by
+// more than the noise of the rounds.
+[[nodiscard]] Table choice_table(const std::vector<CostRow>& rows);
+// What all rows together say.
+[[nodiscard]] std::string found_sentence(const std::vector<CostRow>& rows);
 
 // A sentence a row: what the knob changes, for how much time; what a link of the chain costs.
 [[nodiscard]] std::vector<std::string> sentences_of(const std::vector<CostRow>& rows);

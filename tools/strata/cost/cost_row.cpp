@@ -60,10 +60,10 @@ template <class T>
     return text.find(',') == std::string::npos ? text : '"' + text + '"';
 }
 
-[[nodiscard]] std::optional<TimeSpread> spread_in(const ordered_json& timing, const char* key) {
+[[nodiscard]] std::optional<Spread> spread_in(const ordered_json& timing, const char* key) {
     if (!timing.contains(key) || timing[key].is_null()) return std::nullopt;
     const ordered_json& s = timing[key];
-    return TimeSpread{s["median"], s["least"], s["greatest"]};
+    return Spread{s["median"], s["least"], s["greatest"], s["rounds"]};
 }
 
 // Divides by the least median of each scene, so that its cheapest cell has 1.
@@ -79,12 +79,12 @@ void relate(std::vector<CostRow>& rows, Median median, Scale scale) {
         if (median(row)) scale(row, 1 / least[row.scene]);
 }
 
-void relate_spread(std::vector<CostRow>& rows, std::optional<TimeSpread> CostRow::*column) {
+void relate_spread(std::vector<CostRow>& rows, std::optional<Spread> CostRow::*column) {
     relate(
         rows, [&](const CostRow& row) { return row.*column ? std::optional((row.*column)->median) : std::nullopt; },
         [&](CostRow& row, double factor) {
-            TimeSpread& s = *(row.*column);
-            s = {s.median * factor, s.least * factor, s.greatest * factor};
+            Spread& s = *(row.*column);
+            s = {s.median * factor, s.least * factor, s.greatest * factor, s.runs};
         });
 }
 

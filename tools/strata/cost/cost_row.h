@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/strata/bench/spread.h"
 #include "tools/strata/sweep/journal.h"
 
 namespace strata::tools {
@@ -28,16 +29,11 @@ struct CostTimes;
 // Errors and counts of all cells; null is an empty field.
 [[nodiscard]] std::string cost_csv(const Lines& lines);
 
-// Of the rounds of a cell.
-struct TimeSpread {
-    double median = 0, least = 0, greatest = 0;
-};
-
 // A cell as the report shows it. Times are ratios to the cheapest cell of the scene in the same column.
 struct CostRow {
     std::string scene, knob, value, opened, refusal;
     double rmse = 0, from_default = 0;
-    std::optional<TimeSpread> usual, literal;  // usual: the way in which the cell runs by default
+    std::optional<Spread> usual, literal;  // usual: the way in which the cell runs by default
     std::optional<double> modelled;
     [[nodiscard]] bool is_chain() const { return knob == "chain" || knob == "alone"; }
 };

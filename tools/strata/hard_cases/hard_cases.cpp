@@ -65,7 +65,7 @@ std::vector<const scenes::HardCase*> cases_of(const std::vector<std::string>& na
             throw CLI::ValidationError("NAME", "expected a hard case (strata hard-cases --list names them), found " +
                                                    found_but_near(name, known));
         if (std::find(cases.begin(), cases.end(), hard) != cases.end())
-            throw CLI::ValidationError("NAME", "expected each hard case once, found '" + name + "' twice");
+            throw CLI::ValidationError("NAME", "'" + name + "' is named twice");
         cases.push_back(hard);
     }
     return cases;
@@ -89,9 +89,8 @@ int hard_cases_command(const HardOptions& options) {
     check_outputs({{"--report", options.report, {".html"}}});
     if (options.list) return list_cases(options);
     if (options.folder.empty() && !options.dry_run)
-        throw CLI::ValidationError("-o", "expected a folder for the results, found none");
-    if (options.merge > 0 && options.shard.count > 1)
-        throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
+        throw CLI::ValidationError("-o is missing: the folder for the results");
+    if (options.merge > 0 && options.shard.count > 1) throw CLI::ValidationError("--merge excludes --shard");
     const HardSweep sweep = sweep_of(options);
     Work work = hard_work(sweep);
     work.report = options.report;
@@ -118,7 +117,7 @@ void add_names(CLI::App& app, const std::string& option, std::vector<std::string
                 throw CLI::ValidationError(option,
                                            "expected " + one_of(known) + ", found " + found_but_near(name, known));
             if (std::find(target.begin(), target.end(), name) != target.end())
-                throw CLI::ValidationError(option, "expected each name once, found '" + name + "' twice");
+                throw CLI::ValidationError(option, "'" + name + "' is named twice");
             target.push_back(name);
         }
     };
@@ -135,12 +134,13 @@ Command add_hard_cases(CLI::App& root) {
     add_path(*app, options->folder,
              {"-o,--output", "FOLDER", "a folder: results.jsonl, results.csv, timings.jsonl, RESULTS.md, pictures/",
               "a folder"});
-    app->add_flag("--list", options->list, "name the cases and tell what is hard about each");
+    app->add_flag("--list", options->list, "name the cases and say what is hard about each");
     app->add_flag("--json", options->json, "one JSON document instead of the table");
     std::vector<std::string> profiles;
     for (const auto& profile : pipeline::builtin_profiles()) profiles.push_back(profile.name);
     add_names(*app, "--profile", options->profiles, profiles, "devices (default geforce3,geforce8,ideal,llvmpipe)");
-    add_names(*app, "--depth", options->formats, names_of(depth_formats), "depth formats (default d16, d24 and d32f)");
+    add_names(*app, "--depth-format", options->formats, names_of(depth_formats),
+              "depth formats (default d16, d24 and d32f)");
     add_names(*app, "--algorithm", options->algorithms, algorithm_names(), "algorithms (default all)");
     add_report_option(*app, options->report);
     add_option(*app, options->shard,

@@ -20,15 +20,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::array page_verdicts{HardVerdict::stable, HardVerdict::degrades, HardVerdict::breaks, HardVerdict::failed,
-                                   HardVerdict::refused};
-
-// How often each verdict stands in some lines, in the order of page_verdicts.
-using VerdictCounts = std::array<int, page_verdicts.size()>;
+// How often each verdict stands in some lines, in the order of hard_verdicts.
+using VerdictCounts = std::array<int, hard_verdicts.size()>;
 
 void count(const ordered_json& line, VerdictCounts& counts) {
-    for (std::size_t i = 0; i < page_verdicts.size(); ++i)
-        if (line["verdict"] == name_of(page_verdicts[i])) ++counts[i];
+    for (std::size_t i = 0; i < hard_verdicts.size(); ++i)
+        if (line["verdict"] == name_of(hard_verdicts[i])) ++counts[i];
 }
 
 std::string page_row(const std::string& name, const VerdictCounts& counts) {
@@ -39,7 +36,7 @@ std::string page_row(const std::string& name, const VerdictCounts& counts) {
 
 std::string page_head(const std::string& first) {
     std::string head = "| " + first, rule = "\n|---";
-    for (const HardVerdict verdict : page_verdicts) {
+    for (const HardVerdict verdict : hard_verdicts) {
         head += fmt::format(" | {}", name_of(verdict));
         rule += "|---:";
     }

@@ -17,6 +17,7 @@
 //            stable    none of these
 // Tests    tests/tools/hard_cases/hard_run_test.cpp
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,9 @@ class HardTruth;  // hard_truth.h
 
 enum class HardVerdict : std::uint8_t { refused, stable, degrades, breaks, failed };
 [[nodiscard]] std::string_view name_of(HardVerdict verdict) noexcept;
+// In the order in which tables have them.
+inline constexpr std::array hard_verdicts{HardVerdict::stable, HardVerdict::degrades, HardVerdict::breaks,
+                                          HardVerdict::failed, HardVerdict::refused};
 
 struct HardRow {
     std::string refusal;  // the sentence; empty: it ran

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -151,7 +152,14 @@ Work hard_work(const HardSweep& sweep) {
                            std::size_t i) { return hard_measured(sweep, i, *cache); },
             .csv = [](const Lines& lines) { return csv_of_columns(hard_columns(), lines); },
             .summary = [&sweep](const Lines& lines) { return summary(sweep, lines); },
-            .alike = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; }};
+            .alike = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; },
+            .findings = [&sweep](const Lines& lines) { return findings(sweep, lines); },
+            .caption =
+                [](const std::string& name, const Lines&) {
+                    return "The exact picture of " + std::filesystem::path(name).stem().string() +
+                           ": the A-buffer of the profile ideal; small frames enlarged, of large ones the brightest of "
+                           "each block";
+                }};
 }
 
 namespace {
@@ -166,7 +174,7 @@ std::string failure_of(const ordered_json& line, const std::string& word, const 
                                    line["algorithm"].get<std::string>(), line["profile"].get<std::string>(),
                                    line["depth"].get<std::string>());
     for (const auto& reason : reasons) text += " " + reason.get<std::string>() + ";";
-    text.back() = '\n';
+    text.pop_back();
     return text;
 }
 
@@ -178,28 +186,52 @@ bool has_failed(const Lines& lines) {
     });
 }
 
-std::string summary(const HardSweep& sweep, const Lines& lines) {
+Table summary_table(const HardSweep& sweep, const Lines& lines) {
     std::map<std::string, std::map<std::string, int>> counts;
     for (const ordered_json& line : lines)
         ++counts[line["case"].get<std::string>()][line["verdict"].get<std::string>()];
-    constexpr std::array verdicts{HardVerdict::stable, HardVerdict::degrades, HardVerdict::breaks, HardVerdict::failed,
-                                  HardVerdict::refused};
     Table table{{{"case"}}, {}};
-    for (const HardVerdict verdict : verdicts) table.columns.push_back({std::string{name_of(verdict)}, Align::right});
+    for (const HardVerdict verdict : hard_verdicts)
+        table.columns.push_back({std::string{name_of(verdict)}, Align::right});
     for (const scenes::HardCase* hard : sweep.cases) {
         const std::string name{hard->name};
         if (!counts.contains(name)) continue;
         std::vector<std::string> cells{name};
-        for (const HardVerdict verdict : verdicts)
+        for (const HardVerdict verdict : hard_verdicts)
             cells.push_back(fmt::format("{}", counts[name][std::string{name_of(verdict)}]));
         table.rows.push_back(std::move(cells));
     }
-    std::string text = to_text(table);
+    return table;
+}
+
+std::vector<std::string> failures(const Lines& lines) {
+    std::vector<std::string> sentences;
     for (const ordered_json& line : lines) {
-        if (line["verdict"] == name_of(HardVerdict::failed)) text += failure_of(line, "failed", line["reasons"]);
-        if (is_unstable(line)) text += failure_of(line, "unstable", line["stability"]["reasons"]);
+        if (line["verdict"] == name_of(HardVerdict::failed))
+            sentences.push_back(failure_of(line, "failed", line["reasons"]));
+        if (is_unstable(line)) sentences.push_back(failure_of(line, "unstable", line["stability"]["reasons"]));
     }
+    return sentences;
+}
+
+std::string summary(const HardSweep& sweep, const Lines& lines) {
+    std::string text = to_text(summary_table(sweep, lines));
+    for (const std::string& sentence : failures(lines)) text += sentence + '\n';
     return text;
+}
+
+Findings findings(const HardSweep& sweep, const Lines& lines) {
+    std::map<std::string, int> counts;
+    for (const ordered_json& line : lines) ++counts[line["verdict"].get<std::string>()];
+    std::string verdicts;
+    for (const HardVerdict verdict : hard_verdicts)
+        if (const int count = counts[std::string{name_of(verdict)}]; count > 0)
+            verdicts += fmt::format("{}{}: {}", verdicts.empty() ? "" : ", ", name_of(verdict), count);
+    const std::string sentence =
+        fmt::format("{} scene{} in {} combinations of algorithm, device and depth format; {}", sweep.cases.size(),
+                    sweep.cases.size() == 1 ? "" : "s", lines.size(), verdicts);
+    return {sentence + ".", summary_table(sweep, lines),
+            "How often a scene came out stable, degrades, or breaks as the hardware did", failures(lines)};
 }
 
 }  // namespace strata::tools

@@ -30,6 +30,8 @@ struct HardSweep {
 // Cells one after the other share what is prepared for a case, profile and format. `sweep` must outlive it.
 [[nodiscard]] Work hard_work(const HardSweep& sweep);
 
+// What a page says: how often each verdict came, by case; every combination that failed or is unstable.
+[[nodiscard]] Findings findings(const HardSweep& sweep, const Lines& lines);
 // A row a case, how many combinations of it have which verdict; then every combination that failed or is unstable.
 [[nodiscard]] std::string summary(const HardSweep& sweep, const Lines& lines);
 // Whether one of them failed or is unstable.

@@ -6,22 +6,6 @@
 
 namespace strata::tools {
 
-namespace {
-
-std::string big_endian(std::uint32_t word) {
-    return {static_cast<char>(word >> 24), static_cast<char>(word >> 16), static_cast<char>(word >> 8),
-            static_cast<char>(word)};
-}
-
-// Length, name and data, and the check over the last two.
-std::string chunk(const std::string& name, const std::string& data) {
-    const std::string checked = name + data;
-    const auto sum = ::crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size()));
-    return big_endian(static_cast<std::uint32_t>(data.size())) + checked + big_endian(static_cast<std::uint32_t>(sum));
-}
-
-}  // namespace
-
 std::string deflated(std::string_view bytes) {
     uLongf room = ::compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(room, '\0');
@@ -46,20 +30,6 @@ std::string base64(std::string_view bytes) {
             text += digit <= bytes.size() - i ? digits[three >> (18 - 6 * digit) & 63] : '=';
     }
     return text;
-}
-
-std::string png_bytes(const pipeline::Image& image) {
-    std::string rows;
-    for (int y = 0; y < image.height; ++y) {
-        rows += '\0';
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) rows += static_cast<char>(image.codes[image.index(x, y, c)]);
-    }
-    constexpr char bits = 8, red_green_blue = 2;
-    const std::string header = big_endian(static_cast<std::uint32_t>(image.width)) +
-                               big_endian(static_cast<std::uint32_t>(image.height)) +
-                               std::string{bits, red_green_blue, 0, 0, 0};
-    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", deflated(rows)) + chunk("IEND", "");
 }
 
 }  // namespace strata::tools

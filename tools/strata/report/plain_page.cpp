@@ -5,6 +5,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/text_file.h"
+#include "scenes/images/png_encode.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/printable.h"
 #include "tools/strata/report/page_parts.h"
@@ -22,15 +23,6 @@ std::string cells_of(const std::vector<std::string>& texts) {
     std::string row;
     for (const std::string& text : texts) row += "<td>" + html_text(text) + "</td>";
     return row;
-}
-
-// Two spaces within a line stand between columns.
-bool has_columns(const std::string& text) {
-    for (std::size_t at = text.find("  "); at != std::string::npos; at = text.find("  ", at + 1)) {
-        const std::size_t begin = text.rfind('\n', at) + 1;  // 0 for the first line
-        if (text.find_first_not_of(' ', begin) < at) return true;
-    }
-    return false;
 }
 
 }  // namespace
@@ -60,9 +52,13 @@ PlainPage::PlainPage(const std::string& title, const std::string& subtitle) : ti
 void PlainPage::heading(const std::string& text) { body_ += "<h2>" + html_text(text) + "</h2>\n"; }
 void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + html_text(text) + "</p>\n"; }
 
-void PlainPage::lines(const std::string& text) {
-    body_ +=
-        fmt::format("<pre{} tabindex=\"0\">{}</pre>\n", has_columns(text) ? "" : " class=\"wrapped\"", html_text(text));
+void PlainPage::sentence(const std::string& text) { body_ += "<p class=\"lead\">" + html_text(text) + "</p>\n"; }
+
+void PlainPage::items(const std::vector<std::string>& texts) {
+    if (texts.empty()) return;
+    body_ += "<ul>\n";
+    for (const std::string& text : texts) body_ += "<li>" + html_text(text) + "</li>\n";
+    body_ += "</ul>\n";
 }
 
 void PlainPage::legend(const std::vector<Swatch>& swatches) {
@@ -84,22 +80,29 @@ void PlainPage::table(const Table& table, const std::string& name) {
     body_ += "</tbody></table></div>\n";
 }
 
-void PlainPage::add_picture(const std::string& type, const std::string& bytes, const std::string& text) {
+void PlainPage::add_picture(const std::string& type, const std::string& bytes, const std::string& text, Width width) {
     const std::string encoded = base64(bytes);
     if (body_.size() + encoded.size() > most_picture_bytes) {
         ++left_out_;
         return;
     }
-    body_ += fmt::format("<figure><img src=\"data:{};base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                         type, encoded, html_text(text), html_text(text));
+    const char* const wide = width == Width::own ? " class=\"wide\" tabindex=\"0\"" : "";
+    body_ += fmt::format("<figure{}><img src=\"data:{};base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+                         wide, type, encoded, html_text(text), html_text(text));
 }
 
 void PlainPage::picture(const pipeline::Image& image, const std::string& text) {
-    add_picture("image/png", png_bytes(image), text);
+    add_picture("image/png", scenes::png_bytes(image), text);
+}
+
+void PlainPage::picture_with_letters(const pipeline::Image& image, const std::string& text) {
+    add_picture("image/png", scenes::png_bytes(image), text, Width::own);
 }
 
 void PlainPage::picture_file(const std::string& path, const std::string& text) {
-    add_picture(path.ends_with(".svg") ? "image/svg+xml" : "image/png", scenes::read_text_file(path), text);
+    const bool has_letters = path.ends_with(".svg");
+    add_picture(has_letters ? "image/svg+xml" : "image/png", scenes::read_text_file(path), text,
+                has_letters ? Width::own : Width::fits);
 }
 
 std::string PlainPage::html() const {

@@ -18,9 +18,10 @@ class PlainPage {
   public:
     PlainPage(const std::string& title, const std::string& subtitle);
 
+    void sentence(const std::string& text);  // what was found: the first thing that is read
     void heading(const std::string& text);
     void paragraph(const std::string& text);
-    void lines(const std::string& text);  // as they are, in letters of one width; columns are not broken, sentences are
+    void items(const std::vector<std::string>& texts);  // a list
     struct Swatch {
         std::array<std::uint8_t, 3> color;  // red, green, blue
         std::string words;
@@ -29,6 +30,8 @@ class PlainPage {
     void table(const Table& table, const std::string& name);
     // rgba8. `text` is said to those who do not see it, and stands below it.
     void picture(const pipeline::Image& image, const std::string& text);
+    // The same in its own size, however narrow the screen: for a picture with letters in it.
+    void picture_with_letters(const pipeline::Image& image, const std::string& text);
     // A file's own bytes: .png or .svg.
     void picture_file(const std::string& path, const std::string& text);
 
@@ -36,7 +39,9 @@ class PlainPage {
     [[nodiscard]] std::string html() const;
 
   private:
-    void add_picture(const std::string& type, const std::string& bytes, const std::string& text);
+    enum class Width : std::uint8_t { fits, own };
+    void add_picture(const std::string& type, const std::string& bytes, const std::string& text,
+                     Width width = Width::fits);
 
     std::string title_, subtitle_, body_;
     std::size_t left_out_ = 0;  // pictures

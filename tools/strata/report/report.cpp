@@ -58,26 +58,32 @@ std::string checked_page(const ReportData& data) {
     return page;
 }
 
+// -o names the page, FILE.html, or a folder that gets report.html.
+std::filesystem::path page_of(const std::string& output) {
+    return output.ends_with(".html") ? std::filesystem::path(output) : std::filesystem::path(output) / "report.html";
+}
+
 int report(ReportOptions& command, bool has_size) {
     RunOptions& options = command.run;
     if (!has_size && !command.region) options.render.width = usual_width, options.render.height = usual_height;
     complete(options);
     options.render.counters = true;  // the page's table names them
-    if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for report.html, found none");
+    if (options.output.empty()) throw CLI::ValidationError("-o is missing: the page, FILE.html, or a folder for it");
     const rasterizer::Rect region = region_of(command);
-    scenes::tell_when_interrupted("not written: " + (std::filesystem::path(options.output) / "report.html").string());
+    const std::filesystem::path path = page_of(options.output);
+    scenes::tell_when_interrupted("not written: " + path.string());
     const Session session = open_session(options);
     const ReportData data = report_data(options, session, region);
     for (const auto& entry : data.document["algorithms"])
         if (!data.has_run) say_error(entry["name"].get<std::string>() + ": " + entry["refusal"].get<std::string>());
     if (!data.has_run) return 2;
     const std::string page = checked_page(data);
-    std::filesystem::create_directories(options.output);
-    const std::string path = (std::filesystem::path(options.output) / "report.html").string();
-    scenes::write_file(path, page);
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+    scenes::write_file(path.string(), page);
     scenes::tell_when_interrupted("");
     if (is_quiet()) return 0;
-    print(path + ": " + std::to_string((page.size() + 1023) / 1024) + " KiB, opens in any browser, needs no network\n");
+    print(path.string() + ": " + std::to_string((page.size() + 1023) / 1024) +
+          " KiB, opens in any browser, needs no network\n");
     for (const auto& sentence : data.document["left_out"]) print("left out: " + sentence.get<std::string>() + "\n");
     return 0;
 }
@@ -105,11 +111,11 @@ Command add_report(CLI::App& root) {
                 "four whole numbers such as 400,300,200,150: left, top, width and height"},
                to_region);
     add_path(*app, options->run.output,
-             {"-o", "FOLDER", "gets report.html: one file of at most 8 MiB", "a folder's name"});
-    app->get_option("--size")->description("pixels (default 256x192; beside --region 1024x1024)");
+             {"-o,--output", "FILE.html|FOLDER", "the page, of at most 8 MiB; a folder gets report.html", "a name"});
+    app->get_option("--size")->description("pixels (default 256x192; with --region 1024x1024)");
     app->footer(
         footer("  strata report teapot --size 64x48 -o report\n"
-               "  strata report teapot --size 640x480 --region 240,180,160,120 --algorithm dual,unsorted -o part\n"
+               "  strata report teapot --size 640x480 --region 240,180,160,120 --algorithm dual,unsorted -o part.html\n"
                "  strata report volume-beam:slices=4 --algorithm dual,weighted_average --size 64x48 -o beam\n"));
     return {app, [app, options] { return report(*options, app->count("--size") > 0); }};
 }

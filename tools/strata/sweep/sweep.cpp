@@ -51,27 +51,48 @@ std::vector<std::filesystem::path> pictures_in(const std::string& folder) {
     return pictures;
 }
 
+// Takes the columns that have one value in every row out of a table; answers them as a sentence.
+std::string without_constants(Table& table) {
+    std::string text;
+    for (std::size_t c = table.columns.size(); c-- > 0 && table.rows.size() > 1;) {
+        const std::string value = table.rows[0][c];
+        if (std::ranges::any_of(table.rows, [&](const auto& row) { return row[c] != value; })) continue;
+        if (!value.empty()) text = table.columns[c].title + " " + value + (text.empty() ? "" : ", ") + text;
+        const auto at = static_cast<std::ptrdiff_t>(c);
+        table.columns.erase(table.columns.begin() + at);
+        for (auto& row : table.rows) row.erase(row.begin() + at);
+    }
+    return text;
+}
+
 // A row a cell; a page of thousands of rows helps nobody.
-PlainPage page_of(const Work& work, const std::string& folder, const std::string& csv, const std::string& summary) {
+void add_cells(PlainPage& page, const std::string& csv) {
     constexpr std::size_t most_rows = 1000;
-    PlainPage page{"strata " + work.name, fmt::format("{} cells; the whole table is results.csv", work.cells)};
-    page.heading("What was found");
-    page.lines(summary);
-    const auto pictures = pictures_in(folder);
-    if (!pictures.empty()) page.heading("Pictures");
-    if (!pictures.empty() && !work.pictures.empty()) page.paragraph(work.pictures);
-    for (const auto& picture : pictures)
-        page.picture_file(picture.string(), picture.lexically_relative(folder).string());
     page.heading("Cells");
     const auto rows = csv_rows(csv);
     Table table;
     for (const std::string& title : rows[0]) table.columns.push_back({title});
     table.rows.assign(rows.begin() + 1,
                       rows.begin() + 1 + static_cast<std::ptrdiff_t>(std::min(rows.size() - 1, most_rows)));
-    page.table(table, "A row a cell");
+    if (const std::string alike = without_constants(table); !alike.empty())
+        page.paragraph("In every cell: " + alike + ".");
+    page.table(table, "A row a cell, as in results.csv");
     if (rows.size() - 1 > most_rows)
         page.paragraph(
             fmt::format("The first {} rows; {} more stand in results.csv.", most_rows, rows.size() - 1 - most_rows));
+}
+
+PlainPage page_of(const Work& work, const std::string& folder, const std::string& csv, const Lines& lines) {
+    PlainPage page{"strata " + work.name, fmt::format("{} cells; the whole table is results.csv", work.cells)};
+    const Findings found = work.findings(lines);
+    page.sentence(found.sentence);
+    if (!found.table.rows.empty()) page.table(found.table, found.name);
+    page.items(found.items);
+    const auto pictures = pictures_in(folder);
+    if (!pictures.empty()) page.heading("Pictures");
+    for (const auto& picture : pictures)
+        page.picture_file(picture.string(), work.caption(picture.lexically_relative(folder).string(), lines));
+    add_cells(page, csv);
     return page;
 }
 
@@ -79,7 +100,7 @@ PlainPage page_of(const Work& work, const std::string& folder, const std::string
 int finish(const Work& work, const std::string& folder, const Lines& lines) {
     const std::string csv = work.csv(lines), summary = work.summary(lines);
     scenes::write_file(path_in(folder, "results.csv"), csv);
-    if (!work.report.empty()) write_page(work.report, page_of(work, folder, csv, summary));
+    if (!work.report.empty()) write_page(work.report, page_of(work, folder, csv, lines));
     print(summary);
     return exit_status(lines);
 }
@@ -142,7 +163,7 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
 // Lines go to the places of their cells, so the merged files are those of a sweep in one shard.
 int merge_shards(const Work& work, const std::string& folder, std::size_t shards) {
     if (!std::filesystem::is_directory(folder))
-        throw InputError(folder, "folder", fmt::format("the results of {} shards", shards), "no such folder");
+        throw InputError(folder, fmt::format("no such folder; it is to hold the results of {} shards", shards));
     const Lock lock(shard_file(folder, "results", {}));
     Lines results(work.cells);
     std::string timings;

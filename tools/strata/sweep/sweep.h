@@ -8,6 +8,7 @@
 
 #include "tools/strata/sweep/journal.h"
 #include "tools/strata/sweep/shard.h"
+#include "tools/strata/table.h"
 
 namespace strata::tools {
 
@@ -15,6 +16,14 @@ namespace strata::tools {
 struct Measured {
     nlohmann::ordered_json line, timing;
     double seconds = 0;
+};
+
+// What a page says of all lines, above pictures and the table of the cells: a sentence, a table with its name, further sentences.
+struct Findings {
+    std::string sentence;
+    Table table{};
+    std::string name{};
+    std::vector<std::string> items{};
 };
 
 // What a command measures. Cells are numbered from 0. A line has at least the keys `cell`, its number; `outcome`, the
@@ -33,10 +42,11 @@ struct Work {
     std::function<std::string(const Lines&)> csv, summary;
     // Cells of one text are taken to last equally long.
     std::function<std::string(std::size_t cell)> alike;
-    // --report: a page with the summary, the table and the pictures of the folder; empty: none.
+    // --report: a page with what was found, the table and the pictures of the folder; empty: none.
     std::string report{};
-    // What the pictures show, for that page.
-    std::string pictures{};
+    std::function<Findings(const Lines&)> findings{};
+    // What a picture of the folder shows, by its name in there.
+    std::function<std::string(const std::string& name, const Lines&)> caption{};
 };
 
 // Measures what is missing of the shard's cells. The exit status: 0, or 2 if every cell of the sweep was refused.

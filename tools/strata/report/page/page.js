@@ -209,7 +209,7 @@ function drawMap() {
   at("legend").replaceChildren();
   if (!algorithm || (map.needs && !map.needs(algorithm))) {
     paint(at("map-canvas"), () => [40, 40, 60]);
-    at("map-text").textContent = `${at("map-algorithm").value} has no such map: ${map.lacks ?? "it does not tell what it composites"}.`;
+    at("map-text").textContent = `${at("map-algorithm").value} has no such map: ${map.lacks ?? "it does not say what it composites"}.`;
     return;
   }
   const values = Array.from({ length: width * height }, (_, p) => map.of(p, algorithm));

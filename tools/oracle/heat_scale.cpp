@@ -1,0 +1,86 @@
+#include "tools/oracle/heat_scale.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "tools/oracle/small_text.h"
+
+namespace strata::oracle {
+
+namespace {
+
+// Inferno at 2/8, 3/8 ... 8/8.
+constexpr std::array<std::array<std::uint8_t, 3>, 7> stops{{{0x56, 0x10, 0x6e},
+                                                            {0x89, 0x22, 0x6a},
+                                                            {0xbb, 0x37, 0x54},
+                                                            {0xe3, 0x59, 0x32},
+                                                            {0xf9, 0x8c, 0x0a},
+                                                            {0xf9, 0xc9, 0x32},
+                                                            {0xfc, 0xff, 0xa4}}};
+
+// log2 of at least 1, with 16 bits behind the point: straight between powers of two, which is at most 0.09 off.
+constexpr std::uint64_t log2_of(std::uint32_t value) noexcept {
+    const int whole = std::bit_width(value) - 1;
+    const std::uint64_t rest = value - (std::uint64_t{1} << whole);
+    return (static_cast<std::uint64_t>(whole) << 16) + ((rest << 16) >> whole);
+}
+
+// `share` of 2^16 of the way through the table.
+std::array<std::uint8_t, 3> between_stops(std::uint64_t share) noexcept {
+    const std::uint64_t at = share * (stops.size() - 1);
+    const std::size_t stop = std::min<std::size_t>(at >> 16, stops.size() - 2);
+    const auto rest = static_cast<std::int64_t>(at - (std::uint64_t{stop} << 16));
+    std::array<std::uint8_t, 3> rgb{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::int64_t from = stops[stop][c], to = stops[stop + 1][c];
+        rgb[c] = static_cast<std::uint8_t>(from + (((to - from) * rest + 0x8000) >> 16));
+    }
+    return rgb;
+}
+
+void put(pipeline::Image& image, int x, int y, const std::array<std::uint8_t, 3>& rgb) {
+    for (std::size_t c = 0; c < 3; ++c) image.codes[image.index(x, y, static_cast<int>(c))] = rgb[c];
+    image.codes[image.index(x, y, 3)] = 255;
+}
+
+}  // namespace
+
+HeatScale::HeatScale(std::uint32_t greatest) noexcept
+    : end_{greatest <= 255 ? 255 : ~std::uint32_t{0} >> std::countl_zero(greatest)} {}
+
+std::array<std::uint8_t, 3> HeatScale::color(std::uint32_t distance) const noexcept {
+    if (distance == 0) return {0, 0, 0};
+    return between_stops((log2_of(std::min(distance, end_)) << 16) / log2_of(end_));
+}
+
+void draw_legend(pipeline::Image& image, int left, int top, int width, const HeatScale& scale) {
+    constexpr int gap_px = 3, bar_px = 8, letters = 2;
+    width = std::max(width, least_legend_width_px);
+    // Where a distance is on the bar.
+    const std::uint64_t whole = log2_of(scale.end());
+    const auto x_of = [&](std::uint32_t distance) {
+        return left + static_cast<int>(log2_of(distance) * static_cast<std::uint64_t>(width - 1) / whole);
+    };
+    for (int x = left; x < std::min(left + width, image.width); ++x) {
+        const std::uint64_t share =
+            (static_cast<std::uint64_t>(x - left) << 16) / static_cast<std::uint64_t>(width - 1);
+        for (int y = 0; y < bar_px; ++y) put(image, x, top + gap_px + y, between_stops(share));
+    }
+    // Numbers at powers of four and at the end, where there is room for them; the last one says what they count.
+    int free = left;
+    const auto label = [&](std::uint32_t distance, bool is_last) {
+        const std::string text = std::to_string(distance) + (is_last ? " codes" : "");
+        const int wide = letters * letter_width_px * static_cast<int>(text.size());
+        const int x = std::clamp(x_of(distance) - wide / 2, left, std::max(left, left + width - wide));
+        const int last = letters * letter_width_px * static_cast<int>((std::to_string(scale.end()) + " codes").size());
+        if (x < free || (!is_last && x + wide > left + width - last - letter_width_px)) return;
+        draw_text(image, x, top + gap_px + bar_px + gap_px, text, letters);
+        free = x + wide + letter_width_px;
+    };
+    for (std::uint64_t distance = 1; distance < scale.end(); distance *= 4)
+        label(static_cast<std::uint32_t>(distance), false);
+    label(scale.end(), true);
+}
+
+}  // namespace strata::oracle
