@@ -2,11 +2,13 @@
 #include "tools/strata/invariance/invariance_cell.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <set>
 
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/rules/hypotheses.h"
+#include "scenes/camera.h"
 #include "tests/tools/program.h"
 
 namespace {
@@ -60,7 +62,7 @@ TEST_CASE("a cell's depth range is the orbit's, the orbit's far plane with a rat
     CHECK(cells.view(cell).view.view != orbit.view.view);
 }
 
-TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is named; its planes cannot be moved") {
+TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is named, and its planes cannot be moved") {
     CellRunner cells = runner();
     Cell cell = small_cell();
     cell.scene = "hard:case=planes-1-unit";
@@ -73,10 +75,10 @@ TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is nam
     const CellResult seen = cells.run(cell);
     CHECK(seen.measured.errors.layers == 2 * 16 * 8);
     cell.range = {.ratio = 1000};
-    CHECK_THROWS_WITH(
-        cells.check(cell),
-        "hard:case=planes-1-unit: near_far: expected orbit, for the scene's own view has planes of its own "
-        "(--orbit gives it another view), found ratio:1000");
+    CHECK_THROWS_WITH(cells.check(cell),
+                      "hard:case=planes-1-unit: near_far: expected orbit, for the scene's own view and a camera have "
+                      "planes of their own "
+                      "(--orbit gives another view), found ratio:1000");
     cell.takes_own_view = false;
     CHECK_NOTHROW(cells.check(cell));
     CHECK_FALSE(cells.view(cell).is_own);
@@ -87,12 +89,18 @@ TEST_CASE("a pack's own view is turned from the pack's clip space and depth orde
     using strata::test::run_strata;
     const strata::test::Folder folder;
     const auto pack = [&](const std::string& name, const std::vector<std::string>& convention) {
-        std::vector<std::string> words{"golden",      "planes:count=2,cells=1",
-                                       "--size",      "16x16",
-                                       "--algorithm", "front_to_back",
-                                       "--depth",     "d32f",
-                                       "--profile",   "ideal",
-                                       "-o",          name};
+        std::vector<std::string> words{"golden",
+                                       "planes:count=2,cells=1",
+                                       "--size",
+                                       "16x16",
+                                       "--algorithm",
+                                       "front_to_back",
+                                       "--depth-format",
+                                       "d32f",
+                                       "--profile",
+                                       "ideal",
+                                       "-o",
+                                       name};
         words.insert(words.end(), convention.begin(), convention.end());
         REQUIRE(run_strata(folder, words).status == 0);
         return folder / name;
@@ -221,4 +229,29 @@ TEST_CASE("a remedy's parts each reach the machine: every one changes what is me
     const auto unbiased = measured({});
     CHECK(measured(bias).errors.lost != unbiased.errors.lost);
     CHECK(measured(slope).errors.lost != unbiased.errors.lost);
+}
+
+TEST_CASE(
+    "a cell with a camera is seen as render --camera sees it, has no planes or degrees of its own, and no orbit") {
+    const strata::test::Folder folder;
+    std::ofstream(folder / "top.json")
+        << R"({"eye":[0,5,0.1],"center":[0,0,0],"up":[0,0,-1],"fovy_degrees":40,"near":1,"far":9})";
+    CellRunner cells = runner();
+    Cell cell = small_cell();
+    cell.camera = folder / "top.json";
+    CHECK_NOTHROW(cells.check(cell));
+    const CellView view = cells.view(cell);
+    CHECK(view.is_own);
+    const auto wanted = strata::scenes::load_camera(folder / "top.json", double(cell.width) / cell.height);
+    CHECK(view.view.view == wanted.view);
+    CHECK(view.view.projection == wanted.projection);
+    cell.range = {.ratio = 1000};
+    CHECK_THROWS_WITH(cells.check(cell), Catch::Contains("near_far: expected orbit"));
+    cell.range = {};
+    cell.takes_own_view = false;
+    CHECK_THROWS_WITH(cells.check(cell),
+                      "planes:count=2,cells=1: camera: expected either a camera or an orbit, found both");
+    cell.takes_own_view = true;
+    cell.camera = "nowhere.json";
+    CHECK_THROWS(cells.check(cell));
 }

@@ -35,16 +35,17 @@ std::string otherwise(const std::string& key, bool expected, const std::vector<s
 }  // namespace
 
 TEST_CASE("the keys of a plan are these, nested in this order, and every default is a value of its key") {
-    const std::vector<std::string> expected{"scene",        "profile",       "size",       "orbit",       "alpha",
-                                            "algorithm",    "split",         "hypothesis", "vertex_path", "pair",
-                                            "depth_format", "subpixel_bits", "near_far",   "remedy",      "max_passes"};
+    const std::vector<std::string> expected{
+        "scene",      "profile",     "size", "orbit",        "camera",        "alpha",    "algorithm", "split",
+        "hypothesis", "vertex_path", "pair", "depth_format", "subpixel_bits", "near_far", "remedy",    "max_passes"};
     std::vector<std::string> names;
     for (const PlanKey& key : plan_keys()) {
         names.push_back(key.name);
         CHECK(key.fallback.empty() == (key.name == "scene"));
         CHECK_FALSE(key.help.empty());
         CHECK_FALSE(key.expected.empty());
-        CHECK(key.is_list == (key.name != "scene" && key.name != "orbit"));  // whose text has commas of its own
+        CHECK(key.is_list == (key.name != "scene" && key.name != "orbit" &&
+                              key.name != "camera"));  // whose text has commas of its own
     }
     CHECK(names == expected);
     const std::vector<Cell> cells = cells_of({{"scene", {"s"}}});

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
+#include "tools/strata/invariance/invariance_summary.h"
 
 namespace {
 
@@ -82,7 +83,7 @@ std::string field(const std::string& row, const std::string& title) {
 TEST_CASE("a cell's description tells its number and every setting, paths without their folders") {
     Cell cell = some_cell();
     ordered_json expected = ordered_json::parse(R"({"cell":3,"scene":"planes:gap=64,count=4","width":24,"height":16,
-        "profile":"geforce3","algorithm":"dual","orbit":[30.0,20.0],"alpha":0.1,"write_path":"float32","compare_path":"exact",
+        "profile":"geforce3","algorithm":"dual","orbit":[30.0,20.0],"camera":null,"alpha":0.1,"write_path":"float32","compare_path":"exact",
         "depth_format":"d24","subpixel_bits":4,"near":0.1,"far":8.0,"remedy":"bias:2+slope:0.3","bias_constant":2.0,
         "bias_slope":0.3,"compare_epsilon":"0","vertex_path":"separate","quantize_reference":true,"split":"none",
         "hypothesis":"profile","max_passes":9})");
@@ -177,14 +178,91 @@ TEST_CASE("a safe range tells its ends and who stands there") {
 TEST_CASE("a row quotes a field that has commas, quotes or ends of lines, and writes numbers as the line has them") {
     ordered_json line = to_line(3, some_cell(), some_result());
     const std::string row = to_csv(line);
-    CHECK(row.starts_with(
-        "\"planes:gap=64,count=4\",24,16,float32,exact,d24,4,0.1,8.0,2.0,0.3,0,separate,true,100,7,5,10,"));
-    CHECK(row.ends_with(",4,5,6,8,0.5,0.25,12.5,done\n"));
+    CHECK(
+        row.starts_with("3,\"planes:gap=64,count=4\",24,16,geforce3,dual,\"30.0,20.0\",,0.1,float32,exact,d24,4,0.1,8."
+                        "0,bias:2+slope:0.3,"
+                        "2.0,0.3,0,separate,true,none,profile,9,100,7,5,10,"));
+    CHECK(row.ends_with(",4,5,6,8,0.5,0.25,12.5,,done\n"));
     const std::pair<const char*, const char*> texts[] = {{"plain", "plain"},   {"say \"x\"", "\"say \"\"x\"\"\""},
                                                          {"a,b", "\"a,b\""},   {"a\nb", "\"a\nb\""},
                                                          {"a\rb", "\"a\rb\""}, {"", ""}};
     for (const auto& [text, written] : texts) {
         line["scene"] = text;
-        CHECK(to_csv(line).starts_with(std::string(written) + ",24,16,"));
+        CHECK(to_csv(line).starts_with("3," + std::string(written) + ",24,16,"));
     }
+}
+
+TEST_CASE(
+    "a view that the scene brings has empty planes in a row, and so has equal pictures' PSNR alone the word inf") {
+    CellResult result = some_result();
+    result.view = {.view = {}, .near = 0, .far = 0, .subpixel_bits = 4, .is_own = true};
+    const std::string row = to_csv(to_line(0, some_cell(), result));
+    for (const char* title : {"near", "far", "orbit", "camera"}) CHECK(field(row, title).empty());
+}
+
+TEST_CASE("rows and labels of a sweep name every knob that varies, and what does not is said once") {
+    struct Change {
+        const char* title;
+        void (*make)(Cell&);
+    };
+    const Change changes[] = {
+        {"scene", [](Cell& c) { c.scene = "teapot"; }},
+        {"size", [](Cell& c) { c.height = 17; }},
+        {"profile", [](Cell& c) { c.profile = "ideal"; }},
+        {"algorithm", [](Cell& c) { c.algorithm = strata::peeling::find_algorithm("front_to_back"); }},
+        {"orbit", [](Cell& c) { c.azimuth = 31; }},
+        {"camera", [](Cell& c) { c.camera = "a/top.json"; }},
+        {"alpha", [](Cell& c) { c.alpha = 0.5f; }},
+        {"write", [](Cell& c) { c.write = strata::rasterizer::DepthPath::window_z; }},
+        {"compare", [](Cell& c) { c.compare = strata::rasterizer::DepthPath::float32; }},
+        {"depth", [](Cell& c) { c.format = strata::pipeline::DepthFormat::d16; }},
+        {"vertex path", [](Cell& c) { c.vertex_path = "fused"; }},
+        {"split", [](Cell& c) { c.split = Split::moved; }},
+        {"hypothesis", [](Cell& c) { c.hypothesis = "other"; }},
+        {"max passes", [](Cell& c) { c.max_passes = 8; }},
+        {"remedy", [](Cell& c) { c.remedy.bias_constant = 4; }}};
+    for (const Change& change : changes) {
+        INFO(change.title);
+        Cell other = some_cell();
+        change.make(other);
+        const Lines lines{to_line(0, some_cell(), some_result()), to_line(1, other, some_result())};
+        const Table table = summary_table(lines);
+        CHECK(table.columns.at(1).title == change.title);
+        CHECK(table.rows.at(0).at(1) != table.rows.at(1).at(1));
+        CHECK(table.columns.at(2).title == "passes");  // nothing else varies
+        const auto knobs = knobs_of(lines, Knobs::varying);
+        CHECK(label_of(lines[1], knobs) == "cell 1, " + std::string(change.title) + " " + table.rows[1][1]);
+        CHECK(same_everywhere(lines).find(std::string(change.title) + " ") == std::string::npos);
+    }
+    for (const auto& [title, view] :
+         {std::pair{"subpixel bits", CellView{.view = {}, .near = 0.1, .far = 8, .subpixel_bits = 8}},
+          {"near", CellView{.view = {}, .near = 0.2, .far = 8, .subpixel_bits = 4}},
+          {"far", CellView{.view = {}, .near = 0.1, .far = 9, .subpixel_bits = 4}}}) {
+        CellResult result = some_result();
+        result.view = view;
+        const Lines lines{to_line(0, some_cell(), some_result()), to_line(1, some_cell(), result)};
+        CHECK(summary_table(lines).columns.at(1).title == title);
+    }
+}
+
+TEST_CASE("a sentence counts what came of the cells, and a row has the safe interval") {
+    CellResult right = some_result(), endless = some_result();
+    right.measured.errors.duplicated = right.measured.errors.lost = 0;
+    strata::peeling::SafeRange range;
+    range.lowest = 3;
+    range.highest = 20;
+    right.measured.advice.bias = range;
+    endless.measured.ended = false;
+    const Lines lines{to_line(0, some_cell(), right), to_line(1, some_cell(), some_result()),
+                      to_line(2, some_cell(), endless)};
+    CHECK(found_sentence(lines) == "Of 3 cells, 1 peels every layer once, 1 loses or repeats layers, 1 never ends.");
+    CHECK(field(to_csv(lines[0]), "safe_bias") == "3..20");
+    const Table table = summary_table(lines);
+    const auto safe = table.columns.size() - 2;
+    CHECK(table.columns[safe].title == "safe bias");
+    CHECK(table.rows[0][safe] == "3..20");
+    CHECK(table.rows[1][safe] == "-");
+    CHECK(safe_text(nlohmann::ordered_json::parse(R"({"safe":false,"lowest":5,"highest":2})")) == "none");
+    CHECK(safe_text(nlohmann::ordered_json::parse(R"({"safe":true,"lowest":null,"highest":2})")) == "..2");
+    CHECK(safe_text(nlohmann::ordered_json::parse(R"({"safe":true,"lowest":5,"highest":null})")) == "5..");
 }

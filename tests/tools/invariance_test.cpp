@@ -43,10 +43,12 @@ TEST_CASE("a sweep gives the same bytes for any threads, in shards, and taken up
     CHECK(whole.status == 0);
     CHECK(whole.err.empty());
     const auto told = lines_of(whole.out);
-    REQUIRE(told.size() == 15);  // a title, a row a cell, and where it all is
-    CHECK(told[0].find("duplicated") != std::string::npos);
-    CHECK(told[13].find("refused") != std::string::npos);
-    CHECK(told[14] ==
+    REQUIRE(told.size() == 17);  // a sentence, what all share, a title, a row a cell, and where it all is
+    CHECK(told[0].starts_with("Of 13 cells, "));
+    CHECK(told[1].starts_with("in every cell: scene planes:gap=64,count=4, size 24x16"));
+    CHECK(told[2].find("duplicated") != std::string::npos);
+    CHECK(told[15].find("refused") != std::string::npos);
+    CHECK(told[16] ==
           "All of it: whole/results.csv and whole/results.jsonl. A page with plots, whole/index.html: "
           "tools/invariance/report.py whole");
     const Results expected = results_in(folder, "whole");
@@ -80,12 +82,14 @@ TEST_CASE("results.csv has the promised columns, a row a cell, and refused cells
     REQUIRE(rows.size() == 14);
     CHECK(
         rows[0] ==
-        "scene,width,height,write_path,compare_path,depth_format,subpixel_bits,near,far,bias_constant,bias_slope,"
-        "compare_epsilon,"
-        "vertex_path,quantize_reference,fragments,differing,ulp_max,passes,layers_true,duplicated,lost,pixels_touched,"
-        "max_difference,rmse,psnr,outcome");
-    CHECK(rows[1].starts_with("\"planes:gap=64,count=4\",24,16,float32,exact,d24,8,"));
-    CHECK(rows[13].ends_with(",0,0,0,0,0,0,0,0,0.0,0.0,,refused"));
+        "cell,scene,width,height,profile,algorithm,orbit,camera,alpha,write_path,compare_path,depth_format,subpixel_"
+        "bits,"
+        "near,far,remedy,bias_constant,bias_slope,compare_epsilon,vertex_path,quantize_reference,split,hypothesis,"
+        "max_passes,fragments,differing,ulp_max,passes,layers_true,duplicated,lost,pixels_touched,max_difference,rmse,"
+        "psnr,safe_bias,outcome");
+    CHECK(rows[1].starts_with("0,\"planes:gap=64,count=4\",24,16,"));
+    CHECK(rows[1].find(",float32,exact,d24,8,") != std::string::npos);
+    CHECK(rows[13].ends_with(",0,0,0,0,0,0,0,0,0.0,0.0,,,refused"));
     CHECK(folder.files().size() == 2);
 }
 

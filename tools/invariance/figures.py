@@ -38,10 +38,11 @@ def lines_plot(title, x_label, y_label, series, log_x=False):
 
 def zero_and_powers_plot(title, x_label, y_label, series, shaded=None):
     """Both axes logarithmic, with a place of their own for zeros; `shaded`: (x0, x1), an interval of x to mark."""
-    script = [HEAD, f"set title {quoted(title)}", f"set xlabel {quoted(x_label)}", f"set ylabel {quoted(y_label)}", "set logscale xy",
-              f"set xrange [{ZERO}:*]", f"set yrange [{ZERO}:*]", f'set ytics ("0" {ZERO}, "1" 1, "10" 10, "100" 100, "1000" 1000, "10^4" 1e4, "10^5" 1e5)']
     xs = sorted({x for points in series.values() for x, _ in points})
-    script.append("set xtics (" + ", ".join(f'"{x:g}" {max(x, ZERO)}' for x in xs) + ")")
+    ends = [shaded[1]] if shaded else []
+    script = [HEAD, f"set title {quoted(title)}", f"set xlabel {quoted(x_label)}", f"set ylabel {quoted(y_label)}", "set logscale xy",
+              f"set xrange [{ZERO}:{max(xs + ends)}]", f"set yrange [{ZERO}:*]", f'set ytics ("0" {ZERO}, "1" 1, "10" 10, "100" 100, "1000" 1000, "10^4" 1e4, "10^5" 1e5)']
+    script.append("set xtics (" + ", ".join(f'"{x:g}" {max(x, ZERO)}' for x in sorted({*xs, *ends})) + ")")
     if shaded:
         script.append(f"set object 1 rectangle from {max(shaded[0], ZERO)}, graph 0 to {shaded[1]}, graph 1 behind fc rgb '#cfe8cf' fs noborder")
     above = {name: [(max(x, ZERO), max(y, ZERO)) for x, y in points] for name, points in series.items()}

@@ -69,10 +69,7 @@ def markdown_of(blocks, page):
     return "\n".join(lines).rstrip() + "\n"
 
 
-STYLE = """body{font:16px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}
-table{border-collapse:collapse;font-size:14px;display:block;overflow-x:auto}td,th{padding:2px 9px;border-bottom:1px solid #ddd;text-align:right}
-td:first-child,th:first-child{text-align:left}figure{margin:1em 0}figcaption{font-size:14px;color:#555}
-img{image-rendering:pixelated;max-width:100%;min-width:320px}code{background:#f3f3f3}"""
+PAGE = pathlib.Path(__file__).resolve().parents[1] / "strata" / "report" / "page"  # the look of every page of strata
 
 
 def inline(text):
@@ -81,30 +78,37 @@ def inline(text):
     return "".join(f"<code>{part}</code>" if index % 2 else part for index, part in enumerate(parts))
 
 
+def table_of(header, rows):
+    head = "".join(f'<th scope="col">{inline(cell)}</th>' for cell in header)
+    body = "\n".join("<tr>" + "".join(f"<td>{inline(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    return (f'<div class="scroll" tabindex="0" role="region" aria-label="{html.escape(", ".join(header), quote=True)}"><table class="sorts">'
+            f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>")
+
+
 def html_of(blocks):
-    body = []
+    title, body, is_first = html.escape(blocks[0][1]), [], True
     for kind, *content in blocks:
-        if kind in ("title", "heading"):
-            tag = "h1" if kind == "title" else "h2"
-            body.append(f"<{tag}>{inline(content[0])}</{tag}>")
+        if kind == "heading":
+            body.append(f"<h2>{inline(content[0])}</h2>")
         elif kind == "text":
-            body.append(f"<p>{inline(content[0])}</p>")
+            body.append(f'<p class="lead">{inline(content[0])}</p>' if is_first else f"<p>{inline(content[0])}</p>")
+            is_first = False
         elif kind == "list":
             body.append("<ul>" + "".join(f"<li>{inline(item)}</li>" for item in content[0]) + "</ul>")
         elif kind == "table":
-            header, rows = content
-            cells = ["<tr>" + "".join(f"<th>{inline(c)}</th>" for c in header) + "</tr>"]
-            cells += ["<tr>" + "".join(f"<td>{inline(c)}</td>" for c in row) + "</tr>" for row in rows]
-            body.append("<table>" + "\n".join(cells) + "</table>")
+            body.append(table_of(*content))
         elif kind == "plot":
             _, caption, svg = content
-            body.append(f"<figure>{svg[svg.index('<svg'):]}<figcaption>{inline(caption)}</figcaption></figure>")
+            body.append(f'<figure class="wide" tabindex="0">{svg[svg.index("<svg"):]}<figcaption>{inline(caption)}</figcaption></figure>')
         elif kind == "picture":
             path, caption = content
             data = base64.b64encode(path.read_bytes()).decode()
-            body.append(f'<figure><img alt="" src="data:image/png;base64,{data}"><figcaption>{inline(caption)}</figcaption></figure>')
-    title = html.escape(blocks[0][1])
-    return f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>\n' + "\n".join(body) + "</html>\n"
+            words = html.escape(caption, quote=True)
+            body.append(f'<figure><img alt="{words}" src="data:image/png;base64,{data}"><figcaption>{inline(caption)}</figcaption></figure>')
+    style, script = ((PAGE / name).read_text() for name in ("style.css", "plain.js"))
+    return ('<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n<header><h1>{title}</h1></header>\n<main>\n" + "\n".join(body)
+            + f"\n</main>\n<script>\n{script}</script>\n</body>\n</html>\n")
 
 
 def main():

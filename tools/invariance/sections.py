@@ -7,6 +7,34 @@ WHAT = ("scene", "profile", "algorithm", "write_path", "compare_path", "depth_fo
 
 
 MOST_PICTURES = 24  # cells, in the order of the plan
+MOST_SAFE = 8  # safe intervals that the head names; the others stand in the list below
+
+# Choices that most sweeps leave alone: a row and a label have those that vary in the whole page.
+OTHER_KNOBS = [("size", lambda row: f"{row['width']}x{row['height']}"),
+               ("orbit", lambda row: "-" if row["orbit"] is None else f"{row['orbit'][0]:g},{row['orbit'][1]:g}"),
+               ("camera", lambda row: row.get("camera") or "-"),
+               ("alpha", lambda row: f"{row['alpha']:g}"),
+               ("subpixel bits", lambda row: str(row["subpixel_bits"])),
+               ("max passes", lambda row: str(row["max_passes"]))]
+
+
+def name_other_knobs(rows):
+    """Gives each row `also`: (title, value) of every one of OTHER_KNOBS that is not the same in all rows."""
+    varying = [(title, value) for title, value in OTHER_KNOBS if len({value(row) for row in rows}) > 1]
+    for row in rows:
+        row["also"] = tuple((title, value(row)) for title, value in varying)
+
+
+def also_titles(rows):
+    return [title for title, _ in rows[0]["also"]] if rows else []
+
+
+def also_values(row):
+    return [value for _, value in row["also"]]
+
+
+def also_text(row):
+    return "".join(f", {title} {value}" for title, value in row["also"])
 
 
 def pair(row):
@@ -51,7 +79,7 @@ def plain(rows):
     found = {}
     for r in alike(rows):
         if r["remedy"] == "none":
-            found.setdefault((r["scene"], r["profile"], pair(r), r["depth_format"], r["near"], r["far"]), r)
+            found.setdefault((r["scene"], r["profile"], pair(r), r["depth_format"], r["near"], r["far"], r["also"]), r)
     return list(found.values())
 
 
@@ -76,19 +104,31 @@ def findings(rows):
     wrong, endless = sum(total(r) > 0 for r in unlike), sum(r["outcome"] == "never_ends" for r in unlike)
     by_format = "; ".join(spread(own) for _, own in groups(unlike, "depth_format"))
     safe = [r for r in judged if r["safe_bias"]["safe"]]
+    named = "; ".join(f"{about(r)}: {codes(r['safe_bias'])}" for r in safe[:MOST_SAFE]) + ("; ..." if len(safe) > MOST_SAFE else "")
     return [("text", f"Of {len(unlike)} peels that compare another depth than the one that they stored {wrong} lose layers or composite them twice, and {endless} never "
                      f"end: {by_format}."),
             ("text", f"If the written depth comes from the quotient that is compared (`depth_replace`), {sum(total(r) > 0 for r in replaced)} of {len(replaced)} peels "
                      "do so."),
-            ("text", f"A constant bias peels {len(safe)} of {len(judged)} scenes and formats without error ("
-                     + "; ".join(f"{r['scene']} on {r['profile']}, `{r['depth_format']}`: {r['safe_bias']['lowest']} to {r['safe_bias']['highest']} codes" for r in safe)
-                     + "); for the others none is safe.")]
+            ("text", f"A constant bias peels {len(safe)} of {len(judged)} {'choice' if len(judged) == 1 else 'choices'} of scene, format and depth range without error"
+                     + (f" ({named})" if safe else "") + ("." if len(safe) == len(judged) else "; for the others none is safe."))]
 
 
 def biases(rows):
-    """Of each scene, profile and format that needs a bias, the row whose depth range is nearest to 100."""
-    judged = [r for r in plain(rows) if r["safe_bias"] and total(r) > 0]
-    return [min(own, key=lambda row: abs(ratio(row) - 100)) for _, own in groups(judged, "scene", "profile", "depth_format")]
+    """A row of each scene, profile, format and depth range that needs a bias."""
+    return [r for r in plain(rows) if r["safe_bias"] and total(r) > 0]
+
+
+def about(row):
+    return f"{row['scene']} on {row['profile']}, `{row['depth_format']}`, {planes(row)}{also_text(row)}"
+
+
+def codes(safe):
+    """A safe interval in words; an end that is None is open."""
+    if safe["lowest"] is None and safe["highest"] is None:
+        return "any number of codes"
+    if safe["highest"] is None:
+        return f"{safe['lowest']} codes and more"
+    return f"up to {safe['highest']} codes" if safe["lowest"] is None else f"{safe['lowest']} to {safe['highest']} codes"
 
 
 def answers(rows):
@@ -106,11 +146,10 @@ def answers(rows):
             said.append(f"{name}: {percent(share(low))} ({planes(low)}) to {percent(share(high))} ({planes(high)}) differ, by "
                         f"{max(r['ulp_max'] for r in own):,} ulp at most.")
     for r in biases(rows):
-        safe, name = r["safe_bias"], f"{r['scene']} on {r['profile']}, `{r['depth_format']}`, {planes(r)}"
-        if safe["safe"]:
-            said.append(f"{name}: every constant bias from {safe['lowest']} to {safe['highest']} codes peels without error.")
+        if r["safe_bias"]["safe"]:
+            said.append(f"{about(r)}: a constant bias of {codes(r['safe_bias'])} peels without error.")
         else:
-            said.append(f"{name}: no constant bias peels without error.")
+            said.append(f"{about(r)}: no constant bias peels without error.")
     return [("heading", "In short"), ("list", said)] if said else []
 
 
@@ -118,11 +157,11 @@ def differences(rows):
     rows = [r for r in plain(rows) if r["differing"] > 0]
     if not rows:
         return []
-    header = ["scene", "profile", "writes : compares", "depth", "far/near", "fragments", "differ", "largest, ulp", "at pixel"]
+    header = ["scene", "profile", "writes : compares", "depth", "far/near", *also_titles(rows), "fragments", "differ", "largest, ulp", "at pixel"]
     table = []
     for r in rows:
         place = "-" if r["ulp_max_at"] is None else f"{r['ulp_max_at']['x']},{r['ulp_max_at']['y']}"
-        table.append([r["scene"], r["profile"], pair(r), r["depth_format"], f"{ratio(r):.4g}" if r["near"] else "own", f"{r['fragments']:,}",
+        table.append([r["scene"], r["profile"], pair(r), r["depth_format"], f"{ratio(r):.4g}" if r["near"] else "own", *also_values(r), f"{r['fragments']:,}",
                       percent(share(r)), f"{r['ulp_max']:,}", place])
     blocks = [("heading", "How often the two depths differ, and by how much"),
               ("text", "Every fragment of the frame by both paths, paired by pixel and triangle. An ulp is a code of `d16` and "
@@ -137,7 +176,7 @@ def difference_plots(rows):
             continue
         by_pair = {}
         for r in own:
-            by_pair.setdefault(f"{pair(r)} {r['depth_format']}", []).append(r)
+            by_pair.setdefault(f"{pair(r)} {r['depth_format']}{also_text(r)}", []).append(r)
         name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}")
         shares = {key: sorted((ratio(r), 100 * share(r)) for r in values) for key, values in by_pair.items()}
         blocks.append(("plot", f"share-{name}", f"{scene} on {profile}: share of fragments whose two depths differ",
@@ -153,16 +192,16 @@ def histogram(rows):
     if not rows:
         return []
     table = []
-    for (scene, profile, write, compare, depth), own in groups(rows, "scene", "profile", "write_path", "compare_path", "depth_format"):
+    for (scene, profile, write, compare, depth, also), own in groups(rows, "scene", "profile", "write_path", "compare_path", "depth_format", "also"):
         bins = {}
         for r in own[:1]:
             for low, high, count in r["histogram"]:
                 name = "0" if low == high == 0 else "-1" if high == -1 else "+1" if low == 1 else "<= -2" if high < 0 else ">= +2"
                 bins[name] = bins.get(name, 0) + count / r["fragments"]
-        table.append([scene, profile, f"{write} : {compare}", depth, *(percent(bins.get(k, 0)) for k in ("<= -2", "-1", "0", "+1", ">= +2"))])
+        table.append([scene, profile, f"{write} : {compare}", depth, *(value for _, value in also), *(percent(bins.get(k, 0)) for k in ("<= -2", "-1", "0", "+1", ">= +2"))])
     return [("text", "Signed: positive where the compared depth lies behind the stored one, so that a fragment survives its own peel. "
                      "The first depth range of each row above."),
-            ("table", ["scene", "profile", "writes : compares", "depth", "<= -2", "-1", "0", "+1", ">= +2"], table)]
+            ("table", ["scene", "profile", "writes : compares", "depth", *also_titles(rows), "<= -2", "-1", "0", "+1", ">= +2"], table)]
 
 
 def total(row):
@@ -171,10 +210,10 @@ def total(row):
 
 def remedies(rows):
     blocks = []
-    for key, own in groups(alike(rows), *WHAT[:3], "compare_path", "depth_format", "near", "far"):
+    for key, own in groups(alike(rows), *WHAT[:3], "compare_path", "depth_format", "near", "far", "also"):
         if len(own) < 3:
             continue
-        scene, profile, algorithm, _, depth, _, _ = key
+        scene, profile, algorithm, _, depth = key[:5]
         base = next((r for r in own if r["remedy"] == "none"), own[0])
         best = min(own, key=lambda r: (total(r), r["rmse"]))
         table = []
@@ -184,7 +223,7 @@ def remedies(rows):
             table.append([f"`{r['remedy']}`", pair(r), f"{r['passes']}" + (" of its limit" if r["outcome"] == "never_ends" else ""),
                           f"{r['layers_true']}", f"{r['duplicated']:,}", f"{r['lost']:,}", f"{total(r):,}{mark}",
                           f"{r['pixels_touched']:,}", f"{r['max_difference']:.1f}", f"{r['rmse']:.2f}", decibels(r), time])
-        blocks += [("text", f"{scene}, {algorithm} on {profile}, `{depth}`, {planes(own[0])}, {own[0]['layers']:,} layers in all. "
+        blocks += [("text", f"{scene}, {algorithm} on {profile}, `{depth}`, {planes(own[0])}{also_text(own[0])}, {own[0]['layers']:,} layers in all. "
                             f"Least total error: `{best['remedy']}` ({pair(best)}), {total(best):,}.")]
         blocks += bias_plot(key, own)
         blocks.append(("table", ["remedy", "writes : compares", "passes", "N", "twice", "lost", "total", "pixels", "max diff", "rmse", "PSNR", "time"], table))
@@ -195,26 +234,26 @@ def remedies(rows):
             ("text", "A layer counts as twice if a pixel composited it more than once, as lost if never. N is the deepest pixel's number of layers; a right "
                      "peel takes N + 1 passes, and one that still finds fragments after 2 (N + 1) never ends. Differences are against "
                      "the exact A-buffer in 1/255 (where no layer is twice or lost they are ties: fragments of equal depth are one layer to any peel); time is "
-                     "the passes' of the emulator, every pass rasterized anew, as a ratio to the first line's in the same run.")] + blocks
+                     "the passes' of the emulator, every pass rasterized again, as a ratio to the first line's in the same run.")] + blocks
 
 
 def bias_plot(key, own):
     constant = {r["bias_constant"]: r for r in own if r["remedy"] == "none" or r["remedy"] == f"bias:{r['bias_constant']:g}"}
     if len(constant) < 3:
         return []
-    scene, profile, _, _, depth, _, _ = key
+    scene, profile, _, _, depth = key[:5]
     series = {"twice": [], "lost": [], "total": []}
     for bias in sorted(constant):
         for name, value in (("twice", constant[bias]["duplicated"]), ("lost", constant[bias]["lost"]), ("total", total(constant[bias]))):
             series[name].append((bias, value))
     safe = own[0]["safe_bias"]
     shaded = None
-    if safe and safe["safe"] and safe["highest"] is not None:
-        shaded = (max(safe["lowest"], 0), min(safe["highest"], max(constant)))
-        shaded = shaded if shaded[0] < shaded[1] else None
-    name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}-{depth}-{ratio(own[0]):.4g}")
-    caption = f"{scene}, {depth}: layers composited twice, and lost, against a constant bias" + ("; the safe interval is green" if shaded else "")
-    return [("plot", f"bias-{name}", caption, figures.zero_and_powers_plot(f"{scene}, {profile}, {depth}", "polygon offset units", "layers", series, shaded))]
+    if safe and safe["safe"] and safe["highest"] is not None and safe["highest"] > max(safe["lowest"] or 0, 0):
+        shaded = (max(safe["lowest"] or 0, 0), safe["highest"])
+    label = f"{scene}, {profile}, {depth}, {planes(own[0])}{also_text(own[0])}"
+    name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}-{depth}-{ratio(own[0]):.4g}" + "".join(f"-{value}" for value in also_values(own[0])))
+    caption = f"{label}: layers composited twice, and lost, against a constant bias" + (f"; green: safe, {codes(safe)}" if shaded else "")
+    return [("plot", f"bias-{name}", caption, figures.zero_and_powers_plot(label, "polygon offset units", "layers", series, shaded))]
 
 
 def place(witness):
@@ -240,12 +279,12 @@ def vertex_paths(rows):
     rows = [r for r in measured(rows) if "+" in r["vertex_path"]]
     if not rows:
         return []
-    table = [[r["scene"], r["profile"], pair(r), r["depth_format"], *r["vertex_path"].split("+"), percent(share(r)), f"{r['ulp_max']:,}", f"{r['unmatched']:,}",
+    table = [[r["scene"], r["profile"], pair(r), r["depth_format"], planes(r), *also_values(r), *r["vertex_path"].split("+"), percent(share(r)), f"{r['ulp_max']:,}", f"{r['unmatched']:,}",
               str(r["passes"]), str(r["layers_true"]), f"{r['duplicated']:,}", f"{r['lost']:,}"] for r in rows]
     return [("heading", "Passes that transform a vertex differently"),
             ("text", "One depth path, but the first pass computes positions in one way and all others in another: the commonest mistake of a port. "
                      "Where a vertex snaps to another grid point, coverage differs too."),
-            ("table", ["scene", "profile", "writes : compares", "depth", "first pass", "further", "differ", "largest, ulp", "only in one", "passes", "N", "twice", "lost"], table)]
+            ("table", ["scene", "profile", "writes : compares", "depth", "planes", *also_titles(rows), "first pass", "further", "differ", "largest, ulp", "only in one", "passes", "N", "twice", "lost"], table)]
 
 
 def splits(rows):
@@ -256,25 +295,25 @@ def splits(rows):
     for r in rows:
         behind = sum(count for low, _, count in r["histogram"] if low > 0)
         path = r["write_path"] + ("" if r["hypothesis"] == "profile" else f", {r['hypothesis']}")
-        table.append([r["scene"], r["profile"], path, r["depth_format"], r["split"], f"{r['fragments']:,}", percent(share(r)),
+        table.append([r["scene"], r["profile"], path, r["depth_format"], planes(r), *also_values(r), r["split"], f"{r['fragments']:,}", percent(share(r)),
                       percent(behind / r["fragments"] if r["fragments"] else 0), f"{r['ulp_max']:,}", f"{r['unmatched']:,}"])
     return [("heading", "The same surface, split otherwise"),
             ("text", "A decal in the plane of a surface fights with it wherever its depth is another one. Here the second pass draws the same surface, but its triangles "
                      "begin at another vertex, its squares are cut along the other diagonal, the viewport is moved by a pixel, or the near "
                      "plane clamps instead of clipping. `hidden` is the share where the decal lies behind, and LEQUAL drops it. Even the exact plane "
                      "changes with the diagonal: corners are snapped to subpixels and their depths rounded, so four corners lie in no plane."),
-            ("table", ["scene", "profile", "path", "depth", "split", "fragments", "differ", "hidden", "largest, ulp", "only in one"], table)]
+            ("table", ["scene", "profile", "path", "depth", "planes", *also_titles(rows), "split", "fragments", "differ", "hidden", "largest, ulp", "only in one"], table)]
 
 
 def hypotheses(rows):
     rows = [r for r in measured(rows) if r["hypothesis"] != "profile" and r["split"] == "none"]
     if not rows:
         return []
-    table = [[r["hypothesis"], r["scene"], pair(r), r["depth_format"], percent(share(r)), f"{r['ulp_max']:,}", f"{r['duplicated']:,}", f"{r['lost']:,}"]
+    table = [[r["hypothesis"], r["scene"], r["profile"], pair(r), r["depth_format"], planes(r), *also_values(r), percent(share(r)), f"{r['ulp_max']:,}", f"{r['duplicated']:,}", f"{r['lost']:,}"]
              for r in rows]
     return [("heading", "What rests on assumptions about the chip"),
             ("text", "Each line changes one constant of the device that no capture has settled; the spread is what the numbers above are worth."),
-            ("table", ["hypothesis", "scene", "writes : compares", "depth", "differ", "largest, ulp", "twice", "lost"], table)]
+            ("table", ["hypothesis", "scene", "profile", "writes : compares", "depth", "planes", *also_titles(rows), "differ", "largest, ulp", "twice", "lost"], table)]
 
 
 def refusals(rows):
@@ -288,16 +327,17 @@ def pictures(rows):
         for ending, caption in (("errors", "red: twice, blue: lost, magenta: both"), ("difference", "4 x the difference from the exact A-buffer")):
             path = row["pictures"].with_name(f"{row['pictures'].name}.{ending}.png")
             if path.exists():
-                blocks.append(("picture", path, f"{row['scene']}, {pair(row)}, {row['depth_format']}, {row['remedy']}: {caption}"))
+                blocks.append(("picture", path, f"{about(row)}, {pair(row)}, {row['remedy']}: {caption}"))
     return [("heading", "Where")] + blocks if blocks else []
 
 
 def page(title, rows, study=()):
     """`study`: blocks of a further section, before the hypotheses."""
+    name_other_knobs(rows)
     intro = (f"{len(rows)} cells of `strata invariance`. A peel in several passes compares a fragment's depth with one that an earlier pass stored. If the two are "
              "computed in different ways, they differ in the last places: a fragment that seems to lie behind itself is peeled again, "
              "one that seems to lie before what is behind it is lost. Unless a line names another, everything rests on the profiles' own "
-             "constants, which `strata profiles` lists with their sources.")
+             "constants, which `strata list profiles` shows with their sources.")
     plots = difference_plots([r for r in plain(rows) if r["differing"] > 0])
     return [("title", title), *findings(rows), *plots[:1], ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows),
             *vertex_paths(rows), *splits(rows), *study, *hypotheses(rows), *refusals(rows), *pictures(rows)]

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 
 #include "scenes/files/text_file.h"
@@ -10,6 +11,7 @@
 #include "tools/strata/invariance/invariance_cell.h"
 #include "tools/strata/invariance/invariance_images.h"
 #include "tools/strata/invariance/invariance_row.h"
+#include "tools/strata/invariance/invariance_summary.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/run.h"
@@ -58,9 +60,8 @@ void add_key(CLI::App& app, InvarianceOptions& options, const PlanKey& key) {
 // Throws CLI::ValidationError for options that exclude each other.
 void check_usage(const InvarianceOptions& options) {
     if (options.run.output.empty() && !options.dry_run)
-        throw CLI::ValidationError("-o", "expected a folder for the results, found none");
-    if (options.merge > 0 && options.shard.count > 1)
-        throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
+        throw CLI::ValidationError("-o is missing: the folder for the results");
+    if (options.merge > 0 && options.shard.count > 1) throw CLI::ValidationError("--merge excludes --shard");
 }
 
 std::vector<Cell> all_cells(const InvarianceOptions& options, CellRunner& runner) {
@@ -99,6 +100,18 @@ Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, C
                 }};
 }
 
+// "images/0003.errors.png" of the third cell.
+std::string caption_of(const std::string& name, const Lines& lines) {
+    const std::string file = std::filesystem::path(name).filename().string();
+    const auto number = to_int<std::size_t>(std::string_view(file).substr(0, file.find('.')));
+    if (!number || *number >= lines.size()) return name;
+    const std::string label = label_of(lines[*number], knobs_of(lines, Knobs::varying));
+    if (file.ends_with(".difference.png")) return label + ": four times its difference from the exact picture";
+    if (file.ends_with(".errors.png"))
+        return label + ": its errors, where red is composited twice, blue lost, magenta both";
+    return label + ": its picture";
+}
+
 int invariance(InvarianceOptions& options) {
     check_usage(options);
     check_outputs({{"--report", options.report, {".html"}}});
@@ -109,10 +122,13 @@ int invariance(InvarianceOptions& options) {
     for (const Cell& cell : cells) runner.check(cell);
     Work work = work_of(options, cells, runner);
     work.report = options.report;
-    work.pictures =
-        "By the number of the cell: its picture; four times its difference from the exact one; and its errors, where "
-        "red is composited twice, blue "
-        "lost, magenta both.";
+    work.findings = [](const Lines& lines) {
+        return Findings{found_sentence(lines),
+                        summary_table(lines),
+                        "A row a cell: what varies, and what was found",
+                        {same_everywhere(lines)}};
+    };
+    work.caption = caption_of;
     if (options.dry_run) return dry_run(work, options.shard), 0;
     const std::string& folder = options.run.output;
     if (options.merge > 0) return merge_shards(work, folder, static_cast<std::size_t>(options.merge));
@@ -140,7 +156,7 @@ Command add_invariance(CLI::App& root) {
     auto* app =
         root.add_subcommand("invariance", "peel with two depths that ought to be equal, and measure what goes wrong");
     const auto options = std::make_shared<InvarianceOptions>();
-    app->add_option("SCENE", options->run.scene, "a .gltf or .glb file, or a built-in scene (strata scenes)")
+    app->add_option("SCENE", options->run.scene, "a .gltf or .glb file, or a built-in scene (strata list scenes)")
         ->type_name("");
     add_reading_options(*app, options->run.scene_options);
     for (const PlanKey& key : plan_keys())

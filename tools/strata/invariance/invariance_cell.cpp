@@ -9,6 +9,7 @@
 #include "scenes/files/profile_json.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/pack_options.h"
+#include "tools/strata/render/run.h"
 
 namespace strata::tools {
 
@@ -85,7 +86,7 @@ std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
 
 // A pack's view may follow another clip convention; cells are drawn under the default one.
 const pipeline::View* CellRunner::own_view(const Cell& cell) {
-    if (!cell.takes_own_view || !scene(cell.scene).own_view) return nullptr;
+    if (!cell.takes_own_view || !cell.camera.empty() || !scene(cell.scene).own_view) return nullptr;
     const auto known = own_views_.find(cell.scene);
     if (known != own_views_.end()) return &known->second;
     RunOptions pack;
@@ -98,11 +99,16 @@ const pipeline::View* CellRunner::own_view(const Cell& cell) {
 void CellRunner::check(const Cell& cell) {
     static_cast<void>(profile(cell));
     static_cast<void>(scene(cell.scene));
-    if (cell.range == DepthRange{} || own_view(cell) == nullptr) return;
+    if (!cell.camera.empty()) {
+        if (!cell.takes_own_view) throw InputError(cell.scene, "camera", "either a camera or an orbit", "both");
+        static_cast<void>(view(cell));
+    }
+    if (cell.range == DepthRange{} || !view(cell).is_own) return;
     const DepthRange& r = cell.range;
-    throw InputError(cell.scene, "near_far",
-                     "orbit, for the scene's own view has planes of its own (--orbit gives it another view)",
-                     r.ratio > 0 ? fmt::format("ratio:{}", r.ratio) : fmt::format("{}:{}", r.near, r.far));
+    throw InputError(
+        cell.scene, "near_far",
+        "orbit, for the scene's own view and a camera have planes of their own (--orbit gives another view)",
+        r.ratio > 0 ? fmt::format("ratio:{}", r.ratio) : fmt::format("{}:{}", r.near, r.far));
 }
 
 const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
@@ -120,6 +126,7 @@ CellView CellRunner::view(const Cell& cell) {
     const int subpixel_bits = profile(cell).raster.subpixel_bits;
     if (const pipeline::View* const own = own_view(cell)) return {*own, 0, 0, subpixel_bits, true};
     const double aspect = double(cell.width) / cell.height;
+    if (!cell.camera.empty()) return {view_named(cell.camera, scene(cell.scene), aspect), 0, 0, subpixel_bits, true};
     scenes::LookAt camera = scenes::orbit_camera(scene(cell.scene).bounds, cell.azimuth, cell.elevation);
     // The far plane stays the orbit's and the near one moves towards the eye: nothing of the scene
     // is cut off.

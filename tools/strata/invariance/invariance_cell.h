@@ -12,9 +12,9 @@ namespace strata::tools {
 // The camera of a cell, with what its line says about it.
 struct CellView {
     pipeline::View view;
-    double near = 0, far = 0;  // of the projection; 0 where it is the scene's own
+    double near = 0, far = 0;  // of the projection; 0 where it is the scene's own or a camera's
     int subpixel_bits = 0;     // of the device
-    bool is_own = false;       // the view that the scene brings
+    bool is_own = false;       // the view that the scene or a camera brings
 };
 
 // The outcome of one cell.
@@ -35,8 +35,8 @@ class CellRunner {
     [[nodiscard]] std::vector<Cell> expanded(const std::vector<Cell>& cells);
     // Reads what the cell names, so that a wrong name or file is told before anything runs. Throws InputError.
     void check(const Cell& cell);
-    // The scene's own view if it has one and the cell names no orbit; else the orbit's, with the planes that the cell's
-    // range asks for.
+    // The camera's if the cell names one; the scene's own view if it has one and the cell names no orbit; else the orbit's, with the
+    // planes that the cell's range asks for.
     [[nodiscard]] CellView view(const Cell& cell);
     // Measures the cell. A profile that refuses it is told in the result.
     [[nodiscard]] CellResult run(const Cell& cell);
@@ -44,7 +44,7 @@ class CellRunner {
   private:
     [[nodiscard]] const scenes::Scene& scene(const std::string& name);
     [[nodiscard]] pipeline::DeviceProfile profile(const Cell& cell);
-    // Null where the orbit is what the cell is seen from.
+    // Null where an orbit or a camera is what the cell is seen from.
     [[nodiscard]] const pipeline::View* own_view(const Cell& cell);
     // The list that passes after the first draw; null: the scene's own list.
     [[nodiscard]] const pipeline::DrawList* split_list(const Cell& cell);

@@ -42,6 +42,11 @@ bool set_orbit(Cell& cell, const std::string& text) {
     return orbit.has_value();
 }
 
+bool set_camera(Cell& cell, const std::string& text) {
+    if (text == "none") return cell.camera.clear(), true;
+    return set_name(cell.camera, text);
+}
+
 // An invariance test needs layers in order: a peel that is exact or keeps them, and not the oracle
 // itself.
 bool set_algorithm(Cell& cell, const std::string& text) {
@@ -120,9 +125,12 @@ std::vector<PlanKey> make_keys() {
         {"size", "pixels", "WIDTHxHEIGHT, each from 1 to 16384", "256x192", set_size},
         {"orbit", "degrees from which the scene is seen", "azimuth and elevation in degrees such as 30,20",
          "the scene's own view if it has one, else 30,20", set_orbit, false},
+        {"camera", "a camera of the scene, or a JSON file with one, instead of an orbit", "a camera's name or file",
+         "none", set_camera, false},
         {"alpha", "everything is drawn with its own alpha times this", "a number from 0 to 1", "0.5",
          [](Cell& c, const std::string& t) { return assign(c.alpha, to_share(t)); }},
-        {"algorithm", "peels", "an algorithm that peels in order (strata algorithms)", "shadow_map", set_algorithm},
+        {"algorithm", "peels", "an algorithm that peels in order (strata list algorithms)", "shadow_map",
+         set_algorithm},
         {"split",
          "what further passes draw of the surface: the same, vertices rotated, the other diagonal, the viewport moved "
          "by a pixel, "

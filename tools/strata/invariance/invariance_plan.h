@@ -43,6 +43,7 @@ struct Cell {
     int width = 256, height = 192;
     double azimuth = 30, elevation = 20;  // degrees
     bool takes_own_view = true;           // if the scene has one: no orbit is named
+    std::string camera;                   // a camera of the scene or a file; empty: the orbit
     float alpha = 0.5f;
     const peeling::Algorithm* algorithm = nullptr;
     Split split = Split::none;

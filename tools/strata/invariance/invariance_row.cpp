@@ -6,9 +6,9 @@
 
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/registry.h"
+#include "tools/strata/invariance/invariance_summary.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/sweep/csv.h"
-#include "tools/strata/table.h"
 
 namespace strata::tools {
 
@@ -16,21 +16,32 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// The columns of results.csv: what a table in print needs. results.jsonl has all keys.
-constexpr std::array columns{"scene",
+// The columns of results.csv: everything that says what was measured, and of what was found what a table in print needs. results.jsonl has
+// all keys.
+constexpr std::array columns{"cell",
+                             "scene",
                              "width",
                              "height",
+                             "profile",
+                             "algorithm",
+                             "orbit",
+                             "camera",
+                             "alpha",
                              "write_path",
                              "compare_path",
                              "depth_format",
                              "subpixel_bits",
                              "near",
                              "far",
+                             "remedy",
                              "bias_constant",
                              "bias_slope",
                              "compare_epsilon",
                              "vertex_path",
                              "quantize_reference",
+                             "split",
+                             "hypothesis",
+                             "max_passes",
                              "fragments",
                              "differing",
                              "ulp_max",
@@ -42,6 +53,7 @@ constexpr std::array columns{"scene",
                              "max_difference",
                              "rmse",
                              "psnr",
+                             "safe_bias",
                              "outcome"};
 
 // The pair of fragments that shows a figure (reports.md 5.2). `width` turns the pixel's number into
@@ -140,6 +152,7 @@ ordered_json description(std::size_t number, const Cell& cell, const CellView& v
             {"profile", without_folder(cell.profile)},
             {"algorithm", cell.algorithm->name},
             {"orbit", unless_own({cell.azimuth, cell.elevation})},
+            {"camera", cell.camera.empty() ? ordered_json(nullptr) : ordered_json(without_folder(cell.camera))},
             {"alpha", shortest(cell.alpha)},
             {"write_path", name_of(depth_paths(), write)},
             {"compare_path", name_of(depth_paths(), cell.compare)},
@@ -180,9 +193,16 @@ std::string csv_header() { return fmt::format("{}\n", fmt::join(columns, ",")); 
 std::string to_csv(const ordered_json& line) {
     std::vector<std::string> fields;
     const bool is_peeled = line.at("outcome") == "done" || line.at("outcome") == "never_ends";
-    for (const char* column : columns) {
-        const bool is_null = line.at(column).is_null();  // the PSNR of equal pictures, or of none
-        fields.push_back(is_null ? (is_peeled ? "inf" : "") : csv_field(line.at(column)));
+    for (const std::string key : columns) {
+        const ordered_json& value = line.at(key);
+        if (key == "orbit" && !value.is_null())
+            fields.push_back(csv_field(orbit_text(value)));
+        else if (key == "safe_bias")
+            fields.push_back(safe_text(value));
+        else if (key == "psnr" && value.is_null())  // of equal pictures, or of none
+            fields.push_back(is_peeled ? "inf" : "");
+        else
+            fields.push_back(value.is_null() ? "" : csv_field(value));
     }
     return fmt::format("{}\n", fmt::join(fields, ","));
 }
@@ -191,28 +211,6 @@ std::string csv_of(const Lines& lines) {
     std::string text = csv_header();
     for (const ordered_json& line : lines) text += to_csv(line);
     return text;
-}
-
-std::string summary(const Lines& lines, const std::string& folder) {
-    constexpr std::size_t most_rows = 50;
-    Table table{{{"cell", Align::right}, {"scene"}, {"write"}, {"compare"}, {"depth"}, {"remedy"}}, {}};
-    for (const char* title : {"passes", "differing", "ulp max", "duplicated", "lost", "pixels"})
-        table.columns.push_back({title, Align::right});
-    table.columns.push_back({"outcome"});
-    for (const ordered_json& line : lines) {
-        if (table.rows.size() == most_rows) break;
-        std::vector<std::string> row;
-        for (const char* key : {"cell", "scene", "write_path", "compare_path", "depth_format", "remedy", "passes",
-                                "differing", "ulp_max", "duplicated", "lost", "pixels_touched", "outcome"})
-            row.push_back(line.at(key).is_string() ? line.at(key).get<std::string>() : line.at(key).dump());
-        table.rows.push_back(std::move(row));
-    }
-    const std::string more = lines.size() > most_rows ? fmt::format("and {} more\n", lines.size() - most_rows) : "";
-    return to_text(table) + more +
-           fmt::format(
-               "All of it: {0}/results.csv and {0}/results.jsonl. A page with plots, {0}/index.html: "
-               "tools/invariance/report.py {0}\n",
-               folder);
 }
 
 }  // namespace strata::tools

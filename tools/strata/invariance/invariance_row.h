@@ -29,7 +29,4 @@ namespace strata::tools {
 [[nodiscard]] std::string csv_header();
 [[nodiscard]] std::string to_csv(const nlohmann::ordered_json& line);  // both with their newline
 
-// A table for people, of the first 50 lines, and where all of them and the page about them are.
-[[nodiscard]] std::string summary(const Lines& lines, const std::string& folder);
-
 }  // namespace strata::tools

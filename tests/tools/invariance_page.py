@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""The page of tools/invariance/report.py: what it says of made-up rows of a sweep. usage: invariance_page.py REPOSITORY
+
+Model: rows typed out, whose safe intervals and counts are known. Plots are not drawn: their commands are looked at.
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(sys.argv[1]) / "tools" / "invariance"))
+sys.dont_write_bytecode = True
+import figures  # noqa: E402
+import report  # noqa: E402
+import sections  # noqa: E402
+
+SCRIPTS = []
+figures.run_gnuplot = lambda script: SCRIPTS.append(script) or "<svg></svg>"
+SAFE = {"safe": True, "lowest": 3, "highest": 30}
+NONE = {"safe": False, "lowest": 9, "highest": 4,
+        **{key: {"x": 1, "y": 2, "primitive": 3, "stored": "0x1", "reference": "0x2"} for key in ("repeated_below", "lost_above")}}
+
+
+def row(cell, **changed):
+    made = {"cell": cell, "scene": "teapot", "width": 64, "height": 48, "profile": "geforce3", "algorithm": "shadow_map", "orbit": [30.0, 20.0],
+            "camera": None, "alpha": 0.5, "write_path": "window_z", "compare_path": "perspective_rq", "depth_format": "d24", "subpixel_bits": 4,
+            "near": 1.0, "far": 100.0, "remedy": "none", "bias_constant": 0.0, "vertex_path": "separate", "split": "none", "hypothesis": "profile",
+            "max_passes": 0, "outcome": "never_ends", "refusal": "", "fragments": 100, "differing": 50, "unmatched": 0, "ulp_max": 3,
+            "ulp_max_at": {"x": 1, "y": 2}, "histogram": [[0, 0, 50], [1, 1, 50]], "passes": 14, "layers_true": 6, "layers": 100, "duplicated": 8,
+            "lost": 9, "pixels_touched": 7, "max_difference": 1.0, "rmse": 0.5, "psnr": 40.0, "safe_epsilon_ulps": None, "safe_epsilon": None,
+            "safe_bias": SAFE, "seconds": None, "pictures": pathlib.Path("none")}
+    return {**made, **changed}
+
+
+def replaced(cell):
+    return row(cell, write_path="depth_replace", differing=0, duplicated=0, lost=0, outcome="done", safe_bias=None)
+
+
+def text_of(rows):
+    return report.markdown_of(sections.page("A title", rows), pathlib.Path(FOLDER) / "page")
+
+
+def rows_of_table(page, heading):
+    """The first table behind a heading: rows of cells."""
+    lines = page[page.index(heading):].splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("|"))
+    table = []
+    for line in lines[first:]:
+        if not line.startswith("|"):
+            break
+        table.append(line)
+    return table[:1] + table[2:]
+
+
+def check_headline():
+    """Two depth ranges, of which one has no safe bias: the head says one of two."""
+    page = text_of([row(0), row(1, near=0.1, safe_bias=NONE), replaced(2)])
+    yield "the head counts depth ranges", "A constant bias peels 1 of 2 choices of scene, format and depth range without error" in page
+    yield "the safe one is named with its range", "teapot on geforce3, `d24`, far/near 100: 3 to 30 codes" in page
+    yield "the other is listed", "teapot on geforce3, `d24`, far/near 1000: no constant bias peels without error." in page
+
+
+def check_rows():
+    """Sweeps over each knob: no two rows of a table are alike."""
+    for name, values in {"size": [{"width": 64}, {"width": 65}], "profile": [{"profile": "a"}, {"profile": "b"}],
+                         "bits": [{"subpixel_bits": 4}, {"subpixel_bits": 8}], "near": [{"near": 1.0}, {"near": 2.0}],
+                         "alpha": [{"alpha": 0.5}, {"alpha": 0.25}], "camera": [{"camera": "a.json"}, {"camera": "b.json"}],
+                         "orbit": [{"orbit": [30.0, 20.0]}, {"orbit": [31.0, 20.0]}], "passes": [{"max_passes": 0}, {"max_passes": 9}]}.items():
+        page = text_of([row(i, **value) for i, value in enumerate(values)] + [replaced(2)])
+        for heading in ("How often the two depths differ", "Signed: positive"):
+            table = rows_of_table(page, heading)
+            yield f"rows of a sweep over {name} differ below '{heading}'", heading.startswith("Signed") and name == "near" or len(set(table)) == len(table) == 3
+        listed = [line for line in page.splitlines() if line.startswith("- teapot on") or line.startswith("- b on") or line.startswith("- a on")]
+        yield f"lines of a sweep over {name} differ", len(set(listed)) == len(listed) == 2
+
+
+def check_band():
+    """The band of the plot ends where the text says, beyond the largest bias that was tried."""
+    SCRIPTS.clear()
+    biases = [row(i, remedy="none" if bias == 0 else f"bias:{bias}", bias_constant=float(bias)) for i, bias in enumerate([0, 1, 4, 16])]
+    page = text_of(biases)
+    script = next(script for script in SCRIPTS if "rectangle" in script)
+    yield "the band ends at 30", re.search(r"rectangle from 3, graph 0 to 30, graph 1", script) is not None
+    yield "the axis goes as far", "set xrange [0.5:30]" in script and '"30" 30' in script
+    yield "the caption names it", "green: safe, 3 to 30 codes" in page
+
+
+def check_html():
+    """The page has the look of strata's pages: light and dark, and a width for phones."""
+    page = report.html_of(sections.page("A <title>", [row(0), replaced(1)]))
+    yield "it has a dark mode", "prefers-color-scheme: dark" in page
+    yield "it fits a phone", "width=device-width" in page
+    yield "its title is text", "<h1>A &lt;title&gt;</h1>" in page
+    yield "it begins with a sentence", page.index('class="lead"') < page.index("<figure" if "<figure" in page else "<table")
+    yield "tables scroll alone", page.count("<table") == page.count('class="scroll"')
+
+
+with tempfile.TemporaryDirectory() as FOLDER:
+    checks = [check for made in (check_headline, check_rows, check_band, check_html) for check in made()]
+wrong = [name for name, holds in checks if not holds]
+print("\n".join(wrong))
+print(f"{len(checks)} checks, {len(wrong)} wrong")
+sys.exit(1 if wrong or len(checks) < 30 else 0)
