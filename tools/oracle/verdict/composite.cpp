@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include "scenes/numbers/srgb_encode.h"
+
 namespace strata::oracle::verdict {
 
 namespace {
 
 constexpr double single_error = 0x1p-22;  // of a blend's terms (composite.h, Numbers)
+constexpr double srgb_error = 0x1p-21;    // of an encoding in binary32
 
 // Exact for |x| < 2^51: binary64 has no finer numbers beyond 2^52.
 double nearest_whole(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
@@ -101,6 +104,21 @@ Interval stored_up(const Keeper& keeper, Interval exact) noexcept {
     return {code(exact.low), code(exact.high)};
 }
 
+Interval encoded(Interval linear) noexcept {
+    const auto at = [](double v) { return double{scenes::encode_srgb(static_cast<float>(v))}; };
+    return {at(linear.low) - srgb_error, at(linear.high) + srgb_error};
+}
+Interval decoded(Interval encoded) noexcept {
+    const auto at = [](double v) { return double{scenes::decode_srgb(static_cast<float>(v))}; };
+    return {at(encoded.low) - srgb_error, at(encoded.high) + srgb_error};
+}
+
+// Codes of an sRGB target are those of encoded colours; floats are kept as they are.
+Interval kept_by(const Keeper& keeper, Interval exact, double magnitude, bool is_linear) noexcept {
+    if (!is_linear || !keeper.has_codes) return keeper.kept(exact, magnitude);
+    return decoded(keeper.kept(encoded(exact), magnitude));
+}
+
 }  // namespace
 
 Compositor::Means Compositor::means_of(const End& end, double slack) {
@@ -162,7 +180,8 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer) 
     return o;
 }
 
-Compositor::Channels Compositor::under(const Means& means, std::span<const Layer> near_to_far) noexcept {
+Compositor::Channels Compositor::under(const Means& means, std::span<const Layer> near_to_far,
+                                       bool is_linear) noexcept {
     Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(1)};
     const bool may_be_rounded = means.end.source == Source::any;
     for (const Layer& layer : near_to_far) {
@@ -173,7 +192,7 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
             // A product that may be stored as a layer on the way.
             if (may_be_rounded) premultiplied = means.source.kept(premultiplied, premultiplied.magnitude());
             const Interval added = through * premultiplied;
-            sum[c] = means.under.kept(sum[c] + added, sum[c].magnitude() + added.magnitude());
+            sum[c] = kept_by(means.under, sum[c] + added, sum[c].magnitude() + added.magnitude(), is_linear);
         }
         // It may be kept as coverage, 1 - t, whose error is one of 1.
         sum[3] = clamped(means.weight.kept(through * rest_of(o.alpha), 1));
@@ -181,7 +200,7 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     return sum;
 }
 
-void Compositor::over(const Means& means, std::span<const Layer> near_to_far, Channels& onto) noexcept {
+void Compositor::over(const Means& means, std::span<const Layer> near_to_far, bool is_linear, Channels& onto) noexcept {
     const bool may_be_rounded = means.end.source == Source::any;
     for (std::size_t i = near_to_far.size(); i-- > 0;) {
         const Operand o = operand(means, near_to_far[i]);
@@ -199,19 +218,21 @@ void Compositor::over(const Means& means, std::span<const Layer> near_to_far, Ch
                     exact = {std::min(exact.low, other.low), std::max(exact.high, other.high)};
                 }
             }
-            onto[c] = means.blend.kept(exact, magnitude);
+            onto[c] = kept_by(means.blend, exact, magnitude, is_linear && c < 3);
         }
     }
 }
 
-Compositor::Channels Compositor::background_of(const Means& means, const Rgba& background) noexcept {
+Compositor::Channels Compositor::background_of(const Means& means, const Stack& stack) noexcept {
     Channels channels;
+    const Source source = means.end.source;
     for (std::size_t c = 0; c < 4; ++c) {
-        Interval x = Interval::of(background[c]);
+        Interval x = Interval::of(stack.background[c]);
         if (means.slack > 0) x = x.widened(means.slack * std::max(1.0, x.magnitude()));
-        const Source source = means.end.source;
         if (!means.blend.has_codes)
             channels[c] = means.blend.kept(x, x.magnitude());
+        else if (stack.is_linear && c < 3)
+            channels[c] = kept_by(means.blend, clamped(x), 1, true);
         else if (source == Source::stored || source == Source::premultiplied)
             channels[c] = stored_up(means.source, clamped(x));
         else
@@ -225,7 +246,8 @@ Compositor::Compositor(const Hypothesis& h)
       front_{means_of(h.front, h.slack)},
       back_{means_of(h.back, h.slack)},
       result_{keeper(h.result.storage, h.result.rounding, false)},
-      converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held} {}
+      converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held ||
+                h.result.rounding == Rounding::any} {}
 
 Reach Compositor::reach(const Stack& stack) const noexcept {
     const Order order = hypothesis_.order;
@@ -234,33 +256,38 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     if (order == Order::under) near = near_to_far.size();
     if (order == Order::both_ends || order == Order::both_ends_apart) near = stack.near;
     if (order == Order::both_ends_far) near = stack.near_without_middle;
-    const Channels behind = background_of(back_, stack.background);
+    const Channels behind = background_of(back_, stack);
     const bool is_apart = order == Order::over_apart || order == Order::both_ends_apart;
     Channels back = is_apart ? Channels{} : behind;
-    over(back_, near_to_far.subspan(near), back);
-    const auto published = [&](Interval exact, double magnitude) { return result_.kept(exact, magnitude); };
+    over(back_, near_to_far.subspan(near), stack.is_linear, back);
+    const auto published = [&](std::size_t c, Interval exact, double magnitude) {
+        return result_.kept(stack.is_linear && c < 3 ? encoded(exact) : exact, magnitude);
+    };
     Reach reach;
     if (is_apart) {
         const Interval through = clamped(rest_of(back[3]));
         for (std::size_t c = 0; c < 4; ++c) {
             const Interval added = through * behind[c];
             back[c] = has_front(order) ? back[c] + added
-                                       : published(back[c] + added, back[c].magnitude() + added.magnitude());
+                                       : published(c, back[c] + added, back[c].magnitude() + added.magnitude());
         }
         if (!has_front(order)) return back;
     }
     if (!has_front(order)) {
-        for (std::size_t c = 0; c < 4; ++c) reach[c] = converts_ ? published(back[c], back[c].magnitude()) : back[c];
+        for (std::size_t c = 0; c < 4; ++c) {
+            const bool is_encoded = stack.is_linear && c < 3;
+            reach[c] = converts_ ? published(c, back[c], back[c].magnitude()) : is_encoded ? encoded(back[c]) : back[c];
+        }
         return reach;
     }
-    const Channels front = under(front_, near_to_far.first(near));
+    const Channels front = under(front_, near_to_far.first(near), stack.is_linear);
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval added = front[3] * back[c];
-        reach[c] = published(front[c] + added, front[c].magnitude() + added.magnitude());
+        reach[c] = published(c, front[c] + added, front[c].magnitude() + added.magnitude());
     }
     // Alpha is 1 less what is let through, and the background's share of that.
     const Interval alpha = mixed(front[3], back[3], Interval::of(1));
-    reach[3] = published(alpha, 1);
+    reach[3] = published(3, alpha, 1);
     return reach;
 }
 

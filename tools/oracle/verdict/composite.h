@@ -31,6 +31,7 @@ struct Stack {
     Rgba background{};
     // Of peels from both ends: how many layers the near half of the depths has, with the middle depth and without it.
     std::size_t near = 0, near_without_middle = 0;
+    bool is_linear = false;  // colours are in linear light, and what is kept is encoded to sRGB
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 
@@ -73,9 +74,10 @@ class Compositor {
     [[nodiscard]] static Means means_of(const End& end, double slack);
     [[nodiscard]] static Operand operand(const Means& means, const Layer& layer) noexcept;
     // UNDER: the fourth channel is what is let through.
-    [[nodiscard]] static Channels under(const Means& means, std::span<const Layer> near_to_far) noexcept;
-    static void over(const Means& means, std::span<const Layer> near_to_far, Channels& onto) noexcept;
-    [[nodiscard]] static Channels background_of(const Means& means, const Rgba& background) noexcept;
+    [[nodiscard]] static Channels under(const Means& means, std::span<const Layer> near_to_far,
+                                        bool is_linear) noexcept;
+    static void over(const Means& means, std::span<const Layer> near_to_far, bool is_linear, Channels& onto) noexcept;
+    [[nodiscard]] static Channels background_of(const Means& means, const Stack& stack) noexcept;
 
     Hypothesis hypothesis_;
     Means front_, back_;

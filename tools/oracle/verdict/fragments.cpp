@@ -122,7 +122,9 @@ std::vector<rasterizer::Rect> rest_of_frame(int width, int height, std::span<con
 }  // namespace
 
 SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
-    : input_{input}, instance_of_{instances_of(input)} {
+    : input_{input},
+      setting_{setting_of(input.list, input.view, input.options.background)},
+      instance_of_{instances_of(input)} {
     std::mutex mutex;
     std::vector<rasterizer::Rect> rects;
     behind_ = draw([&](TileLists&& tile) {

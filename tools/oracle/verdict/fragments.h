@@ -13,6 +13,7 @@
 
 #include "pipeline/formats/image.h"
 #include "tools/oracle/run_input.h"
+#include "tools/oracle/verdict/setting.h"
 
 namespace strata::oracle::verdict {
 
@@ -49,8 +50,7 @@ class SceneFragments {
 
     [[nodiscard]] int width() const noexcept { return behind_.width; }
     [[nodiscard]] int height() const noexcept { return behind_.height; }
-    // Where nothing is drawn.
-    [[nodiscard]] const Rgba& cleared() const noexcept { return input_.options.background; }
+    [[nodiscard]] const Setting& setting() const noexcept { return setting_; }
     [[nodiscard]] const pipeline::DrawList& list() const noexcept { return input_.list; }
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] std::size_t most_visible() const noexcept { return most_visible_; }
@@ -64,6 +64,7 @@ class SceneFragments {
     pipeline::Image draw(const std::function<void(TileLists&&)>& take) const;
 
     RunInput input_;
+    Setting setting_;
     std::vector<std::uint32_t> instance_of_{};  // of a primitive
     std::uint32_t far_code_ = 0;                // where no opaque surface is
     pipeline::Image behind_{};                  // rgba32f

@@ -125,51 +125,94 @@ std::string describe(const Hypothesis& h) {
     return text;
 }
 
-std::vector<Hypothesis> hypotheses(Storage result) {
-    const std::vector<Storage> storages{Storage::unorm8, Storage::unorm10, Storage::half, Storage::single};
-    const End nearest{result, Source::unrounded, Rounding::nearest};
-    const End cut{result, Source::unrounded, Rounding::cut};
-    const bool has_codes = result == Storage::unorm8 || result == Storage::unorm10 || result == Storage::unorm16;
-    // The least that any of the others keeps: what an 8-bit accumulator or the result itself may lose.
-    const End widest{Storage::unorm8, Source::any, Rounding::any};
-    std::vector<Hypothesis> all;
-    const auto add = [&](Order order, const End& front, const End& back) {
-        all.push_back({.order = order, .front = front, .back = back, .result = nearest});
-        const bool is_float = front.storage == Storage::half || front.storage == Storage::single;
-        if (has_codes && is_float) all.push_back({.order = order, .front = front, .back = back, .result = cut});
-    };
-    const auto add_widest = [&](Order order) {
-        all.push_back(
-            {.order = order, .front = widest, .back = widest, .result = {result, Source::any, Rounding::any}});
-    };
-    for (const Order order : {Order::over, Order::over_apart}) {
-        for (const Storage storage : storages)
-            for (const End& end : ends(storage)) add(order, end, end);
-        add_widest(order);
-    }
-    for (const Storage storage : storages)
-        for (const End& end : ends(storage)) {
-            add(Order::under, end, end);
-            // The opaque scene may be kept in 8 bits beside float accumulators.
-            if (storage != Storage::unorm8)
-                add(Order::under, end, {Storage::unorm8, Source::stored, Rounding::nearest});
-        }
-    add_widest(Order::under);
-    for (const Order order : {Order::both_ends, Order::both_ends_far, Order::both_ends_apart}) {
-        for (const Storage front : storages)
-            for (const Storage back : storages)
-                for (const End& f : ends_of_pairs(front))
-                    for (const End& b : ends_of_pairs(back)) add(order, f, b);
-        add_widest(order);
-    }
-    return all;
+namespace {
+
+constexpr End anyhow{Storage::unorm8, Source::any, Rounding::any};
+
+End widest_of(Storage storage) {
+    return {storage, storage == Storage::single ? Source::unrounded : Source::any,
+            storage == Storage::single ? Rounding::nearest : Rounding::any};
 }
 
-std::vector<Hypothesis> widest(const std::vector<Hypothesis>& all) {
-    std::vector<Hypothesis> last;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (i + 1 == all.size() || all[i + 1].order != all[i].order) last.push_back(all[i]);
-    return last;
+class FamilyMaker {
+  public:
+    FamilyMaker(Storage result, const std::vector<double>& slacks, Looseness looseness)
+        : result_{result}, slacks_{slacks}, looseness_{looseness} {}
+
+    void add(Order order, const std::vector<End>& fronts, const std::vector<End>& backs) {
+        HypothesisFamily family;
+        family.widest = {.order = order,
+                         .front = widest_of(fronts[0].storage),
+                         .back = widest_of(backs[0].storage),
+                         .result = {result_, Source::any, Rounding::any},
+                         .slack = slacks_.back()};
+        for (const double slack : slacks_)
+            for (const End& front : fronts)
+                for (const End& back : backs) add(order, front, back, slack, family);
+        if (!family.members.empty()) made_.push_back(std::move(family));
+    }
+    // For `over` and `under` both ends are alike.
+    void add(Order order, const std::vector<End>& ends) {
+        HypothesisFamily family;
+        const End widest = widest_of(ends[0].storage);
+        family.widest = {.order = order,
+                         .front = widest,
+                         .back = widest,
+                         .result = {result_, Source::any, Rounding::any},
+                         .slack = slacks_.back()};
+        for (const double slack : slacks_)
+            for (const End& end : ends) add(order, end, end, slack, family);
+        if (!family.members.empty()) made_.push_back(std::move(family));
+    }
+    [[nodiscard]] Families made() && { return std::move(made_); }
+
+  private:
+    void add(Order order, const End& front, const End& back, double slack, HypothesisFamily& family) const {
+        const auto is_loose = [](const End& end) {
+            return end.rounding == Rounding::any && end.storage == Storage::unorm8;
+        };
+        if (looseness_ == Looseness::definite && (is_loose(front) || is_loose(back))) return;
+        const End nearest{result_, Source::unrounded, Rounding::nearest};
+        family.members.push_back({.order = order, .front = front, .back = back, .result = nearest, .slack = slack});
+        if (!has_codes(result_) || has_codes(front.storage)) return;
+        family.members.push_back(family.members.back());
+        family.members.back().result.rounding = Rounding::cut;
+    }
+
+    Storage result_;
+    std::vector<double> slacks_;
+    Looseness looseness_;
+    Families made_{};
+};
+
+}  // namespace
+
+Families families(Storage result, const std::vector<double>& slacks, Looseness looseness) {
+    constexpr Storage storages[] = {Storage::unorm8, Storage::single, Storage::half, Storage::unorm10};
+    FamilyMaker maker{result, slacks, looseness};
+    for (const Storage storage : storages) {
+        for (const Order order : {Order::over, Order::over_apart, Order::under}) maker.add(order, ends(storage));
+        // The opaque scene may be kept in 8 bits beside other accumulators.
+        if (storage != Storage::unorm8)
+            maker.add(Order::under, ends(storage), {{Storage::unorm8, Source::stored, Rounding::nearest}});
+    }
+    for (const Order order : {Order::both_ends, Order::both_ends_far, Order::both_ends_apart})
+        for (const Storage front : storages)
+            for (const Storage back : storages) maker.add(order, ends_of_pairs(front), ends_of_pairs(back));
+    return std::move(maker).made();
+}
+
+std::vector<Hypothesis> widest(const Families& all) {
+    std::vector<Hypothesis> one_an_order;
+    for (const HypothesisFamily& family : all) {
+        const auto is_there = std::ranges::find(one_an_order, family.widest.order, &Hypothesis::order);
+        if (is_there != one_an_order.end()) continue;
+        // No storage keeps less than 8 bits.
+        Hypothesis wide = family.widest;
+        wide.front = wide.back = anyhow;
+        one_an_order.push_back(wide);
+    }
+    return one_an_order;
 }
 
 }  // namespace strata::oracle::verdict

@@ -71,13 +71,21 @@ struct Hypothesis {
     friend bool operator==(const Hypothesis&, const Hypothesis&) = default;
 };
 
-// "8-bit accumulators, front to back, rounded to nearest": for a sentence.
+// "accumulators 8-bit rounded to nearest, front to back": for a sentence.
 [[nodiscard]] std::string describe(const Hypothesis& hypothesis);
 
-// All that are tried for a picture of this storage, `slack` 0. Those of one order come together, the widest one of them last: it holds what any of
-// the others does.
-[[nodiscard]] std::vector<Hypothesis> hypotheses(Storage result);
-// The last of each order.
-[[nodiscard]] std::vector<Hypothesis> widest(const std::vector<Hypothesis>& all);
+// Those of one order and one pair of storages; the widest one holds what any of the others does.
+struct HypothesisFamily {
+    Hypothesis widest{};
+    std::vector<Hypothesis> members{};
+};
+using Families = std::vector<HypothesisFamily>;
+
+// All that are tried for a picture of this storage, once with each slack, in increasing order. Definite ones have one rounding and one format an end, as a
+// device or a program may; loose ones may round anyhow beside that.
+enum class Looseness : std::uint8_t { definite, loose };
+[[nodiscard]] Families families(Storage result, const std::vector<double>& slacks, Looseness looseness);
+// One of each order, which holds what any other one of the families does.
+[[nodiscard]] std::vector<Hypothesis> widest(const Families& all);
 
 }  // namespace strata::oracle::verdict

@@ -1,7 +1,9 @@
 #include "tools/oracle/verdict/match.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include "tools/oracle/verdict/pricing.h"
@@ -15,34 +17,38 @@ bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept {
     return true;
 }
 
-TieMask ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                       const std::array<double, 4>& value, StackMaker& maker) {
-    const bool has_hidden_ties = !rules.empty() && has_ties(list.hidden);
-    if (!has_ties(list.visible) && !has_hidden_ties)
-        return holds(compositor.reach(maker.with(rules, list, {})), value) ? all_ties : 0;
-    TieMask mask = 0;
-    for (std::size_t n = 0; n < ties_count; ++n)
-        if (holds(compositor.reach(maker.with(rules, list, ties_number(n))), value)) mask |= 1u << n;
-    return mask;
-}
-
 namespace {
 
-std::size_t first_of(TieMask mask) noexcept {
-    std::size_t n = 0;
-    while (n + 1 < ties_count && (mask >> n & 1) == 0) ++n;
-    return n;
+bool may_have_ties(std::span<const Rule> rules, const PixelList& list) noexcept {
+    return has_ties(list.visible) || (!rules.empty() && has_ties(list.hidden));
 }
 
 }  // namespace
 
+TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
+                         const std::array<double, 4>& value, StackMaker& maker) {
+    const auto is_held = [&](const Ties& ties) {
+        return holds(compositor.reach(maker.with(rules, list, ties)), value);
+    };
+    if (!may_have_ties(rules, list)) return {is_held({}) ? all_ties : 0};
+    TiesFound found;
+    for (std::size_t n = ties_count; n-- > 0;)
+        if (is_held(ties_number(n))) found = {found.mask | 1u << n, ties_number(n)};
+    for (std::uint32_t p = 0; p < permutations && found.mask == 0; ++p)
+        if (const Ties other{TieRule::other, DepthKey::code, p}; is_held(other)) found = {1u << ties_count, other};
+    return found;
+}
+
 StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker) {
     StackedPixel made{.value = pixel.value};
-    const bool has_some = has_ties(pixel.list.visible) || (!rules.empty() && has_ties(pixel.list.hidden));
-    for (std::size_t n = 0; n < (has_some ? ties_count : 1); ++n) {
-        const Stack& stack = maker.with(rules, pixel.list, ties_number(n));
+    const auto add = [&](const Ties& ties) {
+        const Stack& stack = maker.with(rules, pixel.list, ties);
         if (std::ranges::find(made.stacks, stack) == made.stacks.end()) made.stacks.push_back(stack);
-    }
+    };
+    add({});
+    if (!may_have_ties(rules, pixel.list)) return made;
+    for (std::size_t n = 0; n < ties_count; ++n) add(ties_number(n));
+    for (std::uint32_t p = 0; p < permutations; ++p) add({TieRule::other, DepthKey::code, p});
     return made;
 }
 
@@ -56,26 +62,64 @@ namespace {
 
 // What a hypothesis costs of a sample.
 struct Cost {
-    std::uint64_t wrong = 0;
-    double bits = 0;
+    double wrong = 0, bits = 0;
     // Where no hypothesis holds, a wrong pixel weighs more: what makes it wrong is a mistake, which has a reason of its own.
-    [[nodiscard]] double total(const Pricing& pricing) const noexcept {
-        return bits + 4 * static_cast<double>(wrong) * pricing.of_wrong();
-    }
+    [[nodiscard]] double total(const Pricing& pricing) const noexcept { return bits + 4 * wrong * pricing.of_wrong(); }
 };
+
+// A pixel of a sample, which stands for all that have the same structures and the same value.
+struct WeightedPixel {
+    StackedPixel pixel{};
+    double weight = 1;
+};
+
+// All that makes a pixel what it is, as bytes.
+std::string key_of(const StackedPixel& pixel) {
+    std::string key;
+    const auto add = [&](const auto& value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    for (const double v : pixel.value) add(v);
+    for (const Stack& stack : pixel.stacks) {
+        for (const Layer& layer : stack.layers) {
+            for (std::size_t c = 0; c < 4; ++c) add(layer.color[c]);
+            add(layer.is_premultiplied);
+            add(layer.slack);
+        }
+        for (std::size_t c = 0; c < 4; ++c) add(stack.background[c]);
+        add(stack.near);
+        add(stack.near_without_middle);
+        add(stack.is_linear);
+    }
+    return key;
+}
+
+std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& sample) {
+    StackMaker maker{sample.setting()};
+    std::map<std::string, std::size_t> number_of;
+    std::vector<WeightedPixel> pixels;
+    for (const SampledPixel& pixel : sample.pixels()) {
+        StackedPixel made = stacked(rules, pixel, maker);
+        const auto [found, is_new] = number_of.emplace(key_of(made), pixels.size());
+        if (is_new)
+            pixels.push_back({std::move(made), 1});
+        else
+            pixels[found->second].weight += 1;
+    }
+    return pixels;
+}
 
 // The sample is looked at no further once the cost is more than `most_bits`, or a pixel is wrong where none may be: that one
 // comes first from then on, for it may well tell against the next hypothesis, too.
-Cost cost_of(const Hypothesis& hypothesis, std::vector<const StackedPixel*>& pixels, Wrong allowed, double most_bits) {
+Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most_bits) {
     const Compositor compositor{hypothesis};
     const Pricing pricing{hypothesis.result.storage};
     Cost cost{.bits = bits_of(hypothesis)};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const Stack* const stack = reaching(compositor, *pixels[i]);
+        const auto& [pixel, weight] = *pixels[i];
+        const Stack* const stack = reaching(compositor, pixel);
         if (stack != nullptr)
-            cost.bits += pricing.of(compositor.reach(*stack));
+            cost.bits += weight * pricing.of(compositor.reach(*stack));
         else
-            ++cost.wrong;
+            cost.wrong += weight;
         if (cost.wrong > 0 && allowed == Wrong::none) {
             std::rotate(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(i),
                         pixels.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -86,23 +130,32 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const StackedPixel*>& pix
     return cost;
 }
 
+// What the members of a family cost at least: the pixels that their widest hypothesis does not reach.
+double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most) {
+    Cost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max());
+    if (allowed == Wrong::none && cost.wrong > 0) return most;
+    cost.bits = 0;
+    return cost.total(Pricing{family.widest.result.storage});
+}
+
 }  // namespace
 
-std::optional<Hypothesis> best_of(const std::vector<Hypothesis>& all, std::span<const Rule> rules, const Sample& sample,
+std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
                                   Wrong allowed) {
-    StackMaker maker{sample.cleared()};
-    std::vector<StackedPixel> made;
-    for (const SampledPixel& pixel : sample.pixels()) made.push_back(stacked(rules, pixel, maker));
-    std::vector<const StackedPixel*> pixels;
-    for (const StackedPixel& pixel : made) pixels.push_back(&pixel);
+    const std::vector<WeightedPixel> made = weighted(rules, sample);
+    std::vector<const WeightedPixel*> pixels;
+    for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
     double best = std::numeric_limits<double>::max();
     std::optional<Hypothesis> found;
-    for (const Hypothesis& h : all) {
-        const Cost cost = cost_of(h, pixels, allowed, best);
-        const double bits = cost.total(Pricing{h.result.storage});
-        if (bits >= best || (allowed == Wrong::none && cost.wrong > 0)) continue;
-        best = bits;
-        found = h;
+    for (const HypothesisFamily& family : all) {
+        if (least_of(family, pixels, allowed, best) >= best) continue;
+        for (const Hypothesis& h : family.members) {
+            const Cost cost = cost_of(h, pixels, allowed, best);
+            const double bits = cost.total(Pricing{h.result.storage});
+            if (bits >= best || (allowed == Wrong::none && cost.wrong > 0)) continue;
+            best = bits;
+            found = h;
+        }
     }
     return found;
 }
@@ -148,7 +201,7 @@ constexpr std::size_t most_examples = 64;  // of a tile's wrong pixels, which th
 struct PartChecked {
     Checked checked{};
     TieMask everywhere = all_ties;
-    Sample examples{};
+    Sample examples;
 };
 
 class Checker {
@@ -157,9 +210,8 @@ class Checker {
         : scene_{scene}, candidate_{candidate}, account_{account}, compositor_{account.hypothesis} {}
 
     [[nodiscard]] PartChecked part(const TileLists& tile) const {
-        StackMaker maker{scene_.cleared()};
-        PartChecked part;
-        part.examples = Sample{scene_.cleared()};
+        StackMaker maker{scene_.setting()};
+        PartChecked part{.examples = Sample{scene_.setting()}};
         for (std::size_t p = 0; p < tile.rect.area(); ++p) look_at(scene_.at(tile, p), maker, part);
         return part;
     }
@@ -170,7 +222,7 @@ class Checker {
         Checked& found = part.checked;
         ++found.pixels;
         found.covered += list.visible.empty() ? 0 : 1;
-        const TieMask mask = ties_that_hold(compositor_, account_.rules, list, value, maker);
+        const auto [mask, ties] = ties_that_hold(compositor_, account_.rules, list, value, maker);
         if (mask == 0) {
             found.wrong_pixels.push_back(static_cast<std::uint32_t>(list.y * scene_.width() + list.x));
             if (part.examples.pixels().size() < most_examples) part.examples.add(list, value);
@@ -178,7 +230,6 @@ class Checker {
         }
         found.tied += mask != all_ties ? 1 : 0;
         part.everywhere &= mask;
-        const Ties ties = ties_number(first_of(mask));
         const Stack& stack = maker.with(account_.rules, list, ties);
         const Reach reach = compositor_.reach(stack);
         found.bits += Pricing{account_.hypothesis.result.storage}.of(reach);
@@ -190,7 +241,7 @@ class Checker {
         own.near_without_middle = right.near_without_middle;
         if (own == right) return;
         ++found.changed;
-        found.undecided += ties_that_hold(compositor_, {}, list, value, maker) != 0 ? 1 : 0;
+        found.undecided += ties_that_hold(compositor_, {}, list, value, maker).mask != 0 ? 1 : 0;
     }
 
     const SceneFragments& scene_;
@@ -227,15 +278,16 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
     });
     std::ranges::sort(all.wrong_pixels);
     examples.sort();
-    all.has_one_tie_rule = everywhere != 0;
-    all.ties = ties_number(first_of(everywhere));
+    const TieMask rules = everywhere & (all_ties >> 1);
+    all.has_one_tie_rule = rules != 0;
+    if (rules != 0) all.ties = ties_number(static_cast<std::size_t>(std::countr_zero(rules)));
     return all;
 }
 
-std::optional<Checked> account_for(const std::vector<Hypothesis>& all, const std::vector<Rule>& rules,
-                                   const SceneFragments& scene, const Colors& candidate, Sample& sample) {
+std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
+                                   const Colors& candidate, Sample& sample) {
     while (const auto hypothesis = best_of(all, rules, sample, Wrong::none)) {
-        Sample examples{scene.cleared()};
+        Sample examples{scene.setting()};
         Checked found = check_all(scene, candidate, {rules, *hypothesis}, examples);
         if (found.is_whole()) return found;
         for (const SampledPixel& pixel : examples.pixels()) sample.add(pixel.list, pixel.value);

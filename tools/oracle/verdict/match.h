@@ -12,8 +12,12 @@ namespace strata::oracle::verdict {
 
 [[nodiscard]] bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept;
 
-using TieMask = std::uint32_t;  // bit n: ties_number(n) holds
-inline constexpr TieMask all_ties = (1u << ties_count) - 1;
+using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieRule::other does
+inline constexpr TieMask all_ties = (2u << ties_count) - 1;
+struct TiesFound {
+    TieMask mask = 0;
+    Ties ties{};  // the first that holds
+};
 
 // A structure and how it is rounded; no rules: the right structure.
 struct Account {
@@ -22,8 +26,8 @@ struct Account {
 };
 
 // Which rules for ties bring the pixel to the candidate's value; all, where it has no ties.
-[[nodiscard]] TieMask ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                                     const std::array<double, 4>& value, StackMaker& maker);
+[[nodiscard]] TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
+                                       const std::array<double, 4>& value, StackMaker& maker);
 
 // The structures that a pixel of a sample may have: one for each rule for ties that makes a difference there.
 struct StackedPixel {
@@ -36,8 +40,8 @@ struct StackedPixel {
 
 // The hypothesis that tells the sample in the fewest bits (pricing.h); of `none`, one that holds for all of it.
 enum class Wrong : std::uint8_t { some, none };
-[[nodiscard]] std::optional<Hypothesis> best_of(const std::vector<Hypothesis>& all, std::span<const Rule> rules,
-                                                const Sample& sample, Wrong allowed);
+[[nodiscard]] std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
+                                                Wrong allowed);
 
 // All pixels of a picture by one account.
 struct Checked {
@@ -59,7 +63,7 @@ struct Checked {
                                 Sample& examples);
 
 // The best account of the whole picture with these rules, if one holds for every pixel; pixels that speak against one are added to the sample.
-[[nodiscard]] std::optional<Checked> account_for(const std::vector<Hypothesis>& all, const std::vector<Rule>& rules,
+[[nodiscard]] std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules,
                                                  const SceneFragments& scene, const Colors& candidate, Sample& sample);
 
 }  // namespace strata::oracle::verdict

@@ -47,6 +47,10 @@ class Pricing {
     if (bits > 0 && h.front.storage != h.back.storage) bits += 8;
     if (h.order == Order::both_ends_far || h.order == Order::both_ends_apart || h.order == Order::over_apart) bits += 4;
     if (h.result.rounding != Rounding::nearest) bits += 4;
+    for (const End* end : {&h.front, &h.back}) {
+        if (end->storage == Storage::unorm10) bits += 8;  // few targets have 10 bits
+        if (end->rounding != Rounding::nearest) bits += 4;
+    }
     return bits + (h.slack > 0 ? 4 : 0);
 }
 

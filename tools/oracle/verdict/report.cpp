@@ -30,19 +30,13 @@ std::string ties_of(const Checked& c) {
                        c.has_one_tie_rule ? describe(c.ties) : "composited by no one rule");
 }
 
-std::string words(const std::vector<Rule>& rules, const Verdict& v, const pipeline::DrawList& list) {
-    std::string text;
-    for (const Rule& rule : rules) text += (text.empty() ? "" : "; ") + sentence(rule, v.facts, list);
-    return text;
-}
-
 std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     if (v.is_right)
         return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
     if (v.explanations.empty())
         return fmt::format("wrong: {} of {} are beyond what a right port reaches, and no one mistake explains them all",
                            v.right.wrong_pixels.size(), pixels(v.right.pixels));
-    if (v.explanations.size() == 1) return "wrong: " + words(v.explanations[0].account.rules, v, list);
+    if (v.explanations.size() == 1) return "wrong: " + sentence(v.explanations[0].account.rules, v.facts, list);
     return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
 }
 
@@ -57,7 +51,7 @@ std::string reach_of(const Checked& c, const Verdict& v) {
 std::string lead_of(const Lead& l, const Verdict& v, const pipeline::DrawList& list) {
     return fmt::format(
         "{} of {} wrong pixels that were looked at would come out so, and {} of {} right ones would not: {}",
-        l.explained, l.of, l.contradicted, l.right, sentence(l.rule, v.facts, list));
+        l.explained, l.of, l.contradicted, l.right, sentence(l.rules, v.facts, list));
 }
 
 }  // namespace
@@ -66,7 +60,7 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     std::string text = first_line(v, list) + '\n';
     const auto add = [&](const std::string& line) { text += "  " + line + '\n'; };
     for (const Checked& c : v.explanations) {
-        if (v.explanations.size() > 1) add(words(c.account.rules, v, list));
+        if (v.explanations.size() > 1) add(sentence(c.account.rules, v.facts, list));
         add((v.explanations.size() > 1 ? "  " : "") + reach_of(c, v));
     }
     const Checked& account = v.explanations.empty() ? v.right : v.explanations[0];
@@ -119,7 +113,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
                           {"leads", ordered_json::array()}};
     for (const Checked& c : v.explanations) document["explanations"].push_back(json_of(c, v, list));
     for (const Lead& l : v.leads)
-        document["leads"].push_back({{"mistake", json_of(l.rule, v, list)},
+        document["leads"].push_back({{"mistake", json_of(l.rules[0], v, list)},
                                      {"explained", l.explained},
                                      {"of", l.of},
                                      {"contradicted", l.contradicted},

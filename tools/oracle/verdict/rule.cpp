@@ -12,8 +12,12 @@ std::string_view name(RuleKind kind) noexcept {
         case RuleKind::farthest_lost: return "farthest_lost";
         case RuleKind::rest_averaged: return "rest_averaged";
         case RuleKind::rest_as_submitted: return "rest_as_submitted";
+        case RuleKind::ends_rest_as_submitted: return "ends_rest_as_submitted";
         case RuleKind::first_submitted: return "first_submitted";
         case RuleKind::last_submitted: return "last_submitted";
+        case RuleKind::odd_lost: return "odd_lost";
+        case RuleKind::even_lost: return "even_lost";
+        case RuleKind::ended_early: return "ended_early";
         case RuleKind::lost: return "lost";
         case RuleKind::lost_from_far: return "lost_from_far";
         case RuleKind::doubled: return "doubled";
@@ -29,27 +33,22 @@ std::string_view name(RuleKind kind) noexcept {
         case RuleKind::as_submitted: return "as_submitted";
         case RuleKind::as_submitted_reversed: return "as_submitted_reversed";
         case RuleKind::by_instance: return "by_instance";
-        case RuleKind::by_instance_reversed: return "by_instance_reversed";
-        case RuleKind::back_faces_behind: return "back_faces_behind";
-        case RuleKind::back_faces_behind_as_submitted: return "back_faces_behind_as_submitted";
+        case RuleKind::faces_apart: return "faces_apart";
         case RuleKind::averaged: return "averaged";
         case RuleKind::added: return "added";
         case RuleKind::weighted_sum: return "weighted_sum";
         case RuleKind::nearest_of_instance: return "nearest_of_instance";
-        case RuleKind::instance_lost: return "instance_lost";
-        case RuleKind::instance_doubled: return "instance_doubled";
-        case RuleKind::material_lost: return "material_lost";
-        case RuleKind::material_doubled: return "material_doubled";
-        case RuleKind::back_faces_lost: return "back_faces_lost";
-        case RuleKind::front_faces_lost: return "front_faces_lost";
+        case RuleKind::some_lost: return "some_lost";
+        case RuleKind::some_doubled: return "some_doubled";
         case RuleKind::alpha_below_lost: return "alpha_below_lost";
         case RuleKind::alpha_below_kept: return "alpha_below_kept";
-        case RuleKind::behind_submitted: return "behind_submitted";
-        case RuleKind::before_submitted: return "before_submitted";
+        case RuleKind::behind_drawn: return "behind_drawn";
+        case RuleKind::before_drawn: return "before_drawn";
         case RuleKind::close_lost: return "close_lost";
-        case RuleKind::within_lost: return "within_lost";
         case RuleKind::close_merged: return "close_merged";
         case RuleKind::close_swapped: return "close_swapped";
+        case RuleKind::within_lost: return "within_lost";
+        case RuleKind::within_merged: return "within_merged";
         case RuleKind::hidden_shown: return "hidden_shown";
         case RuleKind::at_opaque_shown: return "at_opaque_shown";
         case RuleKind::near_opaque_lost: return "near_opaque_lost";
@@ -62,8 +61,13 @@ std::string_view name(RuleKind kind) noexcept {
         case RuleKind::alpha_squared: return "alpha_squared";
         case RuleKind::alpha_inverted: return "alpha_inverted";
         case RuleKind::alpha_ignored: return "alpha_ignored";
+        case RuleKind::alpha_times: return "alpha_times";
         case RuleKind::premultiplied_twice: return "premultiplied_twice";
         case RuleKind::not_premultiplied: return "not_premultiplied";
+        case RuleKind::red_for_blue: return "red_for_blue";
+        case RuleKind::decoded: return "decoded";
+        case RuleKind::encoded: return "encoded";
+        case RuleKind::blended_linear: return "blended_linear";
     }
     return "";  // unreachable: the enum is closed
 }

@@ -20,8 +20,12 @@ enum class RuleKind : std::uint8_t {
     farthest_lost,      // all but the farthest n
     rest_averaged,      // the nearest n, behind them one layer: the average of the others, with their alpha together
     rest_as_submitted,  // the nearest n, behind them the others as they were submitted
-    first_submitted,    // the first n submitted, sorted
-    last_submitted,     // the last n submitted, sorted
+    ends_rest_as_submitted,  // the nearest n, the others as they were submitted, the farthest n
+    first_submitted,         // the first n submitted, sorted
+    last_submitted,          // the last n submitted, sorted
+    odd_lost,                // the second, the fourth ...
+    even_lost,               // the nearest, the third ...
+    ended_early,             // none behind those that let less than `value` through
     // One layer: n is its number
     lost,
     lost_from_far,
@@ -36,31 +40,26 @@ enum class RuleKind : std::uint8_t {
     // All layers
     all_doubled,
     reversed,
-    as_submitted,  // the last submitted in front
-    as_submitted_reversed,
-    by_instance,           // instances as submitted, the last in front; each one's layers sorted
-    by_instance_reversed,  // the first in front
-    back_faces_behind,     // front faces before back faces, each sorted
-    back_faces_behind_as_submitted,
-    averaged,      // one layer: the average weighted by alpha, alpha 1 - (1 - mean)^n
-    added,         // colours times alpha added to the background
-    weighted_sum,  // colours times alpha, and the background times 1 less all alphas
+    as_submitted,           // the last drawn in front; n: the drawing order (setting.h)
+    as_submitted_reversed,  // the first drawn in front
+    by_instance,            // the last instance in front, each one's layers sorted; n: the order of instances
+    faces_apart,            // back faces behind all front faces, each sorted
+    averaged,               // one layer, of a weighted average; n: which weights and which alpha (structure.cpp)
+    added,                  // colours times alpha added to the background
+    weighted_sum,           // colours times alpha, and the background times 1 less all alphas
     nearest_of_instance,
-    // Some layers, by what they are
-    instance_lost,  // n: its number in the draw list
-    instance_doubled,
-    material_lost,
-    material_doubled,
-    back_faces_lost,
-    front_faces_lost,
+    // Some layers, by what they are; `scope` says which, n its number
+    some_lost,
+    some_doubled,
     alpha_below_lost,  // with alpha below `value`
     alpha_below_kept,  // with alpha not below `value` lost
-    behind_submitted,  // behind one that was submitted before: blended surfaces write depth
-    before_submitted,  // before one that was submitted before
+    behind_drawn,      // behind one that was drawn before: blended surfaces write depth; n: the drawing order
+    before_drawn,      // before one that was drawn before
     close_lost,        // within n codes behind the one before it: lost
-    within_lost,       // within `value` of depth behind the one before it: lost
     close_merged,      // MAX
     close_swapped,
+    within_lost,  // the same within `value` of the depth range
+    within_merged,
     // The opaque surface and the background
     hidden_shown,      // those behind the opaque surface over it
     at_opaque_shown,   // those within n codes behind the opaque surface, and at it, too: LEQUAL for LESS
@@ -71,19 +70,29 @@ enum class RuleKind : std::uint8_t {
     background_lost,   // black behind all
     background_twice,  // added once more
     surface_lost,      // black behind all, in place of the opaque surface, too
-    // Colours
+    // Colours, of what `scope` says
     alpha_squared,
     alpha_inverted,
     alpha_ignored,  // 1
+    alpha_times,    // `value`
     premultiplied_twice,
-    not_premultiplied
+    not_premultiplied,
+    red_for_blue,
+    decoded,        // from sRGB to linear light
+    encoded,        // from linear light to sRGB
+    blended_linear  // decoded, blended, encoded
 };
-inline constexpr std::size_t rule_kind_count = static_cast<std::size_t>(RuleKind::not_premultiplied) + 1;
+inline constexpr std::size_t rule_kind_count = static_cast<std::size_t>(RuleKind::blended_linear) + 1;
+
+// Which layers a rule changes.
+enum class Scope : std::uint8_t { all, instance, material, back_faces, front_faces };
 
 struct Rule {
     RuleKind kind = RuleKind::right;
     std::uint32_t n = 0;
     float value = 0;
+    Scope scope = Scope::all;
+    std::uint32_t of = 0;  // the instance's or material's number
     friend bool operator==(const Rule&, const Rule&) = default;
 };
 

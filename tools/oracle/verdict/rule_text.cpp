@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "tools/oracle/verdict/search.h"
+#include "tools/oracle/verdict/rules.h"
 
 namespace strata::oracle::verdict {
 
@@ -25,9 +25,44 @@ std::string material_name(std::uint32_t n, const pipeline::DrawList& list) {
     return material.empty() ? fmt::format("material {}", n) : fmt::format("material {}", material);
 }
 
+std::string codes(std::uint32_t n) { return n == 1 ? "one code" : fmt::format("{} codes", n); }
+
+// "back faces", "what has material glass"; nothing for all layers.
+std::string some(const Rule& rule, const pipeline::DrawList& list) {
+    switch (rule.scope) {
+        case Scope::all: return "";
+        case Scope::instance: return instance_name(rule.of, list);
+        case Scope::material: return "what has " + material_name(rule.of, list);
+        case Scope::back_faces: return "back faces";
+        case Scope::front_faces: return "front faces";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+std::string_view weights(std::uint32_t n) {
+    switch (n) {
+        case 0: return "weighted by alpha, 1 - (1 - the mean alpha)^n for their alpha";
+        case 1: return "weighted by alpha";
+        case 2: return "weighted by alpha^2 (1 - z)^2";
+        case 3: return "weighted by alpha^2 (1 - z)^3";
+        default: return "weighted by alpha (1 - z)^3";
+    }
+}
+
 }  // namespace
 
+std::string sentence(const std::vector<Rule>& rules, const SceneFacts& facts, const pipeline::DrawList& list) {
+    std::string text;
+    for (const Rule& rule : rules) text += (text.empty() ? "" : "; and ") + sentence(rule, facts, list);
+    return text;
+}
+
 std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list) {
+    if (rule.scope != Scope::all && rule.kind != RuleKind::some_lost && rule.kind != RuleKind::some_doubled) {
+        Rule of_all = rule;
+        of_all.scope = Scope::all;
+        return fmt::format("of {} {}", some(rule, list), sentence(of_all, facts, list));
+    }
     const std::uint32_t n = rule.n;
     const auto of = [&] { return fmt::format("of up to {}", facts.most_layers); };
     switch (rule.kind) {
@@ -47,6 +82,15 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::rest_averaged: return fmt::format("behind the nearest {} the others are averaged", layers(n));
         case RuleKind::rest_as_submitted:
             return fmt::format("behind the nearest {} the others are composited in the order of submission", layers(n));
+        case RuleKind::ends_rest_as_submitted:
+            return fmt::format(
+                "between the nearest {0} and the farthest {0} the others are composited in the order of submission, as "
+                "{1} of a dual peel leave them",
+                layers(n), n == 1 ? "one pass" : fmt::format("{} passes", n));
+        case RuleKind::odd_lost: return "every second layer is missing: the second, the fourth ...";
+        case RuleKind::even_lost: return "every second layer is missing: the nearest, the third ...";
+        case RuleKind::ended_early:
+            return fmt::format("layers are missing behind those that let less than {:.3g} through", rule.value);
         case RuleKind::first_submitted:
             return fmt::format("only the first {} submitted are composited: a buffer is full", layers(n));
         case RuleKind::last_submitted: return fmt::format("only the last {} submitted are composited", layers(n));
@@ -68,51 +112,48 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
             return fmt::format("the {} layer has the colour of the one before it", ordinal(n, "nearest"));
         case RuleKind::all_doubled: return "every layer is composited twice";
         case RuleKind::reversed: return "layers are composited in the reverse order";
-        case RuleKind::as_submitted: return "layers are composited in the order of submission: nothing is sorted";
+        case RuleKind::as_submitted:
+            return fmt::format("layers are composited in the order of drawing ({}): nothing is sorted",
+                               describe(drawing_order(n)));
         case RuleKind::as_submitted_reversed: return "layers are composited in the reverse order of submission";
-        case RuleKind::by_instance: return "instances are composited as they are submitted, each one sorted by itself";
-        case RuleKind::by_instance_reversed:
-            return "instances are composited in the reverse order of submission, each one sorted by itself";
-        case RuleKind::back_faces_behind: return "all back faces are composited behind all front faces";
-        case RuleKind::back_faces_behind_as_submitted:
-            return "all back faces are composited behind all front faces, each in the order of submission";
-        case RuleKind::averaged: return "layers are averaged by their alpha: weighted average";
+        case RuleKind::by_instance:
+            return fmt::format("instances are composited one after the other ({}), each one sorted by itself",
+                               describe({static_cast<InstanceOrder>(n), FaceOrder::listed}));
+        case RuleKind::faces_apart: return "all back faces are composited behind all front faces";
+        case RuleKind::averaged: return fmt::format("layers are averaged, {}: nothing is sorted", weights(n));
         case RuleKind::added: return "layers are added to the background";
         case RuleKind::weighted_sum:
             return "layers are added up, and the background weighted by what all alphas leave: weighted sum";
         case RuleKind::nearest_of_instance: return "only the nearest layer of each instance is composited";
-        case RuleKind::instance_lost: return fmt::format("{} is missing", instance_name(n, list));
-        case RuleKind::instance_doubled: return fmt::format("{} is composited twice", instance_name(n, list));
-        case RuleKind::material_lost: return fmt::format("what has {} is missing", material_name(n, list));
-        case RuleKind::material_doubled: return fmt::format("what has {} is composited twice", material_name(n, list));
-        case RuleKind::back_faces_lost: return "back faces are missing: culled";
-        case RuleKind::front_faces_lost: return "front faces are missing: culled";
         case RuleKind::alpha_below_lost: return fmt::format("layers with alpha below {:.4g} are missing", rule.value);
         case RuleKind::alpha_below_kept:
             return fmt::format("layers with alpha of {:.4g} and more are missing", rule.value);
-        case RuleKind::behind_submitted:
-            return "a layer is missing where a nearer one was submitted before it: blended surfaces write depth";
-        case RuleKind::before_submitted: return "a layer is missing where a farther one was submitted before it";
+        case RuleKind::some_lost:
+            return fmt::format("{} {} missing", some(rule, list),
+                               rule.scope == Scope::back_faces || rule.scope == Scope::front_faces ? "are" : "is");
+        case RuleKind::some_doubled:
+            return fmt::format("{} {} composited twice", some(rule, list),
+                               rule.scope == Scope::back_faces || rule.scope == Scope::front_faces ? "are" : "is");
+        case RuleKind::behind_drawn:
+            return fmt::format(
+                "a layer is missing where a nearer one was drawn before it ({}): blended surfaces write depth",
+                describe(drawing_order(n)));
+        case RuleKind::before_drawn: return "a layer is missing where a farther one was drawn before it";
         case RuleKind::close_lost:
-            return fmt::format("of layers within {} of depth the farther one is missing",
-                               n == 1 ? "one code" : fmt::format("{} codes", n));
+            return fmt::format("of layers within {} of depth the farther one is missing", codes(n));
         case RuleKind::within_lost:
             return fmt::format("of layers within {:.0e} of the depth range the farther one is missing: an epsilon",
                                rule.value);
-        case RuleKind::close_merged:
-            return fmt::format("layers within {} of depth are merged by MAX",
-                               n == 1 ? "one code" : fmt::format("{} codes", n));
-        case RuleKind::close_swapped:
-            return fmt::format("layers within {} of depth are exchanged",
-                               n == 1 ? "one code" : fmt::format("{} codes", n));
+        case RuleKind::within_merged:
+            return fmt::format("layers within {:.0e} of the depth range are merged by MAX: an epsilon", rule.value);
+        case RuleKind::close_merged: return fmt::format("layers within {} of depth are merged by MAX", codes(n));
+        case RuleKind::close_swapped: return fmt::format("layers within {} of depth are exchanged", codes(n));
         case RuleKind::hidden_shown: return "layers behind opaque surfaces are composited: they are not hidden";
         case RuleKind::at_opaque_shown:
             return n == 0 ? "layers at the depth of an opaque surface are composited: LEQUAL for LESS"
-                          : fmt::format("layers within {} behind an opaque surface are composited",
-                                        n == 1 ? "one code" : fmt::format("{} codes", n));
+                          : fmt::format("layers within {} behind an opaque surface are composited", codes(n));
         case RuleKind::near_opaque_lost:
-            return fmt::format("layers within {} before an opaque surface are missing",
-                               n == 1 ? "one code" : fmt::format("{} codes", n));
+            return fmt::format("layers within {} before an opaque surface are missing", codes(n));
         case RuleKind::opaque_lost: return "opaque surfaces are missing behind the layers";
         case RuleKind::opaque_ignored: return "opaque surfaces are missing, and layers behind them are composited";
         case RuleKind::opaque_in_front: return "opaque surfaces cover the layers before them";
@@ -122,8 +163,14 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::alpha_squared: return "alpha is multiplied by itself";
         case RuleKind::alpha_inverted: return "1 - alpha is taken for alpha";
         case RuleKind::alpha_ignored: return "alpha is taken for 1: nothing is blended";
+        case RuleKind::alpha_times: return fmt::format("alpha is multiplied by {:.3g}", rule.value);
         case RuleKind::premultiplied_twice: return "colours are multiplied by alpha twice";
         case RuleKind::not_premultiplied: return "colours are not multiplied by alpha";
+        case RuleKind::red_for_blue: return "red and blue are exchanged in the layers";
+        case RuleKind::decoded: return "colours are decoded from sRGB before they are blended";
+        case RuleKind::encoded: return "colours are encoded to sRGB before they are blended";
+        case RuleKind::blended_linear:
+            return "colours are decoded from sRGB, blended in linear light and encoded again";
     }
     return "";  // unreachable: the enum is closed
 }

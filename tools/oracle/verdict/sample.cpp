@@ -17,7 +17,7 @@ std::array<double, 4> Colors::at(int x, int y) const noexcept {
     return value;
 }
 
-Sample::Sample(const Sample& other) : cleared_{other.cleared_} {
+Sample::Sample(const Sample& other) : setting_{other.setting_} {
     for (const SampledPixel& pixel : other.pixels_) add(pixel.list, pixel.value);
 }
 
@@ -52,7 +52,7 @@ Sample sampled(const SceneFragments& scene, const Colors& candidate, std::size_t
     // A pixel's chance grows with its fragments; one without any has that of a quarter of a fragment.
     const double pixels = static_cast<double>(scene.width()) * scene.height();
     const double chance = static_cast<double>(most) / (static_cast<double>(scene.count()) + 0.25 * pixels);
-    Sample sample{scene.cleared()};
+    Sample sample{scene.setting()};
     std::mutex mutex;
     scene.for_each_tile([&](const TileLists& tile) {
         for (std::size_t p = 0; p < tile.rect.area(); ++p) {

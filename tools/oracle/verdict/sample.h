@@ -34,7 +34,7 @@ struct SampledPixel {
 
 class Sample {
   public:
-    explicit Sample(const Rgba& cleared = {}) : cleared_{cleared} {}
+    explicit Sample(const Setting& setting) : setting_{&setting} {}
     Sample(const Sample& other);  // lists of the copy are its own
     Sample(Sample&&) noexcept = default;
     Sample& operator=(Sample&&) noexcept = default;
@@ -43,10 +43,10 @@ class Sample {
     [[nodiscard]] const std::deque<SampledPixel>& pixels() const noexcept { return pixels_; }
     // In rows from the top: threads add them in no order.
     void sort();
-    [[nodiscard]] const Rgba& cleared() const noexcept { return cleared_; }
+    [[nodiscard]] const Setting& setting() const noexcept { return *setting_; }
 
   private:
-    Rgba cleared_;  // where nothing is drawn
+    const Setting* setting_;  // the scene's, which outlives the sample
     std::deque<SampledPixel> pixels_{};
 };
 

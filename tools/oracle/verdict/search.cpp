@@ -1,7 +1,6 @@
 #include "tools/oracle/verdict/search.h"
 
 #include <algorithm>
-#include <set>
 
 #include "rasterizer/base/parallel.h"
 #include "tools/oracle/verdict/pricing.h"
@@ -10,135 +9,83 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-constexpr std::size_t most_of_a_kind = 64;  // instances, materials, alphas: beyond that no rule is made for each
-
-template <class T>
-std::vector<T> few(const std::set<T>& all) {
-    if (all.size() > most_of_a_kind) return {};
-    return {all.begin(), all.end()};
-}
-
-}  // namespace
-
-SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
-    SceneFacts facts{.most_layers = scene.most_visible()};
-    std::set<std::uint32_t> instances, materials;
-    std::set<float> alphas;
-    std::set<bool> facings;
-    for (const SampledPixel& pixel : sample.pixels()) {
-        facts.has_opaque |= pixel.list.has_opaque;
-        facts.has_hidden |= !pixel.list.hidden.empty();
-        for (const Fragment& f : pixel.fragments) {
-            instances.insert(f.instance);
-            materials.insert(f.material);
-            facings.insert(f.is_front_facing);
-            if (alphas.size() <= most_of_a_kind) alphas.insert(f.color[3]);
-        }
-    }
-    facts.has_two_facings = facings.size() == 2;
-    facts.instances = few(instances);
-    facts.materials = few(materials);
-    facts.alphas = few(alphas);
-    return facts;
-}
-
-std::vector<Rule> rules_for(const SceneFacts& facts) {
-    using enum RuleKind;
-    std::vector<Rule> all;
-    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 64));
-    const auto numbered = [&](std::initializer_list<RuleKind> kinds, std::uint32_t first, std::uint32_t last) {
-        for (const RuleKind kind : kinds)
-            for (std::uint32_t n = first; n < last; ++n) all.push_back({.kind = kind, .n = n});
-    };
-    numbered({nearest_alone}, 0, most);
-    numbered({ends_alone}, 1, (most + 1) / 2);
-    numbered({farthest_alone, nearest_lost, farthest_lost, rest_averaged, rest_as_submitted, first_submitted,
-              last_submitted},
-             1, most);
-    for (const RuleKind kind :
-         {reversed, as_submitted, as_submitted_reversed, behind_submitted, before_submitted, averaged, added,
-          weighted_sum, alpha_squared, alpha_inverted, alpha_ignored, premultiplied_twice, not_premultiplied,
-          all_doubled, background_lost, background_twice, surface_lost})
-        all.push_back({kind});
-    if (facts.has_two_facings)
-        for (const RuleKind kind :
-             {back_faces_lost, front_faces_lost, back_faces_behind, back_faces_behind_as_submitted})
-            all.push_back({kind});
-    if (facts.has_hidden) all.push_back({hidden_shown});
-    if (facts.has_opaque)
-        for (const RuleKind kind : {opaque_lost, opaque_ignored, opaque_in_front}) all.push_back({kind});
-    if (facts.instances.size() > 1) {
-        for (const RuleKind kind : {by_instance, by_instance_reversed, nearest_of_instance}) all.push_back({kind});
-        for (const std::uint32_t i : facts.instances)
-            for (const RuleKind kind : {instance_lost, instance_doubled}) all.push_back({.kind = kind, .n = i});
-    }
-    if (facts.materials.size() > 1)
-        for (const std::uint32_t m : facts.materials)
-            for (const RuleKind kind : {material_lost, material_doubled}) all.push_back({.kind = kind, .n = m});
-    for (std::size_t i = 1; i < facts.alphas.size(); ++i)
-        for (const RuleKind kind : {alpha_below_lost, alpha_below_kept})
-            all.push_back({.kind = kind, .value = facts.alphas[i]});
-    for (const std::uint32_t codes : {0u, 1u, 2u, 3u, 4u, 8u, 16u, 32u, 64u, 256u, 1024u, 4096u})
-        for (const RuleKind kind : {close_lost, close_merged, close_swapped, at_opaque_shown, near_opaque_lost}) {
-            const bool is_of_opaque = kind == at_opaque_shown || kind == near_opaque_lost;
-            if (is_of_opaque ? facts.has_opaque : codes > 0) all.push_back({.kind = kind, .n = codes});
-        }
-    for (float power = 1e-8f; power < 0.05f; power *= 10)
-        for (const float times : {1.0f, 2.0f, 5.0f}) all.push_back({.kind = within_lost, .value = power * times});
-    numbered({lost, lost_from_far, doubled, doubled_from_far}, 0, most);
-    if (most > 1) numbered({swapped, swapped_from_far, merged, mixed, color_of_next, color_of_previous}, 0, most - 1);
-    return all;
-}
-
-namespace {
+struct PartedPixel {
+    const SampledPixel* sampled = nullptr;
+    StackedPixel right{};  // by the right structure
+};
 
 // The sample's pixels apart: those that the closest account of the right structure calls wrong, and the others.
 struct Parted {
-    std::vector<const SampledPixel*> wrong{}, right{};
+    std::vector<PartedPixel> wrong{}, right{};
 };
 
 Parted parted(const Sample& sample, const Hypothesis& closest) {
     const Compositor compositor{closest};
-    StackMaker maker{sample.cleared()};
+    StackMaker maker{sample.setting()};
     Parted parts;
-    for (const SampledPixel& pixel : sample.pixels())
-        (reaching(compositor, stacked({}, pixel, maker)) == nullptr ? parts.wrong : parts.right).push_back(&pixel);
+    for (const SampledPixel& pixel : sample.pixels()) {
+        PartedPixel made{&pixel, stacked({}, pixel, maker)};
+        (reaching(compositor, made.right) == nullptr ? parts.wrong : parts.right).push_back(std::move(made));
+    }
     return parts;
 }
 
-// Whether one of the hypotheses holds for all pixels under a rule.
-bool survives(const Rule& rule, const Parted& parts, const std::vector<Compositor>& wide, const Rgba& cleared) {
-    StackMaker maker{cleared};
+using Rules = std::vector<Rule>;
+
+// Whether a pixel's structures are the right ones; the division of a peel from both ends aside.
+bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
+    return std::ranges::equal(made.stacks, pixel.right.stacks, [](const Stack& a, const Stack& b) {
+        return a.layers == b.layers && a.background == b.background && a.is_linear == b.is_linear;
+    });
+}
+
+// Whether one of the hypotheses holds for all pixels under the rules. Right pixels that the rules leave alone are right under them, too.
+bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, const Setting& setting) {
+    StackMaker maker{setting};
     std::vector<const Compositor*> left;
     for (const Compositor& compositor : wide) left.push_back(&compositor);
     for (const auto* pixels : {&parts.wrong, &parts.right})
-        for (const SampledPixel* pixel : *pixels) {
-            const StackedPixel made = stacked({&rule, 1}, *pixel, maker);
+        for (const PartedPixel& pixel : *pixels) {
+            const StackedPixel made = stacked(rules, *pixel.sampled, maker);
+            if (pixels == &parts.right && is_unchanged(made, pixel)) continue;
             std::erase_if(left, [&](const Compositor* c) { return reaching(*c, made) == nullptr; });
             if (left.empty()) return false;
         }
     return true;
 }
 
-std::vector<Rule> survivors(const std::vector<Rule>& rules, const Parted& parts, const std::vector<Hypothesis>& wide,
-                            const Rgba& cleared) {
+std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts, const std::vector<Hypothesis>& wide,
+                             const Setting& setting) {
     const std::vector<Compositor> compositors(wide.begin(), wide.end());
-    std::vector<std::uint8_t> lives(rules.size());
-    parallel_for(rules.size(), 0,
-                 [&](std::size_t i) { lives[i] = survives(rules[i], parts, compositors, cleared) ? 1 : 0; });
-    std::vector<Rule> left;
-    for (std::size_t i = 0; i < rules.size(); ++i)
-        if (lives[i] != 0) left.push_back(rules[i]);
+    std::vector<std::uint8_t> lives(all.size());
+    parallel_for(all.size(), 0,
+                 [&](std::size_t i) { lives[i] = survives(all[i], parts, compositors, setting) ? 1 : 0; });
+    std::vector<Rules> left;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (lives[i] != 0) left.push_back(all[i]);
     return left;
 }
 
-// How many of the pixels a rule does not reach.
-std::size_t missed(const std::vector<const SampledPixel*>& pixels, const Rule& rule, const Compositor& compositor,
-                   const Rgba& cleared) {
-    StackMaker maker{cleared};
-    return static_cast<std::size_t>(std::ranges::count_if(pixels, [&](const SampledPixel* pixel) {
-        return reaching(compositor, stacked({&rule, 1}, *pixel, maker)) == nullptr;
-    }));
+// Two of them, of different kinds, in the order in which they are applied. A rule is worth a partner if it explains some wrong pixel or leaves
+// one so that another one may: that is, if it changes one.
+std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts, const Setting& setting) {
+    StackMaker maker{setting};
+    constexpr std::size_t most_looked_at = 64;
+    std::vector<Rule> worth;
+    for (const Rule& rule : rules) {
+        const auto changes = [&](const PartedPixel& pixel) {
+            return !is_unchanged(stacked({&rule, 1}, *pixel.sampled, maker), pixel);
+        };
+        const auto some = std::span{parts.wrong}.first(std::min(parts.wrong.size(), most_looked_at));
+        if (std::ranges::any_of(some, changes)) worth.push_back(rule);
+    }
+    std::vector<Rules> pairs;
+    for (const Rule& a : worth)
+        for (const Rule& b : worth) {
+            const int first = stage_of(a.kind), second = stage_of(b.kind);
+            if (a.kind != b.kind && (first < second || (first == second && a.kind < b.kind))) pairs.push_back({a, b});
+        }
+    return pairs;
 }
 
 double bits_of(const Checked& checked) {
@@ -147,53 +94,88 @@ double bits_of(const Checked& checked) {
            static_cast<double>(checked.wrong_pixels.size()) * pricing.of_wrong();
 }
 
-std::vector<Lead> leads_of(const std::vector<Rule>& rules, const Parted& parts, const Hypothesis& hypothesis,
-                           const Rgba& cleared) {
+// Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells enough.
+std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
+                           const Families& definite, const Sample& sample) {
+    constexpr std::size_t most_told = 12;
+    const auto is_alike = [](const Rules& a, const Rules& b) {
+        return std::ranges::equal(a, b,
+                                  [](const Rule& x, const Rule& y) { return x.kind == y.kind && x.scope == y.scope; });
+    };
+    std::vector<Checked> found;
+    for (const Rules& rules : all) {
+        if (found.size() == most_told) break;
+        if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
+        Sample own = sample;
+        auto one = account_for(definite, rules, scene, candidate, own);
+        // A rule that changes nothing that tells is no explanation.
+        if (one && one->changed > one->undecided) found.push_back(*std::move(one));
+    }
+    return found;
+}
+
+// What leaves much more open than the best one has only room for the picture.
+void drop_roomy(std::vector<Checked>& found, const Checked& closest) {
+    std::ranges::stable_sort(found, {}, [](const Checked& c) { return bits_of(c); });
+    if (found.empty()) return;
+    const double most = std::min(1.05 * bits_of(found[0]) + 64, bits_of(closest));
+    std::erase_if(found, [&](const Checked& c) { return bits_of(c) > most; });
+}
+
+// How many of the pixels the rules do not reach; `unchanged`: of those that they leave alone.
+enum class Unchanged : std::uint8_t { missed, reached };
+std::size_t missed(const std::vector<PartedPixel>& pixels, const Rules& rules, const Compositor& compositor,
+                   const Setting& setting, Unchanged unchanged) {
+    StackMaker maker{setting};
+    return static_cast<std::size_t>(std::ranges::count_if(pixels, [&](const PartedPixel& pixel) {
+        const StackedPixel made = stacked(rules, *pixel.sampled, maker);
+        if (is_unchanged(made, pixel)) return unchanged == Unchanged::missed;
+        return reaching(compositor, made) == nullptr;
+    }));
+}
+
+std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
+                           const Setting& setting) {
     constexpr std::size_t most_leads = 5;
     const Compositor compositor{hypothesis};
-    std::vector<Lead> all(rules.size());
-    parallel_for(rules.size(), 0, [&](std::size_t i) {
-        Lead& lead = all[i];
-        lead = {.rule = rules[i], .of = parts.wrong.size(), .right = parts.right.size()};
-        lead.explained = lead.of - missed(parts.wrong, rules[i], compositor, cleared);
-        lead.contradicted = missed(parts.right, rules[i], compositor, cleared);
+    std::vector<Lead> leads(all.size());
+    parallel_for(all.size(), 0, [&](std::size_t i) {
+        Lead& lead = leads[i];
+        lead = {.rules = all[i], .of = parts.wrong.size(), .right = parts.right.size()};
+        lead.explained = lead.of - missed(parts.wrong, all[i], compositor, setting, Unchanged::missed);
+        lead.contradicted = missed(parts.right, all[i], compositor, setting, Unchanged::reached);
     });
-    std::erase_if(all, [](const Lead& l) { return l.explained == 0 || l.contradicted >= l.explained; });
-    std::ranges::stable_sort(all, std::ranges::greater{}, [](const Lead& l) { return l.explained - l.contradicted; });
-    all.resize(std::min(all.size(), most_leads));
-    return all;
+    std::erase_if(leads, [](const Lead& l) { return l.explained == 0 || l.contradicted >= l.explained; });
+    std::ranges::stable_sort(leads, std::ranges::greater{}, [](const Lead& l) { return l.explained - l.contradicted; });
+    std::vector<Lead> best;
+    for (const Lead& lead : leads) {
+        const bool is_there = std::ranges::any_of(best, [&](const Lead& b) {
+            return b.rules[0].kind == lead.rules[0].kind && b.rules[0].scope == lead.rules[0].scope;
+        });
+        if (!is_there && best.size() < most_leads) best.push_back(lead);
+    }
+    return best;
 }
 
 }  // namespace
 
-Findings search(const SceneFragments& scene, const Colors& candidate, const std::vector<Hypothesis>& definite,
-                const Checked& closest, const Sample& sample) {
+Findings search(const SceneFragments& scene, const Colors& candidate, const Families& definite, const Checked& closest,
+                const Sample& sample) {
     Findings findings;
-    const SceneFacts facts = facts_of(scene, sample);
-    const std::vector<Rule> rules = rules_for(facts);
-    findings.tried = rules.size();
+    const std::vector<Rule> rules = rules_for(facts_of(scene, sample));
+    std::vector<Rules> singles;
+    for (const Rule& rule : rules) singles.push_back({rule});
     const Parted parts = parted(sample, closest.account.hypothesis);
-    std::vector<Hypothesis> wide = widest(hypotheses(storage_of(candidate.code())));
-    for (Hypothesis& h : wide)
-        for (const Hypothesis& d : definite) h.slack = std::max(h.slack, d.slack);
-    for (const Rule& rule : survivors(rules, parts, wide, scene.cleared())) {
-        // Of one kind with other numbers the first tells enough.
-        if (std::ranges::any_of(findings.explanations,
-                                [&](const Checked& c) { return c.account.rules[0].kind == rule.kind; }))
-            continue;
-        Sample own = sample;
-        if (auto found = account_for(definite, {rule}, scene, candidate, own))
-            findings.explanations.push_back(*std::move(found));
-    }
-    std::ranges::stable_sort(findings.explanations, {}, [](const Checked& c) { return bits_of(c); });
-    // What leaves much more open has only room for the picture.
-    if (!findings.explanations.empty()) {
-        const double most = 1.05 * bits_of(findings.explanations[0]) + 64;
-        std::erase_if(findings.explanations, [&](const Checked& c) { return bits_of(c) > most; });
-        std::erase_if(findings.explanations, [&](const Checked& c) { return bits_of(c) >= bits_of(closest); });
-    }
+    const std::vector<Hypothesis> wide = widest(definite);
+    const auto try_all = [&](const std::vector<Rules>& all) {
+        findings.tried += all.size();
+        findings.explanations = whole(survivors(all, parts, wide, scene.setting()), scene, candidate, definite, sample);
+        drop_roomy(findings.explanations, closest);
+    };
+    try_all(singles);
+    if (findings.explanations.empty()) try_all(pairs_of(rules, parts, scene.setting()));
     if (findings.explanations.empty())
-        findings.leads = leads_of(rules, parts, closest.account.hypothesis, scene.cleared());
+        findings.leads = leads_of(singles, parts, closest.account.hypothesis, scene.setting());
     return findings;
 }
 

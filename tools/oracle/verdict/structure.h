@@ -11,16 +11,19 @@
 #include "tools/oracle/verdict/composite.h"
 #include "tools/oracle/verdict/fragments.h"
 #include "tools/oracle/verdict/rule.h"
+#include "tools/oracle/verdict/setting.h"
 
 namespace strata::oracle::verdict {
 
 enum class TieRule : std::uint8_t {
-    first,           // all, the first submitted in front
-    last,            // all, the last submitted in front
-    unique,          // the first submitted alone
-    unique_last,     // the last submitted alone
-    merged,          // one layer, MAX of each channel: premultiplied in the near half, straight in the far half
-    first_then_last  // `first` in the near half of the depths, `last` in the far half
+    first,                 // all, the first submitted in front
+    last,                  // all, the last submitted in front
+    unique,                // the first submitted alone
+    unique_last,           // the last submitted alone
+    merged,                // one layer, MAX of each channel: premultiplied in the near half, straight in the far half
+    merged_premultiplied,  // the same, premultiplied in both halves
+    first_then_last,       // `first` in the near half of the depths, `last` in the far half
+    other                  // all, in another order: `permutation` of each depth's fragments
 };
 enum class DepthKey : std::uint8_t {
     code,
@@ -30,9 +33,11 @@ enum class DepthKey : std::uint8_t {
 struct Ties {
     TieRule rule = TieRule::first;
     DepthKey key = DepthKey::code;
+    std::uint32_t permutation = 0;  // of `other`, below permutations; groups of more than four keep their order
     friend bool operator==(const Ties&, const Ties&) = default;
 };
-inline constexpr std::size_t ties_count = 12;
+inline constexpr std::size_t tie_rule_count = 7, ties_count = 2 * tie_rule_count;  // `other` is none of them
+inline constexpr std::uint32_t permutations = 24;
 // All, in the order of the enums: number n has bit n in a mask of them.
 [[nodiscard]] Ties ties_number(std::size_t number) noexcept;
 [[nodiscard]] std::string_view describe(const Ties& ties) noexcept;
@@ -42,8 +47,7 @@ inline constexpr std::size_t ties_count = 12;
 
 class StackMaker {
   public:
-    // Without geometry.
-    explicit StackMaker(const Rgba& cleared) : cleared_{cleared} {}
+    explicit StackMaker(const Setting& setting) : setting_{&setting} {}
     // The references hold until the next call.
     [[nodiscard]] const Stack& right(const PixelList& pixel, const Ties& ties) { return with({}, pixel, ties); }
     // Rules are applied one after the other.
@@ -57,23 +61,32 @@ class StackMaker {
     };
 
     void list(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties);
+    void add_group(std::span<const Fragment* const> group, const Ties& ties, bool is_near, std::size_t depth);
+    void finish(std::span<const Rule> rules);
+    // Parts of a rule, each of which does something for some kinds: layer_rules.cpp, color_rules.cpp.
     void apply(const Rule& rule, const PixelList& pixel);
-    void add_group(std::span<const Fragment* const> group, TieRule rule, bool is_near, std::size_t depth);
-    void choose(const Rule& rule, const PixelList& pixel);
-    void keep(std::size_t first, std::size_t last);  // of the items
+    void choose_by_number(const Rule& rule);
+    void choose_by_nature(const Rule& rule, const PixelList& pixel);
     void order(const Rule& rule);
     void edit_one(const Rule& rule);
     void edit_close(const Rule& rule);
-    void combine(const Rule& rule, std::size_t from);  // items from number `from` on
+    void combine(const Rule& rule);
     void recolor(const Rule& rule);
     void set_background(const Rule& rule, const PixelList& pixel);
-    void finish(std::span<const Rule> rules);
 
-    Rgba cleared_;
+    void keep(std::size_t first, std::size_t last);                                                  // of the items
+    [[nodiscard]] std::uint64_t drawn(const Fragment& fragment, std::uint32_t drawing_order) const;  // when
+
+    const Setting* setting_;
     Stack stack_{};
     std::size_t depths_ = 0;
     std::vector<const Fragment*> order_{};
     std::vector<Item> items_{};
 };
+
+// Whether the rule changes this fragment.
+[[nodiscard]] bool is_in(const Rule& rule, const Fragment& fragment) noexcept;
+// MAX of each channel of straight colours, or of those times alpha.
+[[nodiscard]] Layer merged(const Rgba& a, const Rgba& b, bool is_premultiplied);
 
 }  // namespace strata::oracle::verdict

@@ -62,7 +62,7 @@ const std::vector<WrongPort>& wrong_ports() {
              l.visible.resize(std::min<std::size_t>(l.visible.size(), 2));
              std::ranges::stable_sort(l.visible, {}, &pipeline::CapturedFragment::code);
          }},
-        {"behind_submitted 0",
+        {"behind_drawn 0",
          [](PortList& l) {
              std::ranges::sort(l.visible, {}, &pipeline::CapturedFragment::primitive);
              std::vector<pipeline::CapturedFragment> kept;

@@ -27,7 +27,8 @@ struct Layers {
 
 Layers layers(const std::vector<std::uint32_t>& codes, TieRule rule) {
     const std::vector<Fragment> all = fragments(codes);
-    StackMaker maker{Rgba{0, 0, 0, 1}};
+    const Setting setting;
+    StackMaker maker{setting};
     const Stack& stack = maker.right({.visible = all}, {rule, DepthKey::code});
     Layers found{{}, stack.near, stack.near_without_middle};
     for (const Layer& layer : stack.layers) found.reds.push_back(static_cast<int>(layer.color[0]));
@@ -53,7 +54,8 @@ TEST_CASE("fragments at one depth merge by MAX: premultiplied in the near half, 
     all[1].color = {0.5f, 0.5f, 0, 0.75f};
     all[2].color = {1.0f, 0.25f, 0, 0.25f};
     all[3].color = {0.5f, 0.5f, 0, 0.75f};
-    StackMaker maker{Rgba{0, 0, 0, 1}};
+    const Setting setting;
+    StackMaker maker{setting};
     const Stack& stack = maker.right({.visible = all}, {TieRule::merged, DepthKey::code});
     REQUIRE(stack.layers.size() == 2);
     CHECK(stack.layers[0].color == Rgba{0.5f, 0.5f, 0, 0.75f});  // (0.375, 0.375, 0) times alpha
@@ -65,7 +67,8 @@ TEST_CASE("depths are compared as stored or as a program sees them, and a pixel 
     std::vector<Fragment> all = fragments({5, 5});
     all[0].shader_z = 0.75f;
     all[1].shader_z = 0.5f;
-    StackMaker maker{Rgba{0, 0, 0, 1}};
+    const Setting setting;
+    StackMaker maker{setting};
     CHECK(maker.right({.visible = all}, {TieRule::unique, DepthKey::code}).layers.size() == 1);
     const Stack& by_z = maker.right({.visible = all}, {TieRule::unique, DepthKey::shader_z});
     REQUIRE(by_z.layers.size() == 2);

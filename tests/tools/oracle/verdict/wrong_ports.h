@@ -58,8 +58,17 @@ inline oracle::Target picture_of_port(const OpenedScene& opened, const oracle::v
         if (change) change(list);
         oracle::verdict::Stack stack{.background = list.background};
         for (const pipeline::CapturedFragment& f : list.visible) stack.layers.push_back({.color = f.color});
-        stack.near = (stack.layers.size() + 1) / 2;
-        stack.near_without_middle = stack.layers.size() / 2;
+        // A peel from both ends divides depths, not layers.
+        std::size_t depths = 0;
+        std::vector<std::size_t> depth_of;
+        for (std::size_t i = 0; i < list.visible.size(); ++i) {
+            depths += i == 0 || list.visible[i].code != list.visible[i - 1].code ? 1 : 0;
+            depth_of.push_back(depths);
+        }
+        stack.near = static_cast<std::size_t>(
+            std::ranges::count_if(depth_of, [&](std::size_t d) { return d <= (depths + 1) / 2; }));
+        stack.near_without_middle =
+            static_cast<std::size_t>(std::ranges::count_if(depth_of, [&](std::size_t d) { return d <= depths / 2; }));
         for (const double v : port.composite(stack))
             picture.codes.push_back(static_cast<std::uint32_t>(std::lround(v * 255)));
     }

@@ -1,0 +1,108 @@
+// tools/oracle/verdict/color_rules.cpp - rules that change layers' colours, add them up, or change what lies behind them.
+#include <algorithm>
+
+#include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/verdict/structure.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+// Of a weighted average by rule.n: how a fragment's straight colour counts.
+// 0 and 1: Bavoil and Myers 2008; 2: Mol* 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and without.
+float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {
+    const float near = 1 - f.shader_z;
+    switch (n) {
+        case 2: return alpha * alpha * std::min(std::max(near * near, 0.01f), 1.0f);
+        case 3: return alpha * alpha * std::max(0.01f, 3000 * near * near * near);
+        case 4: return alpha * std::max(0.01f, 3000 * near * near * near);
+        default: return alpha;
+    }
+}
+
+Rgba with_each(const Rgba& color, float (*change)(float)) {
+    return {change(color[0]), change(color[1]), change(color[2]), color[3]};
+}
+
+}  // namespace
+
+// All layers, or those behind the nearest n, become one.
+void StackMaker::combine(const Rule& rule) {
+    const bool averages = rule.kind == RuleKind::averaged || rule.kind == RuleKind::rest_averaged;
+    if (!averages && rule.kind != RuleKind::added && rule.kind != RuleKind::weighted_sum) return;
+    const std::size_t from = rule.kind == RuleKind::rest_averaged ? rule.n : 0;
+    if (from >= items_.size()) return;
+    // An average of one is that one.
+    if (averages && items_.size() - from == 1) return;
+    const std::uint32_t weights = rule.kind == RuleKind::averaged ? rule.n : 1;
+    Rgba sum{0, 0, 0, 0};
+    float all_weights = 0, through = 1;
+    for (std::size_t i = from; i < items_.size(); ++i) {
+        const Rgba& color = items_[i].layer.color;
+        const float weight = averages ? weight_of(*items_[i].fragment, color[3], weights) : color[3];
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] * weight;
+        sum[3] += color[3];
+        all_weights += weight;
+        through *= 1 - color[3];
+    }
+    const auto count = static_cast<float>(items_.size() - from);
+    Layer one{.color = sum, .is_premultiplied = true};
+    if (rule.kind == RuleKind::added) one.color[3] = 0;
+    if (averages) {
+        one.is_premultiplied = false;
+        for (std::size_t c = 0; c < 3; ++c) one.color[c] = all_weights > 0 ? sum[c] / all_weights : 0;
+        float same = 1;  // what as many fragments of the mean alpha let through
+        for (float i = 0; i < count; ++i) same *= 1 - sum[3] / count;
+        one.color[3] = 1 - (weights == 0 ? same : through);
+    }
+    one.slack = count * 0x1p-11f;  // sums are often kept in binary16
+    items_[from].layer = one;
+    keep(0, from + 1);
+}
+
+void StackMaker::recolor(const Rule& rule) {
+    for (Item& item : items_) {
+        if (!is_in(rule, *item.fragment)) continue;
+        Rgba& color = item.layer.color;
+        switch (rule.kind) {
+            case RuleKind::alpha_squared: color[3] *= color[3]; break;
+            case RuleKind::alpha_inverted: color[3] = 1 - color[3]; break;
+            case RuleKind::alpha_ignored: color[3] = 1; break;
+            case RuleKind::alpha_times: color[3] = std::min(color[3] * rule.value, 1.0f); break;
+            case RuleKind::premultiplied_twice:
+                for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3];
+                break;
+            case RuleKind::not_premultiplied: item.layer.is_premultiplied = true; break;
+            case RuleKind::red_for_blue: std::swap(color[0], color[2]); break;
+            case RuleKind::decoded:
+            case RuleKind::blended_linear: color = with_each(color, scenes::decode_srgb); break;
+            case RuleKind::encoded: color = with_each(color, scenes::encode_srgb); break;
+            default: return;
+        }
+    }
+}
+
+void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
+    const Rgba nothing{0, 0, 0, 0};
+    switch (rule.kind) {
+        case RuleKind::opaque_lost:
+        case RuleKind::opaque_ignored: stack_.background = setting_->cleared; break;
+        case RuleKind::background_lost:
+            if (!pixel.has_opaque) stack_.background = nothing;
+            break;
+        case RuleKind::surface_lost: stack_.background = nothing; break;
+        case RuleKind::background_twice: {
+            Rgba again = pixel.behind;
+            again[3] = 0;
+            stack_.layers.push_back({again, true});
+            break;
+        }
+        case RuleKind::blended_linear:
+            stack_.background = with_each(stack_.background, scenes::decode_srgb);
+            stack_.is_linear = true;
+            break;
+        default: break;
+    }
+}
+
+}  // namespace strata::oracle::verdict

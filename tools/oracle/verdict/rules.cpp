@@ -1,0 +1,246 @@
+#include "tools/oracle/verdict/rules.h"
+
+#include <algorithm>
+#include <set>
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+constexpr std::size_t most_of_a_kind = 64;  // instances, materials, alphas: beyond that no rule is made for each
+
+template <class T>
+std::vector<T> few(const std::set<T>& all) {
+    if (all.size() > most_of_a_kind) return {};
+    return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
+    SceneFacts facts{.most_layers = scene.most_visible()};
+    std::set<std::uint32_t> instances, materials;
+    std::set<float> alphas;
+    std::set<bool> facings;
+    for (const SampledPixel& pixel : sample.pixels()) {
+        facts.has_opaque |= pixel.list.has_opaque;
+        facts.has_hidden |= !pixel.list.hidden.empty();
+        for (const Fragment& f : pixel.fragments) {
+            instances.insert(f.instance);
+            materials.insert(f.material);
+            facings.insert(f.is_front_facing);
+            if (alphas.size() <= most_of_a_kind) alphas.insert(f.color[3]);
+        }
+    }
+    facts.has_two_facings = facings.size() == 2;
+    facts.instances = few(instances);
+    facts.materials = few(materials);
+    facts.alphas = few(alphas);
+    return facts;
+}
+
+namespace {
+
+using Rules = std::vector<Rule>;
+
+void add(Rules& all, std::initializer_list<RuleKind> kinds) {
+    for (const RuleKind kind : kinds) all.push_back({.kind = kind});
+}
+void add_numbered(Rules& all, std::initializer_list<RuleKind> kinds, std::uint32_t first, std::uint32_t last) {
+    for (const RuleKind kind : kinds)
+        for (std::uint32_t n = first; n < last; ++n) all.push_back({.kind = kind, .n = n});
+}
+
+void add_counts(Rules& all, std::uint32_t most) {
+    using enum RuleKind;
+    add_numbered(all, {nearest_alone}, 0, most);
+    add_numbered(all, {ends_alone, ends_rest_as_submitted}, 1, (most + 1) / 2);
+    add_numbered(all,
+                 {farthest_alone, nearest_lost, farthest_lost, rest_averaged, rest_as_submitted, first_submitted,
+                  last_submitted},
+                 1, most);
+    if (most > 2) add(all, {odd_lost, even_lost});
+    for (const float through : {1.0f / 255, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.25f, 0.5f})
+        all.push_back({.kind = ended_early, .value = through});
+}
+
+void add_orders(Rules& all, const SceneFacts& facts) {
+    using enum RuleKind;
+    add(all, {reversed, as_submitted_reversed});
+    const std::uint32_t orders = facts.instances.size() > 1 ? instance_order_count : 1;
+    const std::uint32_t faces = facts.has_two_facings ? face_order_count : 1;
+    for (const RuleKind kind : {as_submitted, behind_drawn})
+        for (std::uint32_t i = 0; i < orders; ++i)
+            for (std::uint32_t f = 0; f < faces; ++f) all.push_back({.kind = kind, .n = i * face_order_count + f});
+    add(all, {before_drawn});
+    if (facts.has_two_facings) add(all, {faces_apart});
+    if (facts.instances.size() > 1) {
+        add_numbered(all, {by_instance}, 0, instance_order_count);
+        add(all, {nearest_of_instance});
+    }
+}
+
+// Some layers, by what they belong to.
+std::vector<Rule> scopes_of(const SceneFacts& facts) {
+    std::vector<Rule> scopes;
+    if (facts.instances.size() > 1)
+        for (const std::uint32_t i : facts.instances) scopes.push_back({.scope = Scope::instance, .of = i});
+    if (facts.materials.size() > 1)
+        for (const std::uint32_t m : facts.materials) scopes.push_back({.scope = Scope::material, .of = m});
+    if (facts.has_two_facings)
+        for (const Scope scope : {Scope::back_faces, Scope::front_faces}) scopes.push_back({.scope = scope});
+    return scopes;
+}
+
+void add_scoped(Rules& all, const SceneFacts& facts) {
+    using enum RuleKind;
+    constexpr RuleKind colors[] = {alpha_squared,     alpha_inverted, alpha_ignored, premultiplied_twice,
+                                   not_premultiplied, red_for_blue,   decoded,       encoded};
+    constexpr float factors[] = {0.25f, 0.5f, 0.75f, 0.8f, 0.9f, 1.25f, 1.5f, 2.0f};
+    const auto add_colors = [&](const Rule& scope) {
+        for (const RuleKind kind : colors) all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
+        for (const float factor : factors)
+            all.push_back({.kind = alpha_times, .value = factor, .scope = scope.scope, .of = scope.of});
+    };
+    add_colors({});
+    add(all, {blended_linear});
+    for (const Rule& scope : scopes_of(facts)) {
+        for (const RuleKind kind : {some_lost, some_doubled})
+            all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
+        add_colors(scope);
+    }
+    for (std::size_t i = 1; i < facts.alphas.size(); ++i)
+        for (const RuleKind kind : {alpha_below_lost, alpha_below_kept})
+            all.push_back({.kind = kind, .value = facts.alphas[i]});
+}
+
+void add_depths(Rules& all, const SceneFacts& facts) {
+    using enum RuleKind;
+    for (const std::uint32_t codes : {0u, 1u, 2u, 3u, 4u, 8u, 16u, 32u, 64u, 256u, 1024u, 4096u}) {
+        if (codes > 0) add_numbered(all, {close_lost, close_merged, close_swapped}, codes, codes + 1);
+        if (facts.has_opaque) add_numbered(all, {at_opaque_shown, near_opaque_lost}, codes, codes + 1);
+    }
+    for (float power = 1e-8f; power < 0.05f; power *= 10)
+        for (const float times : {1.0f, 2.0f, 5.0f})
+            for (const RuleKind kind : {within_lost, within_merged})
+                all.push_back({.kind = kind, .value = power * times});
+}
+
+}  // namespace
+
+std::vector<Rule> rules_for(const SceneFacts& facts) {
+    using enum RuleKind;
+    Rules all;
+    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 64));
+    add_counts(all, most);
+    add_orders(all, facts);
+    add_numbered(all, {averaged}, 0, 5);
+    add(all, {added, weighted_sum, all_doubled, background_lost, background_twice, surface_lost});
+    if (facts.has_hidden) add(all, {hidden_shown});
+    if (facts.has_opaque) add(all, {opaque_lost, opaque_ignored, opaque_in_front});
+    add_depths(all, facts);
+    add_scoped(all, facts);
+    add_numbered(all, {lost, lost_from_far, doubled, doubled_from_far}, 0, most);
+    if (most > 1)
+        add_numbered(all, {swapped, swapped_from_far, merged, mixed, color_of_next, color_of_previous}, 0, most - 1);
+    return all;
+}
+
+std::vector<Rule> one_of_each_kind(const SceneFacts& facts) {
+    Rules all(rule_kind_count);
+    for (std::size_t k = 0; k < rule_kind_count; ++k) all[k].kind = static_cast<RuleKind>(k);
+    const auto most = static_cast<std::uint32_t>(facts.most_layers);
+    const auto of = [&](RuleKind kind) -> Rule& { return all[static_cast<std::size_t>(kind)]; };
+    for (const RuleKind kind : {RuleKind::nearest_alone, RuleKind::farthest_alone, RuleKind::rest_averaged,
+                                RuleKind::rest_as_submitted, RuleKind::first_submitted, RuleKind::last_submitted})
+        of(kind).n = most > 0 ? most - 1 : 0;
+    for (const RuleKind kind : {RuleKind::ends_alone, RuleKind::ends_rest_as_submitted})
+        of(kind).n = most > 2 ? (most - 1) / 2 : 0;
+    for (const RuleKind kind : {RuleKind::nearest_lost, RuleKind::farthest_lost, RuleKind::close_lost,
+                                RuleKind::close_merged, RuleKind::close_swapped, RuleKind::near_opaque_lost})
+        of(kind).n = 1;
+    for (const RuleKind kind : {RuleKind::within_lost, RuleKind::within_merged}) of(kind).value = 1e-7f;
+    for (const RuleKind kind : {RuleKind::some_lost, RuleKind::some_doubled}) {
+        of(kind).scope = Scope::instance;
+        of(kind).of = facts.instances.empty() ? 0 : facts.instances[0];
+    }
+    for (const RuleKind kind : {RuleKind::alpha_below_lost, RuleKind::alpha_below_kept})
+        of(kind).value = facts.alphas.size() > 1 ? facts.alphas[1] : 0.5f;
+    of(RuleKind::alpha_times).value = 0.9f;
+    of(RuleKind::ended_early).value = 1.0f / 255;
+    all.erase(all.begin());  // RuleKind::right
+    return all;
+}
+
+int stage_of(RuleKind kind) noexcept {
+    using enum RuleKind;
+    switch (kind) {
+        case right:
+        case hidden_shown:
+        case at_opaque_shown:
+        case near_opaque_lost:
+        case opaque_lost:
+        case opaque_ignored:
+        case opaque_in_front:
+        case background_lost:
+        case background_twice:
+        case surface_lost: return 0;
+        case alpha_squared:
+        case alpha_inverted:
+        case alpha_ignored:
+        case alpha_times:
+        case premultiplied_twice:
+        case red_for_blue:
+        case decoded:
+        case encoded: return 1;
+        case close_lost:
+        case close_merged:
+        case close_swapped:
+        case within_lost:
+        case within_merged:
+        case some_lost:
+        case some_doubled:
+        case alpha_below_lost:
+        case alpha_below_kept:
+        case behind_drawn:
+        case before_drawn: return 2;
+        case nearest_alone:
+        case farthest_alone:
+        case ends_alone:
+        case nearest_lost:
+        case farthest_lost:
+        case first_submitted:
+        case last_submitted:
+        case odd_lost:
+        case even_lost:
+        case ended_early:
+        case nearest_of_instance: return 3;
+        case lost:
+        case lost_from_far:
+        case doubled:
+        case doubled_from_far:
+        case swapped:
+        case swapped_from_far:
+        case merged:
+        case mixed:
+        case color_of_next:
+        case color_of_previous:
+        case all_doubled: return 4;
+        case rest_as_submitted:
+        case ends_rest_as_submitted:
+        case reversed:
+        case as_submitted:
+        case as_submitted_reversed:
+        case by_instance:
+        case faces_apart: return 5;
+        case rest_averaged:
+        case averaged:
+        case added:
+        case weighted_sum:
+        case not_premultiplied:
+        case blended_linear: return 6;
+    }
+    return 0;  // unreachable: the enum is closed
+}
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,89 @@
+#include "tools/oracle/verdict/setting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pipeline/vertices/draw_list.h"
+
+namespace strata::oracle::verdict {
+
+std::string describe(const DrawingOrder& order) {
+    std::string text;
+    switch (order.instances) {
+        case InstanceOrder::listed: text = "as submitted"; break;
+        case InstanceOrder::listed_backwards: text = "as submitted, the last instance first"; break;
+        case InstanceOrder::origin: text = "instances far first, by their origin"; break;
+        case InstanceOrder::box: text = "instances far first, by the centre of their box"; break;
+        case InstanceOrder::mean: text = "instances far first, by the mean of their vertices"; break;
+        case InstanceOrder::box_by_distance: text = "instances far first, by the distance of their box's centre"; break;
+        case InstanceOrder::box_near_first: text = "instances near first, by the centre of their box"; break;
+    }
+    if (order.faces == FaceOrder::back_first_in_instance) text += ", back faces of each instance first";
+    if (order.faces == FaceOrder::back_first) text += ", all back faces first";
+    return text;
+}
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point transformed(const pipeline::Matrix& m, const Point& p) {
+    Point to{};
+    for (int row = 0; row < 3; ++row)
+        to[static_cast<std::size_t>(row)] = m[0][row] * p[0] + m[1][row] * p[1] + m[2][row] * p[2] + m[3][row];
+    return to;
+}
+
+struct Points {
+    Point box{}, mean{};
+};
+
+Points points_of(const pipeline::Mesh& mesh) {
+    Points points;
+    if (mesh.positions.empty()) return points;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        double low = mesh.positions[0][axis], high = low, sum = 0;
+        for (const auto& p : mesh.positions) {
+            low = std::min<double>(low, p[axis]);
+            high = std::max<double>(high, p[axis]);
+            sum += p[axis];
+        }
+        points.box[a] = (low + high) / 2;
+        points.mean[a] = sum / static_cast<double>(mesh.positions.size());
+    }
+    return points;
+}
+
+// Ranks by a key, the least first; equal ones as listed.
+std::vector<std::uint32_t> ranks(const std::vector<double>& keys) {
+    std::vector<std::uint32_t> order(keys.size()), rank(keys.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return keys[i]; });
+    for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
+    return rank;
+}
+
+}  // namespace
+
+Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, const Rgba& cleared) {
+    Setting setting{.cleared = cleared};
+    std::array<std::vector<double>, instance_order_count> keys;
+    for (const pipeline::Instance& instance : list.instances) {
+        const Points points = points_of(list.meshes[instance.mesh]);
+        // Eye space looks along -z: the least z is the farthest.
+        const auto eye = [&](const Point& p) { return transformed(view.view, transformed(instance.model, p)); };
+        const Point origin = eye({}), box = eye(points.box), mean = eye(points.mean);
+        const auto listed = static_cast<double>(keys[0].size());
+        const double key_of[instance_order_count] = {
+            listed, -listed, origin[2], box[2], mean[2], -std::hypot(box[0], box[1], box[2]), -box[2]};
+        for (std::size_t i = 0; i < instance_order_count; ++i) keys[i].push_back(key_of[i]);
+    }
+    for (std::size_t i = 0; i < instance_order_count; ++i) setting.rank[i] = ranks(keys[i]);
+    return setting;
+}
+
+}  // namespace strata::oracle::verdict

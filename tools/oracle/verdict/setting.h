@@ -1,0 +1,51 @@
+// tools/oracle/verdict/setting.h - what of a scene is the same at all pixels and counts for the order in which a port may draw it.
+//
+// Rule     Engines sort instances by the depth of some point of each, far first, and draw back faces before front faces, of each instance or of all.
+//          A drawing order is a number: of the points below three times, then of the faces.
+// Tests    tests/tools/oracle/verdict/setting_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rasterizer/base/vector.h"
+
+namespace strata::pipeline {
+struct DrawList;
+struct View;
+}  // namespace strata::pipeline
+
+namespace strata::oracle::verdict {
+
+enum class InstanceOrder : std::uint8_t {
+    listed,
+    listed_backwards,
+    origin,           // depth of its origin
+    box,              // of its bounding box's centre
+    mean,             // of the mean of its vertices
+    box_by_distance,  // distance of the box's centre from the eye
+    box_near_first
+};
+inline constexpr std::uint32_t instance_order_count = 7;
+enum class FaceOrder : std::uint8_t { listed, back_first_in_instance, back_first };
+inline constexpr std::uint32_t face_order_count = 3;
+
+struct DrawingOrder {
+    InstanceOrder instances = InstanceOrder::listed;
+    FaceOrder faces = FaceOrder::listed;
+};
+[[nodiscard]] constexpr DrawingOrder drawing_order(std::uint32_t number) noexcept {
+    return {static_cast<InstanceOrder>(number / face_order_count), static_cast<FaceOrder>(number % face_order_count)};
+}
+[[nodiscard]] std::string describe(const DrawingOrder& order);
+
+struct Setting {
+    Rgba cleared{0, 0, 0, 1};  // the colour where nothing is drawn
+    // By InstanceOrder, then by instance: when it is drawn. Empty: as listed.
+    std::array<std::vector<std::uint32_t>, instance_order_count> rank{};
+};
+
+[[nodiscard]] Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, const Rgba& cleared);
+
+}  // namespace strata::oracle::verdict
