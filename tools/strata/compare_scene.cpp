@@ -56,7 +56,7 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const oracle::Target& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors);
     const peeling::RenderOptions& options = question.run.render;
-    const oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
+    oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
                                                     options.fragment_memory};
     const oracle::verdict::Verdict found = oracle::verdict::judge(fragments, oracle::verdict::Colors{colors});
     const pipeline::DrawList& list = session.scene.list;

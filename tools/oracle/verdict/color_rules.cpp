@@ -55,7 +55,6 @@ void StackMaker::combine(const Rule& rule) {
         for (float i = 0; i < count; ++i) same *= 1 - sum[3] / count;
         one.color[3] = 1 - (weights == 0 ? same : through);
     }
-    one.slack = count * 0x1p-11f;  // sums are often kept in binary16
     items_[from].layer = one;
     keep(0, from + 1);
 }

@@ -9,6 +9,7 @@
 #include "peeling/render.h"
 #include "pipeline/region/region.h"
 #include "rasterizer/base/parallel.h"
+#include "tools/oracle/verdict/coverages.h"
 
 namespace strata::oracle::verdict {
 
@@ -183,6 +184,12 @@ void SceneFragments::for_each_tile(const std::function<void(const TileLists&)>& 
     }
 }
 
+void SceneFragments::find_coverages() {
+    constexpr std::uint64_t most_fragments = std::uint64_t{1} << 21;
+    if (coverages_ == nullptr && keeps_ && count_ <= most_fragments)
+        coverages_ = std::make_shared<const Coverages>(input_, *this);
+}
+
 PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noexcept {
     const auto width = static_cast<std::size_t>(tile.rect.width());
     PixelList list{.x = tile.rect.x0 + static_cast<int>(pixel % width),
@@ -195,6 +202,7 @@ PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noe
     for (int c = 0; c < 4; ++c)
         list.behind[static_cast<std::size_t>(c)] =
             std::bit_cast<float>(behind_.codes[behind_.index(list.x, list.y, c)]);
+    if (coverages_ != nullptr) list.edge = coverages_->at(list.x, list.y);
     return list;
 }
 

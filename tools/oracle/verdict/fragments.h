@@ -25,14 +25,19 @@ struct Fragment {
     std::uint32_t instance = 0;   // of the draw list
     std::uint32_t material = 0;
     bool is_front_facing = true;
+    float slack = 0;  // by which its colour may be off
 };
+
+struct EdgePixel;  // coverages.h
+class Coverages;
 
 struct PixelList {
     int x = 0, y = 0;  // in the frame
     std::span<const Fragment> visible{}, hidden{};
-    Rgba behind{};             // the opaque surface's colour or the background's
-    std::uint32_t opaque = 0;  // its depth's code
-    bool has_opaque = false;   // false: the background lies behind
+    Rgba behind{};                    // the opaque surface's colour or the background's
+    std::uint32_t opaque = 0;         // its depth's code
+    bool has_opaque = false;          // false: the background lies behind
+    const EdgePixel* edge = nullptr;  // what else may cover it; null: nothing, or it is not known
 };
 
 struct TileLists {
@@ -55,6 +60,9 @@ class SceneFragments {
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] std::size_t most_visible() const noexcept { return most_visible_; }
 
+    // Finds out what else may cover pixels at edges, from now on; nothing for scenes that are too large for it.
+    void find_coverages();
+
     // visit(tile) for every tile, from several threads.
     void for_each_tile(const std::function<void(const TileLists&)>& visit) const;
     [[nodiscard]] PixelList at(const TileLists& tile, std::size_t pixel) const noexcept;  // `pixel` counts in the tile
@@ -70,6 +78,7 @@ class SceneFragments {
     pipeline::Image behind_{};                  // rgba32f
     std::vector<TileLists> kept_{};
     std::vector<rasterizer::Rect> blank_{};  // what no tile that ran holds
+    std::shared_ptr<const Coverages> coverages_{};
     bool keeps_ = true;
     std::uint64_t count_ = 0;
     std::size_t most_visible_ = 0;

@@ -168,9 +168,7 @@ class FamilyMaker {
 
   private:
     void add(Order order, const End& front, const End& back, double slack, HypothesisFamily& family) const {
-        const auto is_loose = [](const End& end) {
-            return end.rounding == Rounding::any && end.storage == Storage::unorm8;
-        };
+        const auto is_loose = [](const End& end) { return end.rounding == Rounding::any && has_codes(end.storage); };
         if (looseness_ == Looseness::definite && (is_loose(front) || is_loose(back))) return;
         const End nearest{result_, Source::unrounded, Rounding::nearest};
         family.members.push_back({.order = order, .front = front, .back = back, .result = nearest, .slack = slack});

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "tools/oracle/verdict/coverages.h"
 #include "tools/oracle/verdict/pricing.h"
 
 namespace strata::oracle::verdict {
@@ -25,30 +26,59 @@ bool may_have_ties(std::span<const Rule> rules, const PixelList& list) noexcept 
 
 }  // namespace
 
-TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                         const std::array<double, 4>& value, StackMaker& maker) {
+namespace {
+
+TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
+                   const std::array<double, 4>& value, StackMaker& maker) {
     const auto is_held = [&](const Ties& ties) {
         return holds(compositor.reach(maker.with(rules, list, ties)), value);
     };
-    if (!may_have_ties(rules, list)) return {is_held({}) ? all_ties : 0};
-    TiesFound found;
+    TiesFound found{.list = list};
+    const auto add = [&](TieMask mask, const Ties& ties) {
+        found.mask |= mask;
+        found.ties = ties;
+    };
+    if (!may_have_ties(rules, list)) {
+        if (is_held({})) add(all_ties, {});
+        return found;
+    }
     for (std::size_t n = ties_count; n-- > 0;)
-        if (is_held(ties_number(n))) found = {found.mask | 1u << n, ties_number(n)};
+        if (is_held(ties_number(n))) add(1u << n, ties_number(n));
     for (std::uint32_t p = 0; p < permutations && found.mask == 0; ++p)
-        if (const Ties other{TieRule::other, DepthKey::code, p}; is_held(other)) found = {1u << ties_count, other};
+        if (const Ties other{TieRule::other, DepthKey::code, p}; is_held(other)) add(1u << ties_count, other);
+    return found;
+}
+
+}  // namespace
+
+TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
+                         const std::array<double, 4>& value, StackMaker& maker) {
+    TiesFound found = found_in(compositor, rules, list, value, maker);
+    if (found.mask != 0 || list.edge == nullptr) return found;
+    for (const OtherList& other : list.edge->others) {
+        found = found_in(compositor, rules, other.at(list.x, list.y), value, maker);
+        found.at_edge = true;
+        if (found.mask != 0) break;
+    }
     return found;
 }
 
 StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker) {
     StackedPixel made{.value = pixel.value};
-    const auto add = [&](const Ties& ties) {
-        const Stack& stack = maker.with(rules, pixel.list, ties);
-        if (std::ranges::find(made.stacks, stack) == made.stacks.end()) made.stacks.push_back(stack);
+    const auto add_all = [&](const PixelList& list) {
+        const auto add = [&](const Ties& ties) {
+            const Stack& stack = maker.with(rules, list, ties);
+            if (std::ranges::find(made.stacks, stack) == made.stacks.end()) made.stacks.push_back(stack);
+        };
+        add({});
+        if (!may_have_ties(rules, list)) return;
+        for (std::size_t n = 0; n < ties_count; ++n) add(ties_number(n));
+        for (std::uint32_t p = 0; p < permutations; ++p) add({TieRule::other, DepthKey::code, p});
     };
-    add({});
-    if (!may_have_ties(rules, pixel.list)) return made;
-    for (std::size_t n = 0; n < ties_count; ++n) add(ties_number(n));
-    for (std::uint32_t p = 0; p < permutations; ++p) add({TieRule::other, DepthKey::code, p});
+    add_all(pixel.list);
+    made.given = made.stacks.size();
+    if (pixel.list.edge != nullptr)
+        for (const OtherList& other : pixel.list.edge->others) add_all(other.at(pixel.list.x, pixel.list.y));
     return made;
 }
 
@@ -116,10 +146,14 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto& [pixel, weight] = *pixels[i];
         const Stack* const stack = reaching(compositor, pixel);
-        if (stack != nullptr)
-            cost.bits += weight * pricing.of(compositor.reach(*stack));
-        else
+        if (stack == nullptr)
             cost.wrong += weight;
+        else
+            cost.bits += weight * (pricing.of(compositor.reach(*stack)) +
+                                   (stack - pixel.stacks.data() < std::ssize(pixel.stacks) &&
+                                            static_cast<std::size_t>(stack - pixel.stacks.data()) >= pixel.given
+                                        ? Pricing::of_edge
+                                        : 0));
         if (cost.wrong > 0 && allowed == Wrong::none) {
             std::rotate(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(i),
                         pixels.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -145,19 +179,27 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     const std::vector<WeightedPixel> made = weighted(rules, sample);
     std::vector<const WeightedPixel*> pixels;
     for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
-    double best = std::numeric_limits<double>::max();
-    std::optional<Hypothesis> found;
-    for (const HypothesisFamily& family : all) {
-        if (least_of(family, pixels, allowed, best) >= best) continue;
-        for (const Hypothesis& h : family.members) {
-            const Cost cost = cost_of(h, pixels, allowed, best);
-            const double bits = cost.total(Pricing{h.result.storage});
-            if (bits >= best || (allowed == Wrong::none && cost.wrong > 0)) continue;
-            best = bits;
-            found = h;
+    // The first hypothesis that costs less than `most`, or the one that costs the least.
+    const auto choose = [&](double most, auto is_enough) {
+        double best = most;
+        std::optional<Hypothesis> found;
+        for (const HypothesisFamily& family : all) {
+            if (least_of(family, pixels, allowed, best) >= best) continue;
+            for (const Hypothesis& h : family.members) {
+                const Cost cost = cost_of(h, pixels, allowed, best);
+                const double bits = cost.total(Pricing{h.result.storage});
+                if (bits >= best || (allowed == Wrong::none && cost.wrong > 0)) continue;
+                best = bits;
+                found = h;
+                if (is_enough(bits)) return std::pair{found, best};
+            }
         }
-    }
-    return found;
+        return std::pair{found, best};
+    };
+    const auto [least, bits] = choose(std::numeric_limits<double>::max(), [](double) { return false; });
+    if (!least || allowed == Wrong::some) return least;
+    // Of those that tell it nearly as well the plainest is believed: families and their members stand in that order.
+    return choose(1.1 * bits + 64, [](double) { return true; }).first;
 }
 
 namespace {
@@ -222,7 +264,8 @@ class Checker {
         Checked& found = part.checked;
         ++found.pixels;
         found.covered += list.visible.empty() ? 0 : 1;
-        const auto [mask, ties] = ties_that_hold(compositor_, account_.rules, list, value, maker);
+        const TiesFound way = ties_that_hold(compositor_, account_.rules, list, value, maker);
+        const TieMask mask = way.mask;
         if (mask == 0) {
             found.wrong_pixels.push_back(static_cast<std::uint32_t>(list.y * scene_.width() + list.x));
             if (part.examples.pixels().size() < most_examples) part.examples.add(list, value);
@@ -230,13 +273,14 @@ class Checker {
         }
         found.tied += mask != all_ties ? 1 : 0;
         part.everywhere &= mask;
-        const Stack& stack = maker.with(account_.rules, list, ties);
+        found.at_edges += way.at_edge ? 1 : 0;
+        const Stack& stack = maker.with(account_.rules, way.list, way.ties);
         const Reach reach = compositor_.reach(stack);
-        found.bits += Pricing{account_.hypothesis.result.storage}.of(reach);
+        found.bits += Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
         measure(stack, reach, value, account_.hypothesis.result.storage, found);
         if (account_.rules.empty()) return;
         Stack own = stack;
-        const Stack& right = maker.right(list, ties);
+        const Stack& right = maker.right(way.list, way.ties);
         own.near = right.near;  // the division of a peel is no change of the structure
         own.near_without_middle = right.near_without_middle;
         if (own == right) return;
@@ -254,6 +298,7 @@ void merge(const Checked& part, Checked& all) {
     all.pixels += part.pixels;
     all.covered += part.covered;
     all.tied += part.tied;
+    all.at_edges += part.at_edges;
     all.changed += part.changed;
     all.undecided += part.undecided;
     all.bits += part.bits;

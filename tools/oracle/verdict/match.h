@@ -16,7 +16,9 @@ using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: 
 inline constexpr TieMask all_ties = (2u << ties_count) - 1;
 struct TiesFound {
     TieMask mask = 0;
-    Ties ties{};  // the first that holds
+    Ties ties{};       // the first that holds
+    PixelList list{};  // what covers the pixel: at an edge perhaps not what was given
+    bool at_edge = false;
 };
 
 // A structure and how it is rounded; no rules: the right structure.
@@ -32,6 +34,7 @@ struct Account {
 // The structures that a pixel of a sample may have: one for each rule for ties that makes a difference there.
 struct StackedPixel {
     std::vector<Stack> stacks{};
+    std::size_t given = 0;          // so many of them by what covers the pixel as given; the others at an edge
     std::array<double, 4> value{};  // the candidate's
 };
 [[nodiscard]] StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker);
@@ -50,6 +53,7 @@ struct Checked {
     Ties ties{};
     bool has_one_tie_rule = true;  // false: fragments at one depth come in an order that changes from pixel to pixel
     std::uint64_t tied = 0;        // pixels whose ties show
+    std::uint64_t at_edges = 0;    // pixels that are covered as a rasterizer may that snaps otherwise
     std::uint64_t changed = 0;     // pixels whose structure is not the right one
     std::uint64_t undecided = 0;   // of these, pixels that the right structure may leave, too
     // Codes (of floats: parts of 255) by which a pixel is off the structure's exact result, and could be.

@@ -1,6 +1,7 @@
 // tools/oracle/verdict/pricing.h - what a picture costs in bits if a hypothesis is to tell it: the measure by which hypotheses are chosen.
 //
-// Rule     A pixel costs what its interval leaves open: the logarithm of the number of values in it. A wrong pixel costs all its digits.
+// Rule     A pixel costs what its interval leaves open: the logarithm of the number of values in it. A wrong pixel costs all its digits, four times:
+//          what makes it wrong is a mistake, which has a reason of its own, and no port is to be accused for a narrow account's sake.
 //          That is the principle of the shortest description: one that leaves much open everywhere does not excuse a few wrong pixels, and
 //          one that leaves nothing open does not accuse a port that rounds in its own way.
 // Source   J. Rissanen, 1978, Modeling by shortest data description.
@@ -19,7 +20,8 @@ class Pricing {
         for (std::size_t c = 0; c < 3; ++c) values *= 1 + (reach[c].high - reach[c].low) / step(reach[c].magnitude());
         return std::log2(values);
     }
-    [[nodiscard]] double of_wrong() const noexcept { return 3 * digits(); }
+    [[nodiscard]] double of_wrong() const noexcept { return 4 * 3 * digits(); }
+    static constexpr double of_edge = 6;  // to say that and how a pixel at an edge is covered otherwise
 
   private:
     [[nodiscard]] double digits() const noexcept {
@@ -41,16 +43,10 @@ class Pricing {
     Storage storage_;
 };
 
-// What it takes to say which hypothesis it is: of two that tell a picture alike, the plainer one is named.
+// What it takes to say which hypothesis it is.
 [[nodiscard]] inline double bits_of(const Hypothesis& h) noexcept {
     double bits = has_front(h.order) && has_back(h.order) ? 8 : 0;
     if (bits > 0 && h.front.storage != h.back.storage) bits += 8;
-    if (h.order == Order::both_ends_far || h.order == Order::both_ends_apart || h.order == Order::over_apart) bits += 4;
-    if (h.result.rounding != Rounding::nearest) bits += 4;
-    for (const End* end : {&h.front, &h.back}) {
-        if (end->storage == Storage::unorm10) bits += 8;  // few targets have 10 bits
-        if (end->rounding != Rounding::nearest) bits += 4;
-    }
     return bits + (h.slack > 0 ? 4 : 0);
 }
 

@@ -67,6 +67,9 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     add((v.is_right || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
     if (account.tied > 0) add(ties_of(account));
+    if (account.at_edges > 0)
+        add(fmt::format("{} at edges are covered as by a rasterizer that snaps or breaks ties otherwise",
+                        pixels(account.at_edges)));
     if (!v.right.wrong_pixels.empty()) {
         const std::uint32_t first = v.right.wrong_pixels[0], width = static_cast<std::uint32_t>(v.width);
         add(fmt::format("the first wrong pixel is {},{}", first % width, first / width));
@@ -93,6 +96,7 @@ ordered_json json_of(const Checked& c, const Verdict& v, const pipeline::DrawLis
                         {"observed", c.observed},
                         {"possible", c.possible},
                         {"slack", c.account.hypothesis.slack}}},
+                      {"at_edges", c.at_edges},
                       {"wrong", c.wrong_pixels.size()},
                       {"changed", c.changed},
                       {"undecided", c.undecided}};

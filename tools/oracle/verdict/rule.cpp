@@ -49,6 +49,8 @@ std::string_view name(RuleKind kind) noexcept {
         case RuleKind::close_swapped: return "close_swapped";
         case RuleKind::within_lost: return "within_lost";
         case RuleKind::within_merged: return "within_merged";
+        case RuleKind::edges_twice: return "edges_twice";
+        case RuleKind::edges_never: return "edges_never";
         case RuleKind::hidden_shown: return "hidden_shown";
         case RuleKind::at_opaque_shown: return "at_opaque_shown";
         case RuleKind::near_opaque_lost: return "near_opaque_lost";

@@ -60,6 +60,9 @@ enum class RuleKind : std::uint8_t {
     close_swapped,
     within_lost,  // the same within `value` of the depth range
     within_merged,
+    // Pixels whose centre lies on an edge
+    edges_twice,  // both triangles beside it are drawn
+    edges_never,  // neither is
     // The opaque surface and the background
     hidden_shown,      // those behind the opaque surface over it
     at_opaque_shown,   // those within n codes behind the opaque surface, and at it, too: LEQUAL for LESS

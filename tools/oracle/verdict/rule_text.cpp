@@ -148,6 +148,8 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
             return fmt::format("layers within {:.0e} of the depth range are merged by MAX: an epsilon", rule.value);
         case RuleKind::close_merged: return fmt::format("layers within {} of depth are merged by MAX", codes(n));
         case RuleKind::close_swapped: return fmt::format("layers within {} of depth are exchanged", codes(n));
+        case RuleKind::edges_twice: return "a centre on an edge is drawn by both triangles beside it";
+        case RuleKind::edges_never: return "a centre on an edge is drawn by neither triangle beside it";
         case RuleKind::hidden_shown: return "layers behind opaque surfaces are composited: they are not hidden";
         case RuleKind::at_opaque_shown:
             return n == 0 ? "layers at the depth of an opaque surface are composited: LEQUAL for LESS"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "tools/oracle/verdict/coverages.h"
+
 namespace strata::oracle::verdict {
 
 namespace {
@@ -25,6 +27,7 @@ SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
     for (const SampledPixel& pixel : sample.pixels()) {
         facts.has_opaque |= pixel.list.has_opaque;
         facts.has_hidden |= !pixel.list.hidden.empty();
+        facts.has_centres_on_edges |= pixel.list.edge != nullptr && pixel.list.edge->has_centre_on_edge;
         for (const Fragment& f : pixel.fragments) {
             instances.insert(f.instance);
             materials.insert(f.material);
@@ -136,6 +139,7 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     add_orders(all, facts);
     add_numbered(all, {averaged}, 0, 5);
     add(all, {added, weighted_sum, all_doubled, background_lost, background_twice, surface_lost});
+    if (facts.has_centres_on_edges) add(all, {edges_twice, edges_never});
     if (facts.has_hidden) add(all, {hidden_shown});
     if (facts.has_opaque) add(all, {opaque_lost, opaque_ignored, opaque_in_front});
     add_depths(all, facts);
@@ -176,6 +180,8 @@ int stage_of(RuleKind kind) noexcept {
     using enum RuleKind;
     switch (kind) {
         case right:
+        case edges_twice:
+        case edges_never:
         case hidden_shown:
         case at_opaque_shown:
         case near_opaque_lost:

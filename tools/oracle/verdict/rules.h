@@ -15,7 +15,7 @@ struct SceneFacts {
     std::size_t most_layers = 0;  // visible fragments of a pixel
     std::vector<std::uint32_t> instances{}, materials{};
     std::vector<float> alphas{};  // some of them, ascending, where they are few
-    bool has_opaque = false, has_hidden = false, has_two_facings = false;
+    bool has_opaque = false, has_hidden = false, has_two_facings = false, has_centres_on_edges = false;
 };
 [[nodiscard]] SceneFacts facts_of(const SceneFragments& scene, const Sample& sample);
 

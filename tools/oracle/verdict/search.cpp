@@ -159,24 +159,33 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
 
 }  // namespace
 
-Findings search(const SceneFragments& scene, const Colors& candidate, const Families& definite, const Checked& closest,
-                const Sample& sample) {
-    Findings findings;
+namespace {
+
+std::vector<Rules> singles(const std::vector<Rule>& rules) {
+    std::vector<Rules> all;
+    for (const Rule& rule : rules) all.push_back({rule});
+    return all;
+}
+
+}  // namespace
+
+std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
+                            const Checked& closest, const Sample& sample, int most_rules) {
+    constexpr std::size_t least_of_pairs = 8;  // wrong pixels: fewer tell nothing of two mistakes
     const std::vector<Rule> rules = rules_for(facts_of(scene, sample));
-    std::vector<Rules> singles;
-    for (const Rule& rule : rules) singles.push_back({rule});
     const Parted parts = parted(sample, closest.account.hypothesis);
-    const std::vector<Hypothesis> wide = widest(definite);
-    const auto try_all = [&](const std::vector<Rules>& all) {
-        findings.tried += all.size();
-        findings.explanations = whole(survivors(all, parts, wide, scene.setting()), scene, candidate, definite, sample);
-        drop_roomy(findings.explanations, closest);
-    };
-    try_all(singles);
-    if (findings.explanations.empty()) try_all(pairs_of(rules, parts, scene.setting()));
-    if (findings.explanations.empty())
-        findings.leads = leads_of(singles, parts, closest.account.hypothesis, scene.setting());
-    return findings;
+    if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
+    const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts, scene.setting()) : singles(rules);
+    std::vector<Checked> found =
+        whole(survivors(all, parts, widest(definite), scene.setting()), scene, candidate, definite, sample);
+    drop_roomy(found, closest);
+    return found;
+}
+
+std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample) {
+    const Hypothesis& hypothesis = closest.account.hypothesis;
+    return leads_of(singles(rules_for(facts_of(scene, sample))), parted(sample, hypothesis), hypothesis,
+                    scene.setting());
 }
 
 }  // namespace strata::oracle::verdict

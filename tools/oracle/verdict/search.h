@@ -16,15 +16,14 @@ struct Lead {
     std::uint64_t contradicted = 0, right = 0;  // right pixels that speak against it, of those that were looked at
 };
 
-struct Findings {
-    std::vector<Checked> explanations{};  // each whole; the first is the best
-    std::vector<Lead> leads{};            // the best first
-    std::uint64_t tried = 0;              // rules, and pairs of them
-};
-
-// `definite`: the hypotheses under which an explanation has to hold; `closest`: the right structure's account that has the fewest wrong pixels;
+// Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the first is the best.
+// `definite`: the hypotheses under which they have to hold; `closest`: the right structure's account that has the fewest wrong pixels;
 // `sample`: pixels with some of the wrong ones among them.
-[[nodiscard]] Findings search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
-                              const Checked& closest, const Sample& sample);
+[[nodiscard]] std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate,
+                                          const Families& definite, const Checked& closest, const Sample& sample,
+                                          int most_rules);
+
+// The rules that explain most of the wrong pixels of a sample, the best first.
+[[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample);
 
 }  // namespace strata::oracle::verdict

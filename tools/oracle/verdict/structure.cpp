@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/oracle/verdict/coverages.h"
+
 namespace strata::oracle::verdict {
 
 Ties ties_number(std::size_t number) noexcept {
@@ -62,7 +64,7 @@ bool is_one_depth(const Fragment& a, const Fragment& b, DepthKey key) noexcept {
 
 void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& ties, bool is_near, std::size_t depth) {
     const TieRule rule = ties.rule;
-    const auto add = [&](const Fragment* f) { items_.push_back({{f->color}, f, depth}); };
+    const auto add = [&](const Fragment* f) { items_.push_back({{.color = f->color, .slack = f->slack}, f, depth}); };
     const bool is_last_first = rule == TieRule::last || (rule == TieRule::first_then_last && !is_near);
     switch (rule) {
         case TieRule::first:
@@ -151,7 +153,11 @@ void StackMaker::apply(const Rule& rule, const PixelList& pixel) {
     recolor(rule);
 }
 
-const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties) {
+const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& given, const Ties& ties) {
+    PixelList pixel = given;
+    for (const Rule& rule : rules)
+        if (given.edge != nullptr && (rule.kind == RuleKind::edges_twice || rule.kind == RuleKind::edges_never))
+            pixel = (rule.kind == RuleKind::edges_twice ? given.edge->twice : given.edge->never).at(given.x, given.y);
     list(rules, pixel, ties);
     for (const Rule& rule : rules) apply(rule, pixel);
     finish(rules);

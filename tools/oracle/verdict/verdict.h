@@ -22,6 +22,7 @@ struct Verdict {
     std::size_t kinds = 0;  // of which so many were tried
 };
 
-[[nodiscard]] Verdict judge(const SceneFragments& scene, const Colors& candidate);
+// Asks the scene for what else may cover its edges where it has to.
+[[nodiscard]] Verdict judge(SceneFragments& scene, const Colors& candidate);
 
 }  // namespace strata::oracle::verdict

@@ -14,7 +14,8 @@ using namespace strata::test;
 namespace {
 
 Verdict judged(const OpenedScene& opened, const oracle::Target& picture) {
-    return judge(opened.fragments(), Colors{picture});
+    SceneFragments fragments = opened.fragments();
+    return judge(fragments, Colors{picture});
 }
 
 std::set<std::string> found(const Verdict& verdict) {

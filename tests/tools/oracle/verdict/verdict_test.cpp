@@ -13,13 +13,11 @@ namespace {
 
 constexpr pipeline::Format formats[] = {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f};
 
-Verdict judged(const SceneFragments& fragments, const oracle::Target& picture) {
-    return judge(fragments, Colors{picture});
-}
+Verdict judged(SceneFragments& fragments, const oracle::Target& picture) { return judge(fragments, Colors{picture}); }
 
 // Pictures of every exact algorithm in every format that are not called right: their names.
 std::vector<std::string> not_right(const OpenedScene& opened) {
-    const SceneFragments fragments = opened.fragments();
+    SceneFragments fragments = opened.fragments();
     std::vector<std::string> names;
     for (const peeling::Algorithm& algorithm : peeling::algorithms())
         for (const pipeline::Format format : formats) {
@@ -43,7 +41,7 @@ TEST_CASE("every exact algorithm's own picture is right by structure, in every f
 TEST_CASE("a pixel changed beyond what rounding may do is wrong, and it alone") {
     const OpenedScene opened{"teapot", 48, 36};
     oracle::Target picture = *opened.picture("dual", pipeline::Format::rgba8);
-    const SceneFragments fragments = opened.fragments();
+    SceneFragments fragments = opened.fragments();
     const Verdict right = judged(fragments, picture);
     CHECK(right.is_right);
     CHECK(right.right.pixels == 48 * 36);
@@ -55,14 +53,15 @@ TEST_CASE("a pixel changed beyond what rounding may do is wrong, and it alone") 
 
 TEST_CASE("a picture blended in the order of submission is wrong") {
     const OpenedScene opened{"teapot", 48, 36};
-    const Verdict found = judged(opened.fragments(), *opened.picture("unsorted", pipeline::Format::rgba8));
+    SceneFragments fragments = opened.fragments();
+    const Verdict found = judged(fragments, *opened.picture("unsorted", pipeline::Format::rgba8));
     CHECK_FALSE(found.is_right);
     CHECK(found.right.wrong_pixels.size() > 50);
 }
 
 TEST_CASE("the hypothesis that is named has the formats that the picture was made with") {
     const OpenedScene opened{"showroom", 64, 64};
-    const SceneFragments fragments = opened.fragments();
+    SceneFragments fragments = opened.fragments();
     const Verdict codes = judged(fragments, *opened.picture("front_to_back", pipeline::Format::rgba8));
     CHECK(codes.right.account.hypothesis.order == Order::under);
     CHECK(codes.right.account.hypothesis.front == End{Storage::unorm8, Source::premultiplied, Rounding::nearest});

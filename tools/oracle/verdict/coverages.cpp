@@ -1,0 +1,239 @@
+#include "tools/oracle/verdict/coverages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/vertices/prepare.h"
+
+namespace strata::oracle::verdict {
+
+PixelList OtherList::at(int x, int y) const noexcept {
+    return {.x = x,
+            .y = y,
+            .visible = visible,
+            .hidden = hidden,
+            .behind = behind,
+            .opaque = opaque,
+            .has_opaque = has_opaque};
+}
+
+namespace {
+
+constexpr std::size_t tie_drawings = 4, moved_drawings = 4;
+constexpr double moved_by = 1.0 / 16;  // pixels
+constexpr std::size_t most_others = 48;
+
+OtherList copy_of(const PixelList& list) {
+    return {.visible = {list.visible.begin(), list.visible.end()},
+            .hidden = {list.hidden.begin(), list.hidden.end()},
+            .behind = list.behind,
+            .opaque = list.opaque,
+            .has_opaque = list.has_opaque};
+}
+
+// Every pixel of a drawing.
+std::vector<OtherList> lists_of(const SceneFragments& scene) {
+    std::vector<OtherList> lists(static_cast<std::size_t>(scene.width()) * static_cast<std::size_t>(scene.height()));
+    scene.for_each_tile([&](const TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = scene.at(tile, p);
+            lists[static_cast<std::size_t>(list.y * scene.width() + list.x)] = copy_of(list);
+        }
+    });
+    return lists;
+}
+
+// Which fragments cover a pixel, whether they are visible or not, and the surface behind them.
+bool is_covered_alike(const OtherList& a, const OtherList& b) {
+    const auto same = [](const std::vector<Fragment>& x, const std::vector<Fragment>& y) {
+        return std::ranges::equal(x, y, {}, &Fragment::primitive, &Fragment::primitive);
+    };
+    return same(a.visible, b.visible) && same(a.hidden, b.hidden) && a.has_opaque == b.has_opaque &&
+           (a.behind == b.behind || !a.has_opaque ||
+            std::fabs(a.behind[0] - b.behind[0]) + std::fabs(a.behind[1] - b.behind[1]) +
+                    std::fabs(a.behind[2] - b.behind[2]) <
+                0.02f);
+}
+
+// A drawing moved to the right and up by so many pixels.
+pipeline::VertexAlteration moved(double right, double up, int width, int height) {
+    const auto x = static_cast<float>(2 * right / width), y = static_cast<float>(2 * up / height);
+    return {.vertices =
+                [x, y](rasterizer::TriangleSoup& soup) {
+                    for (rasterizer::ClipVertex& v : soup.vertices) {
+                        v.x += x * v.w;
+                        v.y += y * v.w;
+                    }
+                },
+            .corners = {}};
+}
+
+// Fragments that move together: of one instance, facing one way.
+using Cluster = std::pair<std::uint32_t, bool>;
+Cluster cluster_of(const Fragment& f) { return {f.instance, f.is_front_facing}; }
+
+// The fragments of a list, visible and hidden, by cluster.
+std::map<Cluster, std::vector<Fragment>> clusters_of(const OtherList& list) {
+    std::map<Cluster, std::vector<Fragment>> clusters;
+    for (const auto* part : {&list.visible, &list.hidden})
+        for (const Fragment& f : *part) clusters[cluster_of(f)].push_back(f);
+    return clusters;
+}
+
+bool has_same_triangles(const std::vector<Fragment>& a, const std::vector<Fragment>& b) {
+    return std::ranges::equal(a, b, {}, &Fragment::primitive, &Fragment::primitive);
+}
+
+// The drawings of one pixel, the given one first, put together.
+class EdgeMaker {
+  public:
+    explicit EdgeMaker(std::vector<const OtherList*> drawings) : drawings_{std::move(drawings)} {}
+
+    [[nodiscard]] EdgePixel make() {
+        EdgePixel edge;
+        find_surfaces();
+        find_clusters();
+        std::vector<Fragment> chosen;
+        combine(0, chosen, edge.others);
+        make_ties(edge);
+        return edge;
+    }
+
+  private:
+    [[nodiscard]] const OtherList& given() const { return *drawings_[0]; }
+
+    // As the drawing as given has the fragment; else as it was moved, with what that may be off by.
+    [[nodiscard]] Fragment told(const Fragment& f) const {
+        Fragment best = f;
+        float spread = 1.0f / 255;
+        for (const OtherList* drawing : drawings_)
+            for (const auto* part : {&drawing->visible, &drawing->hidden})
+                for (const Fragment& other : *part) {
+                    if (other.primitive != f.primitive) continue;
+                    if (drawing == drawings_[0]) return other;
+                    for (std::size_t c = 0; c < 4; ++c)
+                        spread = std::max(spread, std::fabs(other.color[c] - f.color[c]));
+                }
+        best.slack = spread;
+        return best;
+    }
+
+    void find_surfaces() {
+        for (const OtherList* drawing : drawings_) {
+            const bool is_there = std::ranges::any_of(surfaces_, [&](const OtherList* s) {
+                return s->has_opaque == drawing->has_opaque && s->behind == drawing->behind;
+            });
+            if (!is_there && surfaces_.size() < 3) surfaces_.push_back(drawing);
+        }
+    }
+
+    void find_clusters() {
+        std::map<Cluster, std::vector<std::vector<Fragment>>> found;
+        for (const OtherList* drawing : drawings_)
+            for (auto& [cluster, fragments] : clusters_of(*drawing)) found[cluster];
+        for (const OtherList* drawing : drawings_) {
+            auto clusters = clusters_of(*drawing);
+            for (auto& [cluster, sets] : found) {
+                std::vector<Fragment> own = std::move(clusters[cluster]);
+                std::ranges::sort(own, {}, &Fragment::primitive);
+                if (std::ranges::none_of(sets, [&](const auto& set) { return has_same_triangles(set, own); }))
+                    sets.push_back(std::move(own));
+            }
+        }
+        for (auto& [cluster, sets] : found) sets_.push_back(std::move(sets));
+    }
+
+    void combine(std::size_t cluster, std::vector<Fragment>& chosen, std::vector<OtherList>& others) const {
+        if (others.size() >= most_others) return;
+        if (cluster == sets_.size()) {
+            for (const OtherList* surface : surfaces_) {
+                OtherList made = list_of(chosen, *surface);
+                if (!is_covered_alike(made, given()) || made.behind != given().behind)
+                    others.push_back(std::move(made));
+            }
+            return;
+        }
+        for (const std::vector<Fragment>& set : sets_[cluster]) {
+            chosen.insert(chosen.end(), set.begin(), set.end());
+            combine(cluster + 1, chosen, others);
+            chosen.resize(chosen.size() - set.size());
+        }
+    }
+
+    [[nodiscard]] OtherList list_of(const std::vector<Fragment>& fragments, const OtherList& surface) const {
+        OtherList list{.behind = surface.behind, .opaque = surface.opaque, .has_opaque = surface.has_opaque};
+        for (const Fragment& f : fragments) {
+            const Fragment own = told(f);
+            (own.code < list.opaque ? list.visible : list.hidden).push_back(own);
+        }
+        for (auto* part : {&list.visible, &list.hidden})
+            std::ranges::sort(*part, {}, [](const Fragment& f) { return std::pair{f.code, f.primitive}; });
+        return list;
+    }
+
+    // All triangles that any rule for ties draws at the centre, and those alone that all of them draw.
+    void make_ties(EdgePixel& edge) const {
+        std::map<std::uint32_t, std::size_t> times;
+        std::vector<Fragment> twice, never;
+        for (std::size_t d = 0; d < tie_drawings; ++d)
+            for (const auto* part : {&drawings_[d]->visible, &drawings_[d]->hidden})
+                for (const Fragment& f : *part)
+                    if (++times[f.primitive] == 1) twice.push_back(f);
+        for (const Fragment& f : twice)
+            if (times[f.primitive] == tie_drawings) never.push_back(f);
+        edge.has_centre_on_edge = never.size() != twice.size();
+        edge.twice = list_of(twice, given());
+        edge.never = list_of(never, given());
+        // Ties lie exactly on the edge: no colour is off.
+        for (OtherList* list : {&edge.twice, &edge.never})
+            for (auto* part : {&list->visible, &list->hidden})
+                for (Fragment& f : *part) f.slack = 0;
+    }
+
+    std::vector<const OtherList*> drawings_;
+    std::vector<const OtherList*> surfaces_{};
+    std::vector<std::vector<std::vector<Fragment>>> sets_{};  // of each cluster
+};
+
+}  // namespace
+
+Coverages::Coverages(const RunInput& input, const SceneFragments& given) : width_{given.width()} {
+    constexpr std::uint64_t bytes = std::uint64_t{1} << 30;
+    std::vector<std::vector<OtherList>> drawings;
+    drawings.push_back(lists_of(given));
+    using rasterizer::TieRule;
+    for (const TieRule rule : {TieRule::top_left, TieRule::top_right, TieRule::bottom_left, TieRule::bottom_right}) {
+        if (rule == input.profile.raster.tie_rule) continue;
+        pipeline::DeviceProfile profile = input.profile;
+        profile.raster.tie_rule = rule;
+        drawings.push_back(lists_of(SceneFragments{{input.list, input.view, profile, input.options}, bytes}));
+    }
+    for (const double right : {moved_by, -moved_by})
+        for (const double up : {moved_by, -moved_by}) {
+            const pipeline::VertexAlteration change = moved(right, up, input.options.width, input.options.height);
+            peeling::RenderOptions options = input.options;
+            options.vertex_alteration = &change;
+            drawings.push_back(lists_of(SceneFragments{{input.list, input.view, input.profile, options}, bytes}));
+        }
+    number_.assign(drawings[0].size(), 0);
+    for (std::size_t p = 0; p < number_.size(); ++p) {
+        std::vector<const OtherList*> of_pixel;
+        for (const auto& drawing : drawings) of_pixel.push_back(&drawing[p]);
+        const bool is_edge = std::ranges::any_of(
+            of_pixel, [&](const OtherList* list) { return !is_covered_alike(*list, *of_pixel[0]); });
+        if (!is_edge) continue;
+        pixels_.push_back(EdgeMaker{std::move(of_pixel)}.make());
+        number_[p] = static_cast<std::uint32_t>(pixels_.size());
+    }
+}
+
+const EdgePixel* Coverages::at(int x, int y) const noexcept {
+    const std::uint32_t number =
+        number_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+    return number == 0 ? nullptr : &pixels_[number - 1];
+}
+
+}  // namespace strata::oracle::verdict
