@@ -11,17 +11,6 @@ namespace {
 constexpr double single_error = 0x1p-22;  // of a blend's terms (composite.h, Numbers)
 constexpr double srgb_error = 0x1p-21;    // of an encoding in binary32
 
-// Exact for |x| < 2^51: binary64 has no finer numbers beyond 2^52.
-double nearest_whole(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
-double floor_of(double x) noexcept {
-    const double whole = nearest_whole(x);
-    return whole > x ? whole - 1 : whole;
-}
-double ceil_of(double x) noexcept {
-    const double whole = nearest_whole(x);
-    return whole < x ? whole + 1 : whole;
-}
-
 double scale_of(Storage storage) noexcept {
     switch (storage) {
         case Storage::unorm8: return 255;
@@ -84,22 +73,10 @@ Interval clamped(Interval x) noexcept {
     return {std::min(std::max(x.low, 0.0), 1.0), std::min(std::max(x.high, 0.0), 1.0)};
 }
 
-}  // namespace
-
-Interval Keeper::kept(Interval exact, double magnitude) const noexcept {
-    if (!has_codes) return exact.widened(magnitude * relative + least);
-    double low = below(exact.low * scale), high = above(exact.high * scale);
-    low = cuts ? floor_of(low + cut_low) : snaps ? ceil_of(low - minus) : low - minus;
-    high = cuts ? floor_of(high + cut_high) : snaps ? floor_of(high + plus) : high + plus;
-    return {std::min(std::max(low, 0.0), scale) * inverse, std::min(std::max(high, 0.0), scale) * inverse};
-}
-
-namespace {
-
 // A code's value: halves up, as `stored` has it. Both ends of the interval are the same code if those of `exact` are.
 Interval stored_up(const Keeper& keeper, Interval exact) noexcept {
     const auto code = [&](double v) {
-        return std::min(std::max(floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) * keeper.inverse;
+        return std::min(std::max(Keeper::floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) * keeper.inverse;
     };
     return {code(exact.low), code(exact.high)};
 }

@@ -48,7 +48,33 @@ struct Keeper {
     bool cuts = false;               // whole codes below the exact result, moved by the two numbers above
     double relative = 0, least = 0;  // floats
 
-    [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept;
+    [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
+        if (!has_codes) return exact.widened(magnitude * relative + least);
+        double low = below(exact.low * scale), high = above(exact.high * scale);
+        if (cuts) {
+            low = floor_of(low + cut_low);
+            high = floor_of(high + cut_high);
+        } else {
+            low -= minus;
+            high += plus;
+            if (snaps) {
+                low = ceil_of(low);
+                high = floor_of(high);
+            }
+        }
+        return {std::min(std::max(low, 0.0), scale) * inverse, std::min(std::max(high, 0.0), scale) * inverse};
+    }
+
+    // Exact for |x| < 2^51: binary64 has no finer numbers beyond 2^52.
+    [[nodiscard]] static double nearest_whole(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
+    [[nodiscard]] static double floor_of(double x) noexcept {
+        const double whole = nearest_whole(x);
+        return whole - (whole > x ? 1.0 : 0.0);
+    }
+    [[nodiscard]] static double ceil_of(double x) noexcept {
+        const double whole = nearest_whole(x);
+        return whole + (whole < x ? 1.0 : 0.0);
+    }
 };
 
 class Compositor {

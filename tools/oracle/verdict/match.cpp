@@ -174,11 +174,13 @@ double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*
 
 }  // namespace
 
-std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
-                                  Wrong allowed) {
+std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample, Wrong allowed,
+                                  const std::optional<Hypothesis>& likely) {
     const std::vector<WeightedPixel> made = weighted(rules, sample);
     std::vector<const WeightedPixel*> pixels;
     for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
+    constexpr double any_bits = std::numeric_limits<double>::max();
+    if (likely && cost_of(*likely, pixels, Wrong::none, any_bits).wrong == 0) return likely;
     // The first hypothesis that costs less than `most`, or the one that costs the least.
     const auto choose = [&](double most, auto is_enough) {
         double best = most;
@@ -196,7 +198,7 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
         }
         return std::pair{found, best};
     };
-    const auto [least, bits] = choose(std::numeric_limits<double>::max(), [](double) { return false; });
+    const auto [least, bits] = choose(any_bits, [](double) { return false; });
     if (!least || allowed == Wrong::some) return least;
     // Of those that tell it nearly as well the plainest is believed: families and their members stand in that order.
     return choose(1.1 * bits + 64, [](double) { return true; }).first;
@@ -330,8 +332,9 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
 }
 
 std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
-                                   const Colors& candidate, Sample& sample) {
-    while (const auto hypothesis = best_of(all, rules, sample, Wrong::none)) {
+                                   const Colors& candidate, Sample& sample,
+                                   const std::optional<Hypothesis>& likely) {
+    while (const auto hypothesis = best_of(all, rules, sample, Wrong::none, likely)) {
         Sample examples{scene.setting()};
         Checked found = check_all(scene, candidate, {rules, *hypothesis}, examples);
         if (found.is_whole()) return found;

@@ -44,7 +44,7 @@ struct StackedPixel {
 // The hypothesis that tells the sample in the fewest bits (pricing.h); of `none`, one that holds for all of it.
 enum class Wrong : std::uint8_t { some, none };
 [[nodiscard]] std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
-                                                Wrong allowed);
+                                                Wrong allowed, const std::optional<Hypothesis>& likely = {});
 
 // All pixels of a picture by one account.
 struct Checked {
@@ -66,8 +66,10 @@ struct Checked {
 [[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
                                 Sample& examples);
 
-// The best account of the whole picture with these rules, if one holds for every pixel; pixels that speak against one are added to the sample.
+// The best account of the whole picture with these rules, if one holds for every pixel: under `likely`, if that holds. Pixels that speak against one are
+// added to the sample.
 [[nodiscard]] std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules,
-                                                 const SceneFragments& scene, const Colors& candidate, Sample& sample);
+                                                 const SceneFragments& scene, const Colors& candidate, Sample& sample,
+                                                 const std::optional<Hypothesis>& likely = {});
 
 }  // namespace strata::oracle::verdict

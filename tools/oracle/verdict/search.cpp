@@ -96,7 +96,7 @@ double bits_of(const Checked& checked) {
 
 // Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells enough.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
-                           const Families& definite, const Sample& sample) {
+                           const Families& definite, const Checked& closest, const Sample& sample) {
     constexpr std::size_t most_told = 12;
     const auto is_alike = [](const Rules& a, const Rules& b) {
         return std::ranges::equal(a, b,
@@ -107,7 +107,8 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         if (found.size() == most_told) break;
         if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
         Sample own = sample;
-        auto one = account_for(definite, rules, scene, candidate, own);
+        const Hypothesis& likely = (found.empty() ? closest : found.back()).account.hypothesis;
+        auto one = account_for(definite, rules, scene, candidate, own, likely);
         // A rule that changes nothing that tells is no explanation.
         if (one && one->changed > one->undecided) found.push_back(*std::move(one));
     }
@@ -177,7 +178,7 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
     if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
     const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts, scene.setting()) : singles(rules);
     std::vector<Checked> found =
-        whole(survivors(all, parts, widest(definite), scene.setting()), scene, candidate, definite, sample);
+        whole(survivors(all, parts, widest(definite), scene.setting()), scene, candidate, definite, closest, sample);
     drop_roomy(found, closest);
     return found;
 }
