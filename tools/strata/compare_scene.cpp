@@ -7,6 +7,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/verdict/report.h"
+#include "tools/oracle/verdict/sample.h"
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/render/run.h"
@@ -57,7 +58,7 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const Session session = open_at_size(question, colors);
     const peeling::RenderOptions& options = question.run.render;
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
-                                                    options.fragment_memory};
+                                              options.fragment_memory};
     const oracle::verdict::Verdict found = oracle::verdict::judge(fragments, oracle::verdict::Colors{colors});
     const pipeline::DrawList& list = session.scene.list;
     print(question.json ? to_json(found, list) : with_painted_verdicts(to_text(found, list)));

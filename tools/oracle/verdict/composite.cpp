@@ -44,13 +44,13 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
     const double error = operands_are_codes ? 0x1p-30 : k.scale * single_error;
     switch (rounding) {
         case Rounding::nearest: k.minus = k.plus = 0.5 + error; break;
-        case Rounding::products: k.minus = k.plus = 1 + 1.0 / 64 + error; break;  // blend_unorm8.h: product()
+        case Rounding::products: k.minus = k.plus = 0.5 + 1.0 / 64 + error; break;  // blend_unorm8.h: product()
         case Rounding::held:
             k.minus = k.plus = 0.5 + error;
             k.snaps = false;
             break;
         case Rounding::any:
-            k.minus = k.plus = 1 + 1.0 / 64 + error;
+            k.minus = k.plus = 2 * (0.5 + 1.0 / 64 + error);  // as much as two products
             k.snaps = false;
             break;
         case Rounding::cut:
@@ -106,7 +106,7 @@ Compositor::Means Compositor::means_of(const End& end, double slack) {
     // UNDER multiplies three codes where its sources are straight; and what is let through may be kept as coverage, which is cut the other way.
     const bool has_three = end.source == Source::stored || end.source == Source::stored_either_way;
     m.under = keeper(end.storage, end.rounding, has_stored_source(end.source) && !has_three);
-    if (m.weight.cuts) m.weight = keeper(end.storage, Rounding::products, false), m.weight.minus = m.weight.plus = 1;
+    if (m.weight.cuts) m.weight = keeper(end.storage, Rounding::nearest, false), m.weight.minus = m.weight.plus = 1;
     return m;
 }
 
@@ -168,7 +168,8 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
             Interval premultiplied = o.is_premultiplied ? o.color[c] : o.color[c] * o.alpha;
             // A product that may be stored as a layer on the way.
             if (may_be_rounded) premultiplied = means.source.kept(premultiplied, premultiplied.magnitude());
-            const Interval added = through * premultiplied;
+            Interval added = through * premultiplied;
+            if (means.end.rounding == Rounding::products) added = means.under.kept(added, added.magnitude());
             sum[c] = kept_by(means.under, sum[c] + added, sum[c].magnitude() + added.magnitude(), is_linear);
         }
         // It may be kept as coverage, 1 - t, whose error is one of 1.
@@ -184,7 +185,11 @@ void Compositor::over(const Means& means, std::span<const Layer> near_to_far, bo
         for (std::size_t c = 0; c < 4; ++c) {
             const double magnitude = o.color[c].magnitude() + onto[c].magnitude();
             Interval exact;
-            if (o.is_premultiplied && c < 3) {
+            if (means.end.rounding == Rounding::products) {
+                const Interval product = o.alpha * o.color[c], behind = rest_of(o.alpha) * onto[c];
+                exact = (o.is_premultiplied && c < 3 ? o.color[c] : means.blend.kept(product, 1)) +
+                        means.blend.kept(behind, 1);
+            } else if (o.is_premultiplied && c < 3) {
                 exact = o.color[c] + rest_of(o.alpha) * onto[c];
             } else {
                 exact = mixed(o.alpha, o.color[c], onto[c]);

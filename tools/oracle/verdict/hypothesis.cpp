@@ -87,6 +87,7 @@ std::vector<End> ends(Storage storage) {
             {storage, premultiplied_either_way, R::cut},
             {storage, unrounded, R::cut},
             {storage, stored_either_way, R::products},
+            {storage, premultiplied_either_way, R::products},
             {storage, unrounded, R::held},
             {storage, any, R::any}};
 }
@@ -104,7 +105,8 @@ std::vector<End> ends_of_pairs(Storage storage) {
             {storage, unrounded, R::cut},
             {storage, stored, R::cut},
             {storage, premultiplied_either_way, R::cut},
-            {storage, stored_either_way, R::products}};
+            {storage, stored_either_way, R::products},
+            {storage, premultiplied_either_way, R::products}};
 }
 
 }  // namespace

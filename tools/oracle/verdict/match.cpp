@@ -204,6 +204,31 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     return choose(1.1 * bits + 64, [](double) { return true; }).first;
 }
 
+Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample) {
+    constexpr double much_less = 0.8;
+    constexpr std::size_t few = 64;
+    StackMaker maker{sample.setting()};
+    std::vector<Stack> stacks;
+    const std::size_t step = sample.pixels().size() / few + 1;
+    for (std::size_t i = 0; i < sample.pixels().size(); i += step)
+        stacks.push_back(maker.right(sample.pixels()[i].list, {}));
+    const auto open_by = [&](const Hypothesis& h) {
+        const Compositor compositor{h};
+        double bits = 0;
+        for (const Stack& stack : stacks) bits += Pricing{h.result.storage}.of(compositor.reach(stack));
+        return bits;
+    };
+    const double most = much_less * open_by(wide);
+    Families left;
+    for (const HypothesisFamily& family : all) {
+        HypothesisFamily own{.widest = family.widest};
+        std::ranges::copy_if(family.members, std::back_inserter(own.members),
+                             [&](const Hypothesis& h) { return open_by(h) <= most; });
+        if (!own.members.empty()) left.push_back(std::move(own));
+    }
+    return left;
+}
+
 namespace {
 
 double exact_over(const Layer& layer, std::size_t c, double behind) noexcept {
@@ -332,8 +357,7 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
 }
 
 std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
-                                   const Colors& candidate, Sample& sample,
-                                   const std::optional<Hypothesis>& likely) {
+                                   const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely) {
     while (const auto hypothesis = best_of(all, rules, sample, Wrong::none, likely)) {
         Sample examples{scene.setting()};
         Checked found = check_all(scene, candidate, {rules, *hypothesis}, examples);

@@ -5,6 +5,7 @@
 #pragma once
 #include <optional>
 
+#include "tools/oracle/verdict/account.h"
 #include "tools/oracle/verdict/sample.h"
 #include "tools/oracle/verdict/structure.h"
 
@@ -19,12 +20,6 @@ struct TiesFound {
     Ties ties{};       // the first that holds
     PixelList list{};  // what covers the pixel: at an edge perhaps not what was given
     bool at_edge = false;
-};
-
-// A structure and how it is rounded; no rules: the right structure.
-struct Account {
-    std::vector<Rule> rules{};  // applied one after the other
-    Hypothesis hypothesis{};
 };
 
 // Which rules for ties bring the pixel to the candidate's value; all, where it has no ties.
@@ -46,22 +41,9 @@ enum class Wrong : std::uint8_t { some, none };
 [[nodiscard]] std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
                                                 Wrong allowed, const std::optional<Hypothesis>& likely = {});
 
-// All pixels of a picture by one account.
-struct Checked {
-    Account account{};
-    std::uint64_t pixels = 0, covered = 0;  // covered: by a visible fragment
-    Ties ties{};
-    bool has_one_tie_rule = true;  // false: fragments at one depth come in an order that changes from pixel to pixel
-    std::uint64_t tied = 0;        // pixels whose ties show
-    std::uint64_t at_edges = 0;    // pixels that are covered as a rasterizer may that snaps otherwise
-    std::uint64_t changed = 0;     // pixels whose structure is not the right one
-    std::uint64_t undecided = 0;   // of these, pixels that the right structure may leave, too
-    // Codes (of floats: parts of 255) by which a pixel is off the structure's exact result, and could be.
-    double observed = 0, possible = 0;
-    double bits = 0;                            // of pixels that are not wrong
-    std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
-    [[nodiscard]] bool is_whole() const noexcept { return wrong_pixels.empty(); }
-};
+// Those that leave less open than `wide` on the right structure of the sample.
+[[nodiscard]] Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample);
+
 // `examples` gets some of the wrong pixels.
 [[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
                                 Sample& examples);

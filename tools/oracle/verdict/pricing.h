@@ -4,6 +4,7 @@
 //          what makes it wrong is a mistake, which has a reason of its own, and no port is to be accused for a narrow account's sake.
 //          That is the principle of the shortest description: one that leaves much open everywhere does not excuse a few wrong pixels, and
 //          one that leaves nothing open does not accuse a port that rounds in its own way.
+// Numbers  Bits are whole multiples of 2^-16, so that threads may add them up in any order.
 // Source   J. Rissanen, 1978, Modeling by shortest data description.
 #pragma once
 #include <cmath>
@@ -18,7 +19,7 @@ class Pricing {
     [[nodiscard]] double of(const Reach& reach) const noexcept {
         double values = 1;  // of three channels
         for (std::size_t c = 0; c < 3; ++c) values *= 1 + (reach[c].high - reach[c].low) / step(reach[c].magnitude());
-        return std::log2(values);
+        return std::nearbyint(std::log2(values) * 0x1p16) * 0x1p-16;
     }
     [[nodiscard]] double of_wrong() const noexcept { return 4 * 3 * digits(); }
     static constexpr double of_edge = 6;  // to say that and how a pixel at an edge is covered otherwise

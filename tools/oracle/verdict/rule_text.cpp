@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "pipeline/vertices/draw_list.h"
 #include "tools/oracle/verdict/rules.h"
+#include "tools/oracle/verdict/setting.h"
 
 namespace strata::oracle::verdict {
 
@@ -113,10 +115,11 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::all_doubled: return "every layer is composited twice";
         case RuleKind::reversed: return "layers are composited in the reverse order";
         case RuleKind::as_submitted:
-            return fmt::format("layers are composited in the order of drawing ({}): nothing is sorted",
-                               describe(drawing_order(n)));
+            return fmt::format("layers are composited in the order of {}: nothing is sorted",
+                               n == 0 ? "submission" : fmt::format("drawing ({})", describe(drawing_order(n))));
         case RuleKind::as_submitted_reversed: return "layers are composited in the reverse order of submission";
         case RuleKind::by_instance:
+            if (n == 0) return "instances are composited as they are submitted, each one sorted by itself";
             return fmt::format("instances are composited one after the other ({}), each one sorted by itself",
                                describe({static_cast<InstanceOrder>(n), FaceOrder::listed}));
         case RuleKind::faces_apart: return "all back faces are composited behind all front faces";

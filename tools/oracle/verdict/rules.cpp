@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tools/oracle/verdict/coverages.h"
+#include "tools/oracle/verdict/sample.h"
 
 namespace strata::oracle::verdict {
 

@@ -6,9 +6,15 @@
 #include <vector>
 
 #include "tools/oracle/verdict/rule.h"
-#include "tools/oracle/verdict/sample.h"
+
+namespace strata::pipeline {
+struct DrawList;
+}
 
 namespace strata::oracle::verdict {
+
+class Sample;
+class SceneFragments;
 
 // What a scene has, for the rules that can be told apart in it.
 struct SceneFacts {

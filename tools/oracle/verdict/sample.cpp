@@ -36,6 +36,13 @@ void Sample::sort() {
     std::ranges::sort(pixels_, {}, [](const SampledPixel& p) { return std::pair{p.list.y, p.list.x}; });
 }
 
+Sample Sample::thinned(std::size_t most) const {
+    Sample some{*setting_};
+    const std::size_t step = std::max<std::size_t>(pixels_.size() / std::max<std::size_t>(most, 1), 1);
+    for (std::size_t i = 0; i < pixels_.size(); i += step) some.add(pixels_[i].list, pixels_[i].value);
+    return some;
+}
+
 namespace {
 
 // A number in [0, 1) that looks random, of a place alone.

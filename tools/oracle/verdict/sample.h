@@ -43,6 +43,8 @@ class Sample {
     [[nodiscard]] const std::deque<SampledPixel>& pixels() const noexcept { return pixels_; }
     // In rows from the top: threads add them in no order.
     void sort();
+    // About `most` of them, evenly spread.
+    [[nodiscard]] Sample thinned(std::size_t most) const;
     [[nodiscard]] const Setting& setting() const noexcept { return *setting_; }
 
   private:

@@ -1,6 +1,7 @@
 #include "tools/oracle/verdict/search.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "rasterizer/base/parallel.h"
 #include "tools/oracle/verdict/pricing.h"
@@ -94,9 +95,66 @@ double bits_of(const Checked& checked) {
            static_cast<double>(checked.wrong_pixels.size()) * pricing.of_wrong();
 }
 
+// The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the others wrong: what makes
+// these wrong is no rounding.
+Families possible(const Families& all, const Parted& parts, const Hypothesis& closest) {
+    const Pricing pricing{closest.result.storage};
+    std::vector<const PartedPixel*> pixels;
+    for (const PartedPixel& pixel : parts.right) pixels.push_back(&pixel);
+    const std::size_t most_missed = pixels.size() / 50;
+    double most_bits = std::numeric_limits<double>::max();
+    // Nothing if it is none of them.
+    const auto bits_of_right = [&](const Hypothesis& h) -> std::optional<double> {
+        const Compositor compositor{h};
+        double bits = 0;
+        std::size_t missed = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            if (const Stack* const stack = reaching(compositor, pixels[i]->right)) {
+                bits += pricing.of(compositor.reach(*stack));
+            } else {
+                if (++missed > most_missed) return std::nullopt;
+                std::swap(pixels[i], pixels[i / 2]);  // it may well tell against the next one, too
+            }
+            if (bits > most_bits) return std::nullopt;
+        }
+        return bits;
+    };
+    most_bits = bits_of_right(closest).value_or(0) + pricing.of_wrong() * static_cast<double>(parts.wrong.size());
+    Families left;
+    for (const HypothesisFamily& family : all) {
+        HypothesisFamily own{.widest = family.widest};
+        for (const Hypothesis& h : family.members)
+            if (bits_of_right(h)) own.members.push_back(h);
+        if (!own.members.empty()) left.push_back(std::move(own));
+    }
+    return left;
+}
+
+// Of these, those that hold for some of the wrong pixels under the rules.
+Families possible(const Families& all, const Rules& rules, const Parted& parts, const Setting& setting) {
+    constexpr std::size_t most_looked_at = 8;
+    StackMaker maker{setting};
+    std::vector<StackedPixel> pixels;
+    const std::size_t step = parts.wrong.size() / most_looked_at + 1;
+    for (std::size_t i = 0; i < parts.wrong.size(); i += step)
+        pixels.push_back(stacked(rules, *parts.wrong[i].sampled, maker));
+    Families left;
+    for (const HypothesisFamily& family : all) {
+        HypothesisFamily own{.widest = family.widest};
+        std::ranges::copy_if(family.members, std::back_inserter(own.members), [&](const Hypothesis& h) {
+            const Compositor compositor{h};
+            return std::ranges::all_of(pixels,
+                                       [&](const StackedPixel& p) { return reaching(compositor, p) != nullptr; });
+        });
+        if (!own.members.empty()) left.push_back(std::move(own));
+    }
+    return left;
+}
+
 // Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells enough.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
-                           const Families& definite, const Checked& closest, const Sample& sample) {
+                           const Families& definite, const Checked& closest, const Parted& parts,
+                           const Sample& sample) {
     constexpr std::size_t most_told = 12;
     const auto is_alike = [](const Rules& a, const Rules& b) {
         return std::ranges::equal(a, b,
@@ -106,9 +164,11 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
     for (const Rules& rules : all) {
         if (found.size() == most_told) break;
         if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
+        const Families own_families = possible(definite, rules, parts, scene.setting());
+        if (own_families.empty()) continue;
         Sample own = sample;
         const Hypothesis& likely = (found.empty() ? closest : found.back()).account.hypothesis;
-        auto one = account_for(definite, rules, scene, candidate, own, likely);
+        auto one = account_for(own_families, rules, scene, candidate, own, likely);
         // A rule that changes nothing that tells is no explanation.
         if (one && one->changed > one->undecided) found.push_back(*std::move(one));
     }
@@ -177,8 +237,9 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
     const Parted parts = parted(sample, closest.account.hypothesis);
     if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
     const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts, scene.setting()) : singles(rules);
+    const Families left = possible(definite, parts, closest.account.hypothesis);
     std::vector<Checked> found =
-        whole(survivors(all, parts, widest(definite), scene.setting()), scene, candidate, definite, closest, sample);
+        whole(survivors(all, parts, widest(left), scene.setting()), scene, candidate, left, closest, parts, sample);
     drop_roomy(found, closest);
     return found;
 }

@@ -10,12 +10,6 @@
 
 namespace strata::oracle::verdict {
 
-struct Lead {
-    std::vector<Rule> rules{};
-    std::uint64_t explained = 0, of = 0;        // wrong pixels, of those that were looked at
-    std::uint64_t contradicted = 0, right = 0;  // right pixels that speak against it, of those that were looked at
-};
-
 // Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the first is the best.
 // `definite`: the hypotheses under which they have to hold; `closest`: the right structure's account that has the fewest wrong pixels;
 // `sample`: pixels with some of the wrong ones among them.

@@ -4,6 +4,7 @@
 
 #include "rasterizer/base/parallel.h"
 #include "tools/oracle/verdict/pricing.h"
+#include "tools/oracle/verdict/search.h"
 
 namespace strata::oracle::verdict {
 
@@ -55,27 +56,62 @@ void find_alike(const SceneFragments& scene, const Colors& candidate, Verdict& v
 
 namespace {
 
-// A right account that leaves little open needs no other one beside it: bits of a covered pixel, and codes (of floats: parts of 255).
+// A right account that leaves little open needs no other one beside it: a code, of floats as much.
 bool leaves_little_open(const Checked& right) {
-    constexpr double few_bits = 1, few_codes = 1;
-    return right.bits <= few_bits * static_cast<double>(right.covered) || right.possible <= few_codes;
+    const bool is_in_codes = has_codes(right.account.hypothesis.result.storage);
+    return right.possible <= 1 || (is_in_codes && right.observed <= 1);
 }
 
-// What explains the picture in much fewer bits than a right account that leaves much open: then the room that it leaves is no evidence.
-std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
-                                 const Checked& right, const Sample& sample) {
-    if (leaves_little_open(right)) return {};
-    // Deep pixels tell the most, and are enough.
-    constexpr std::size_t most = 512;
+// The pixels that tell the most: those with the most layers.
+Sample deepest(const Sample& sample, std::size_t most) {
     std::vector<const SampledPixel*> deep;
     for (const SampledPixel& pixel : sample.pixels()) deep.push_back(&pixel);
     std::ranges::stable_sort(deep, std::ranges::greater{},
                              [](const SampledPixel* p) { return p->list.visible.size(); });
-    Sample deepest{scene.setting()};
-    for (std::size_t i = 0; i < std::min(most, deep.size()); ++i) deepest.add(deep[i]->list, deep[i]->value);
-    std::vector<Checked> better = search(scene, candidate, all.definite, right, deepest, 1);
-    std::erase_if(better, [&](const Checked& c) { return c.bits > 0.5 * right.bits; });
+    Sample some{sample.setting()};
+    for (std::size_t i = 0; i < std::min(most, deep.size()); ++i) some.add(deep[i]->list, deep[i]->value);
+    some.sort();
+    return some;
+}
+
+// What explains the picture in fewer bits than a right account that leaves much open: then the room that it leaves is no evidence.
+std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
+                                 const Checked& right, const Sample& even) {
+    constexpr std::size_t most = 512;
+    constexpr double share = 0.95, least_bits = 64;
+    if (leaves_little_open(right)) return {};
+    const Sample deep = deepest(even, most);
+    const Families narrow = narrower(all.definite, right.account.hypothesis, deep);
+    const auto closest = best_of(narrow, {}, deep, Wrong::some);
+    if (!closest) return {};
+    Checked to_beat = right;
+    to_beat.account.hypothesis = *closest;
+    std::vector<Checked> better = search(scene, candidate, narrow, to_beat, deep, 1);
+    std::erase_if(better, [&](const Checked& c) { return c.bits + least_bits > share * right.bits; });
     return better;
+}
+
+// The right structure's account that tells the picture in the fewest bits, wrong pixels and all. A hypothesis is chosen by some pixels, and again with some of
+// those that turn out wrong.
+Checked closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
+                        const Sample& even, Sample& examples) {
+    constexpr std::size_t few_sampled = 300;
+    constexpr int most_tries = 4;
+    const Storage storage = storage_of(candidate.code());
+    Sample sample = even.thinned(few_sampled);
+    std::optional<Checked> best;
+    for (int i = 0; i < most_tries; ++i) {
+        const Hypothesis next = *best_of(definite, {}, sample, Wrong::some);
+        if (best && next == best->account.hypothesis) break;
+        Sample wrong{scene.setting()};
+        Checked found = check_all(scene, candidate, {{}, next}, wrong);
+        const bool is_better = !best || bits_of(found, storage) < bits_of(*best, storage);
+        for (const SampledPixel& pixel : wrong.pixels()) sample.add(pixel.list, pixel.value);
+        if (is_better) examples = std::move(wrong);
+        if (is_better) best = std::move(found);
+        if (best->is_whole()) break;
+    }
+    return *std::move(best);
 }
 
 }  // namespace
@@ -103,12 +139,14 @@ Verdict judge(SceneFragments& scene, const Colors& candidate) {
     const Sample even = sampled(scene, candidate, most_sampled);
     verdict.facts = facts_of(scene, even);
     Sample sample = even, examples{scene.setting()};
-    verdict.right = check_all(scene, candidate, {{}, *best_of(all.definite, {}, even, Wrong::some)}, examples);
+    verdict.right = closest_account(scene, candidate, all.definite, even, examples);
     if (verdict.right.is_whole()) return is_right(std::move(verdict.right), even);
     // What leaves more open than the closest account has to beat it.
     for (const Families* some : {&all.definite, &all.coarse, &all.loose}) {
         auto right = account_for(*some, {}, scene, candidate, sample);
-        if (right && right->bits <= bits_of(verdict.right, storage)) return is_right(*std::move(right), even);
+        // The plainest of the hypotheses that do nearly as well was taken.
+        if (right && right->bits <= 1.1 * bits_of(verdict.right, storage) + 64)
+            return is_right(*std::move(right), even);
     }
     for (const SampledPixel& pixel : examples.pixels()) sample.add(pixel.list, pixel.value);
     for (const auto& [some, most_rules] : {std::pair{&all.definite, 1}, {&all.coarse, 1}, {&all.definite, 2}}) {

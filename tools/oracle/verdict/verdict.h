@@ -6,7 +6,8 @@
 //          finding, whatever explains a part of it is a lead. Findings that look the same here are all told; none is preferred.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
-#include "tools/oracle/verdict/search.h"
+#include "tools/oracle/verdict/account.h"
+#include "tools/oracle/verdict/rules.h"
 
 namespace strata::oracle::verdict {
 
@@ -21,6 +22,9 @@ struct Verdict {
     std::vector<Rule> alike{};
     std::size_t kinds = 0;  // of which so many were tried
 };
+
+class SceneFragments;
+class Colors;
 
 // Asks the scene for what else may cover its edges where it has to.
 [[nodiscard]] Verdict judge(SceneFragments& scene, const Colors& candidate);

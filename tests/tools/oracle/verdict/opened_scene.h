@@ -9,6 +9,8 @@
 #include "scenes/scene.h"
 #include "tools/oracle/picture.h"
 #include "tools/oracle/verdict/fragments.h"
+#include "tools/oracle/verdict/sample.h"
+#include "tools/oracle/verdict/verdict.h"
 
 namespace strata::test {
 
@@ -39,5 +41,11 @@ struct OpenedScene {
         return oracle::as_target(result.frame.color, "color");
     }
 };
+
+// What is said of a picture of the scene.
+[[nodiscard]] inline oracle::verdict::Verdict judged(const OpenedScene& opened, const oracle::Target& picture) {
+    oracle::verdict::SceneFragments fragments = opened.fragments();
+    return judge(fragments, oracle::verdict::Colors{picture});
+}
 
 }  // namespace strata::test

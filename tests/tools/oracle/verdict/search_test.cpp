@@ -13,11 +13,6 @@ using namespace strata::test;
 
 namespace {
 
-Verdict judged(const OpenedScene& opened, const oracle::Target& picture) {
-    SceneFragments fragments = opened.fragments();
-    return judge(fragments, Colors{picture});
-}
-
 std::set<std::string> found(const Verdict& verdict) {
     std::set<std::string> names;
     for (const Checked& c : verdict.explanations)

@@ -1,0 +1,59 @@
+// Model: pictures of rasterizers that break ties or snap otherwise, drawn by the machine with another profile.
+#include "tools/oracle/verdict/coverages.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/oracle/verdict/opened_scene.h"
+#include "tools/oracle/verdict/verdict.h"
+
+using namespace strata;
+using namespace strata::oracle::verdict;
+using namespace strata::test;
+
+namespace {
+
+oracle::Target picture_by(OpenedScene scene, const pipeline::DeviceProfile& profile) {
+    scene.profile = profile;
+    return *scene.picture("front_to_back", pipeline::Format::rgba8);
+}
+
+}  // namespace
+
+TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right, and its pixels at edges are counted") {
+    OpenedScene opened{"teapot", 48, 36};
+    for (pipeline::Material& material : opened.scene.list.materials) material.unlit = true;
+    pipeline::DeviceProfile coarse = opened.profile;
+    coarse.raster.subpixel_bits = 4;
+    const oracle::Target picture = picture_by(opened, coarse);
+    const oracle::Target exact = picture_by(opened, opened.profile);
+    REQUIRE(picture.codes != exact.codes);
+    const Verdict found = judged(opened, picture);
+    CHECK(found.is_right);
+    CHECK(found.right.at_edges > 0);
+    CHECK(judged(opened, exact).right.at_edges == 0);
+}
+
+TEST_CASE("a pixel at no edge may be covered by nothing else") {
+    OpenedScene opened{"teapot", 48, 36};
+    opened.options.threads = 1;  // tiles are counted
+    SceneFragments fragments = opened.fragments();
+    fragments.find_coverages();
+    std::size_t at_edges = 0, pixels = 0;
+    bool are_all_different = true;
+    fragments.for_each_tile([&](const TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = fragments.at(tile, p);
+            ++pixels;
+            if (list.edge == nullptr) continue;
+            ++at_edges;
+            for (const OtherList& other : list.edge->others)
+                are_all_different &=
+                    !std::ranges::equal(other.visible, list.visible, {}, &Fragment::primitive, &Fragment::primitive) ||
+                    !std::ranges::equal(other.hidden, list.hidden, {}, &Fragment::primitive, &Fragment::primitive) ||
+                    other.behind != list.behind;
+        }
+    });
+    CHECK(at_edges > 0);
+    CHECK(at_edges < pixels / 2);
+    CHECK(are_all_different);
+}
