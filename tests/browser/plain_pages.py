@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Opens the page of every command with --report, and of reproduce, in headless Chromium: plain_pages.py STRATA
 
-Each must say something, show its pictures, load nothing, leave the console empty, break no rule of axe-core (STRATA_AXE), and its tables sort by
-keyboard. With STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium.
+Each must say something, show its pictures, load nothing, leave the console empty, break no rule of axe-core (STRATA_AXE), fit a screen of 390
+pixels, and its tables sort by keyboard. With STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium.
 """
 import os
 import subprocess
@@ -53,12 +53,23 @@ def check_sorting(driver):
     return wrong
 
 
+def check_phone(driver):
+    """Whether the page is wider than a screen of 390 pixels, or numbers of a scale overlap there."""
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 800, "deviceScaleFactor": 1, "mobile": True})
+    wrong = [] if driver.execute_script("return document.documentElement.scrollWidth") <= 390 else ["wider than a phone"]
+    ends = driver.execute_script("return [...document.querySelectorAll('.scale span')].map((s) => s.getBoundingClientRect()).map((b) => [b.top, b.left, b.right])")
+    wrong += ["numbers of a scale overlap" for (top, _, right), (other, left, _) in zip(ends, ends[1:]) if top == other and left <= right]
+    driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    return wrong
+
+
 def check(driver, name, path):
     driver.get("file://" + path)
     pages.wait_until_ready(driver)
     wrong = [f"axe-core: {rule}" for rule in pages.violations(driver)]
     broken = driver.execute_script("return [...document.images].filter((i) => !i.complete || i.naturalWidth === 0).map((i) => i.alt)")
     wrong += [f"no picture of {alt}" for alt in broken]
+    wrong += check_phone(driver)
     if name != "reproduce":  # its pictures are files beside it
         wrong += [f"loaded {what}" for what in pages.loaded(driver)]
     if not driver.title or not driver.find_elements("tag name", "h1"):

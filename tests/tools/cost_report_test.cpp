@@ -149,6 +149,21 @@ TEST_CASE("the oracle, and what the processor sorts, have no time on a card, and
     }
 }
 
+TEST_CASE("a choice of the default's picture whose time is the default's but for noise is no point of its own") {
+    const auto names = [](const std::vector<CostRow>& rows, const char* column) {
+        std::vector<std::string> all;
+        for (const CostPoint& point : points_of(rows, "made-up", column)) all.push_back(point.name);
+        return all;
+    };
+    using Names = std::vector<std::string>;
+    const CostRow standard = row_of("default", "dual", 2, 1);
+    const CostRow same = row_of("depth", "d24", 2, 0.98), other = row_of("depth", "d16", 3, 0.98);
+    const CostRow faster = row_of("audit", "off", 2, 0.5);
+    CHECK(names({standard, same, other, faster}, "default") == Names{"default dual", "depth d16", "audit off"});
+    CHECK(names({standard, same, other, faster}, "literal") == Names{"default dual", "depth d16", "audit off"});
+    CHECK(names({standard, same}, "modelled") == Names{"default dual", "depth d24"});  // of rates: no noise
+}
+
 TEST_CASE("the picture of a frontier names its points and no others") {
     const std::vector<CostPoint> points{{1, 4, "cheap"}, {2, 4, "worse"}, {3, 0, "exact"}};
     const std::string svg = frontier_svg(points, "title", "time");
@@ -157,6 +172,7 @@ TEST_CASE("the picture of a frontier names its points and no others") {
     CHECK(svg.find("<title>worse<") != std::string::npos);
     CHECK(svg.find(" worse<") == std::string::npos);
     CHECK(svg.find("nan") == std::string::npos);
+    CHECK(svg.find("prefers-color-scheme: dark") != std::string::npos);
     CHECK(frontier_svg(points, "a<b&c", "time").find("a&lt;b&amp;c") != std::string::npos);
 }
 

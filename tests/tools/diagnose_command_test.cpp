@@ -27,6 +27,21 @@ TEST_CASE("diagnose names the mistake that render was told to make, with status 
     CHECK(document["findings"][0]["mistakes"] == nlohmann::json({"culls_front", "red_for_blue"}));
 }
 
+TEST_CASE("diagnose's page has the verdict as its sentence and what else was tried as a table") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render showroom --size 64x64 --mistake culls_front -q -o wrong.png;"
+                  "strata diagnose showroom wrong.png --report page.html > said.txt")
+                .status == 1);
+    const std::string page = content_of(folder / "page.html");
+    CHECK(page.find("<p class=\"lead\">100 % of the pixels are those of: front faces culled") != std::string::npos);
+    CHECK(page.find("<td>front faces culled instead of back faces (culls_front)</td><td>4096</td>") !=
+          std::string::npos);
+    CHECK(page.find("the next best") == std::string::npos);
+    CHECK(page.find("speak against it") == std::string::npos);
+    CHECK(page.find("<li>tried: ") != std::string::npos);
+}
+
 TEST_CASE("diagnose takes a pack for the scene with its state, and a folder for the candidate") {
     const Folder folder;
     REQUIRE(shell(folder,

@@ -76,7 +76,8 @@ TEST_CASE(
     CHECK(run_strata(folder, {"hardware-check", "captures", "--report", "page.html"}).status == 1);
     const std::string page = content_of(folder / "page.html");
     for (const std::string part :
-         {"3 pictures that the chip drew: 1 come out equal in every bit, 0 within their bound, 1 beyond it; 0 are not "
+         {"Of 3 pictures that the chip drew, 1 come out equal in every bit, 0 within their bound, 1 beyond it; 0 are "
+          "not "
           "modelled. The names of 1 are not known. Of 614400 pixels compared 3 differ.",
           "<figcaption>Clear/C01010101_Depth_n: the chip's picture</figcaption>",
           "<figcaption>Clear/C01010101_Depth_n: outside, 3 of 307200 pixels off, by at most 2</figcaption>"}) {

@@ -179,7 +179,7 @@ TEST_CASE("a row quotes a field that has commas, quotes or ends of lines, and wr
     ordered_json line = to_line(3, some_cell(), some_result());
     const std::string row = to_csv(line);
     CHECK(
-        row.starts_with("3,\"planes:gap=64,count=4\",24,16,geforce3,dual,\"30.0,20.0\",,0.1,float32,exact,d24,4,0.1,8."
+        row.starts_with("3,\"planes:gap=64,count=4\",24,16,geforce3,dual,\"30,20\",,0.1,float32,exact,d24,4,0.1,8."
                         "0,bias:2+slope:0.3,"
                         "2.0,0.3,0,separate,true,none,profile,9,100,7,5,10,"));
     CHECK(row.ends_with(",4,5,6,8,0.5,0.25,12.5,,done\n"));

@@ -64,6 +64,17 @@ TEST_CASE("a legend of a page has a swatch a colour, with its words") {
     CHECK(times_in(html, "style=\"background:#000102\"></span>other</span>") == 1);
 }
 
+TEST_CASE("a scale of a page has its colours in a row, and each number at its share of the way") {
+    PlainPage page{"t", "s"};
+    const std::array<std::array<std::uint8_t, 3>, 2> colors{{{255, 0, 10}, {0, 1, 2}}};
+    page.scale(colors, {{0, "1 <code>"}, {0.25, "4"}, {1, "255"}});
+    const std::string html = page.html();
+    CHECK(times_in(html, "linear-gradient(to right,#ff000a,#000102)") == 1);
+    CHECK(times_in(html, "left:0.0%;transform:translateX(-0.0%)\">1 &lt;code&gt;</span>") == 1);
+    CHECK(times_in(html, "left:25.0%;transform:translateX(-25.0%)\">4</span>") == 1);
+    CHECK(times_in(html, "left:100.0%;transform:translateX(-100.0%)\">255</span>") == 1);
+}
+
 TEST_CASE("a picture of a page is a PNG that another reader reads back") {
     const Folder folder;
     const auto image = checkered(7, 5);

@@ -143,8 +143,8 @@ def answers(rows):
             said.append(f"{name}: 0 of {fragments:,} fragments differ, whatever the depth range.")
         else:
             low, high = min(own, key=share), max(own, key=share)
-            said.append(f"{name}: {percent(share(low))} ({planes(low)}) to {percent(share(high))} ({planes(high)}) differ, by "
-                        f"{max(r['ulp_max'] for r in own):,} ulp at most.")
+            ends = [percent(share(r)) + (f" ({planes(r)})" if planes(low) != planes(high) else "") for r in (low, high)]
+            said.append(f"{name}: {' to '.join(dict.fromkeys(ends))} differ, by {max(r['ulp_max'] for r in own):,} ulp at most.")
     for r in biases(rows):
         if r["safe_bias"]["safe"]:
             said.append(f"{about(r)}: a constant bias of {codes(r['safe_bias'])} peels without error.")

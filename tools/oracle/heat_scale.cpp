@@ -11,13 +11,13 @@ namespace strata::oracle {
 namespace {
 
 // Inferno at 2/8, 3/8 ... 8/8.
-constexpr std::array<std::array<std::uint8_t, 3>, 7> stops{{{0x56, 0x10, 0x6e},
-                                                            {0x89, 0x22, 0x6a},
-                                                            {0xbb, 0x37, 0x54},
-                                                            {0xe3, 0x59, 0x32},
-                                                            {0xf9, 0x8c, 0x0a},
-                                                            {0xf9, 0xc9, 0x32},
-                                                            {0xfc, 0xff, 0xa4}}};
+constexpr std::array<std::array<std::uint8_t, 3>, 7> inferno{{{0x56, 0x10, 0x6e},
+                                                              {0x89, 0x22, 0x6a},
+                                                              {0xbb, 0x37, 0x54},
+                                                              {0xe3, 0x59, 0x32},
+                                                              {0xf9, 0x8c, 0x0a},
+                                                              {0xf9, 0xc9, 0x32},
+                                                              {0xfc, 0xff, 0xa4}}};
 
 // log2 of at least 1, with 16 bits behind the point: straight between powers of two, which is at most 0.09 off.
 constexpr std::uint64_t log2_of(std::uint32_t value) noexcept {
@@ -28,12 +28,12 @@ constexpr std::uint64_t log2_of(std::uint32_t value) noexcept {
 
 // `share` of 2^16 of the way through the table.
 std::array<std::uint8_t, 3> between_stops(std::uint64_t share) noexcept {
-    const std::uint64_t at = share * (stops.size() - 1);
-    const std::size_t stop = std::min<std::size_t>(at >> 16, stops.size() - 2);
+    const std::uint64_t at = share * (inferno.size() - 1);
+    const std::size_t stop = std::min<std::size_t>(at >> 16, inferno.size() - 2);
     const auto rest = static_cast<std::int64_t>(at - (std::uint64_t{stop} << 16));
     std::array<std::uint8_t, 3> rgb{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::int64_t from = stops[stop][c], to = stops[stop + 1][c];
+        const std::int64_t from = inferno[stop][c], to = inferno[stop + 1][c];
         rgb[c] = static_cast<std::uint8_t>(from + (((to - from) * rest + 0x8000) >> 16));
     }
     return rgb;
@@ -54,33 +54,46 @@ std::array<std::uint8_t, 3> HeatScale::color(std::uint32_t distance) const noexc
     return between_stops((log2_of(std::min(distance, end_)) << 16) / log2_of(end_));
 }
 
+double HeatScale::position(std::uint32_t distance) const noexcept {
+    return static_cast<double>(log2_of(std::clamp(distance, 1u, end_))) / static_cast<double>(log2_of(end_));
+}
+
+std::vector<std::uint32_t> HeatScale::marks() const {
+    const int bits = static_cast<int>(std::bit_width(end_));
+    const int step = bits > 16 ? (bits + 1) / 2 : (bits + 3) / 4;  // of long numbers there is room for fewer
+    std::vector<std::uint32_t> marks;
+    for (int bit = 0; bit + step / 2 < bits; bit += step) marks.push_back(std::uint32_t{1} << bit);
+    marks.push_back(end_);
+    return marks;
+}
+
+std::span<const std::array<std::uint8_t, 3>> HeatScale::stops() noexcept { return inferno; }
+
 void draw_legend(pipeline::Image& image, int left, int top, int width, const HeatScale& scale) {
     constexpr int gap_px = 3, bar_px = 8, letters = 2;
     width = std::max(width, least_legend_width_px);
-    // Where a distance is on the bar.
-    const std::uint64_t whole = log2_of(scale.end());
-    const auto x_of = [&](std::uint32_t distance) {
-        return left + static_cast<int>(log2_of(distance) * static_cast<std::uint64_t>(width - 1) / whole);
-    };
     for (int x = left; x < std::min(left + width, image.width); ++x) {
         const std::uint64_t share =
             (static_cast<std::uint64_t>(x - left) << 16) / static_cast<std::uint64_t>(width - 1);
         for (int y = 0; y < bar_px; ++y) put(image, x, top + gap_px + y, between_stops(share));
     }
-    // Numbers at powers of four and at the end, where there is room for them; the last one says what they count.
-    int free = left;
-    const auto label = [&](std::uint32_t distance, bool is_last) {
-        const std::string text = std::to_string(distance) + (is_last ? " codes" : "");
-        const int wide = letters * letter_width_px * static_cast<int>(text.size());
-        const int x = std::clamp(x_of(distance) - wide / 2, left, std::max(left, left + width - wide));
-        const int last = letters * letter_width_px * static_cast<int>((std::to_string(scale.end()) + " codes").size());
-        if (x < free || (!is_last && x + wide > left + width - last - letter_width_px)) return;
+    const auto wide = [](const std::string& text) { return letters * letter_width_px * static_cast<int>(text.size()); };
+    const auto write = [&](int x, const std::string& text) {
         draw_text(image, x, top + gap_px + bar_px + gap_px, text, letters);
-        free = x + wide + letter_width_px;
     };
-    for (std::uint64_t distance = 1; distance < scale.end(); distance *= 4)
-        label(static_cast<std::uint32_t>(distance), false);
-    label(scale.end(), true);
+    // The end's number says what all of them count; the others are written where there is room for them.
+    const std::string last = std::to_string(scale.end()) + " codes";
+    const int last_x = std::max(left, left + width - wide(last));
+    write(last_x, last);
+    int free = left;
+    for (const std::uint32_t distance : scale.marks()) {
+        const std::string text = std::to_string(distance);
+        const int at = left + static_cast<int>(scale.position(distance) * (width - 1));
+        const int x = std::max(at - wide(text) / 2, left);
+        if (x < free || x + wide(text) + letter_width_px > last_x) continue;
+        write(x, text);
+        free = x + wide(text) + letter_width_px;
+    }
 }
 
 }  // namespace strata::oracle

@@ -8,6 +8,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "pipeline/formats/image.h"
 
@@ -20,12 +22,19 @@ class HeatScale {
     [[nodiscard]] std::uint32_t end() const noexcept { return end_; }
     // Red, green, blue; of a distance beyond the end as of the end.
     [[nodiscard]] std::array<std::uint8_t, 3> color(std::uint32_t distance) const noexcept;
+    // Where a distance from 1 code on is on a legend: 0 at 1 code, 1 at the end.
+    [[nodiscard]] double position(std::uint32_t distance) const noexcept;
+    // Distances that a legend names, in rising order: 1 code, at most three powers of two, the end.
+    [[nodiscard]] std::vector<std::uint32_t> marks() const;
+    // A legend's colours in even steps from 1 code to the end; straight lines lead from one to the next.
+    [[nodiscard]] static std::span<const std::array<std::uint8_t, 3>> stops() noexcept;
 
   private:
     std::uint32_t end_;
 };
 
-inline constexpr int legend_height_px = 26, least_legend_width_px = 96;
+// The least width has room for "4294967295 codes".
+inline constexpr int legend_height_px = 26, least_legend_width_px = 132;
 
 // Draws the scale into an rgba8 image: a bar from `left` on, `width` wide and at least least_legend_width_px, and below it the numbers of codes.
 // It takes legend_height_px rows from `top` on.

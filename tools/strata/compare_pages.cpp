@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/report.h"
@@ -31,15 +30,41 @@ void add_pictures(PlainPage& page, const ShownPair& shown, const ComparedPaths& 
     add_heat_map(page, shown.comparison);
 }
 
-// The lines of an algorithm's text as sentences; the pictures are described by tables.
+std::string count_of(const oracle::Comparison& found) {
+    if (found.equal) return "equal in every bit.";
+    std::uint32_t greatest = 0;
+    for (const oracle::TargetReport& target : found.targets) greatest = std::max(greatest, target.greatest);
+    const auto pixels = static_cast<std::uint64_t>(found.width) * static_cast<std::uint64_t>(found.height);
+    return std::to_string(found.differing) + " of " + std::to_string(pixels) + " pixels differ, by at most " +
+           std::to_string(greatest) + " code" + (greatest == 1 ? "" : "s") +
+           (found.accepted ? ", which the tolerance allows." : ".");
+}
+
+// A sentence for the picture, for the layers and for the passes of an algorithm; what differs in a picture is in its tables.
 void add_findings(PlainPage& page, const oracle::PackComparison& c) {
+    if (!c.is_there) return page.paragraph("Not compared: the candidate has nothing of it.");
     std::vector<std::string> sentences;
-    std::istringstream lines(oracle::to_text(std::vector{c}));
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t begin = line.find_first_not_of(' ');
-        if (begin != std::string::npos && begin <= 2) sentences.push_back(line.substr(begin));
-    }
+    if (c.picture) sentences.push_back("Picture: " + count_of(*c.picture));
+    if (c.layers) sentences.push_back("Layers: " + count_of(*c.layers));
+    if (c.first)
+        sentences.push_back("Passes: the first that differs is " + std::to_string(c.first->number) + ", a " +
+                            c.first->kind + " pass of iteration " + std::to_string(c.first->iteration) + ".");
+    else if (c.passes_compared > 0)
+        sentences.push_back("Passes: all " + std::to_string(c.passes_compared) + " are " +
+                            (c.equal ? "equal." : "alike within the tolerance."));
+    for (const std::string& what : c.missing) sentences.push_back("The candidate has no " + what + ".");
     page.items(sentences);
+}
+
+// "1 of 2 algorithms come out as the pack has them; 3 are not compared."
+std::string sentence_of(const std::vector<oracle::PackComparison>& found) {
+    const auto compared = std::ranges::count_if(found, &oracle::PackComparison::is_there);
+    const auto right =
+        std::ranges::count_if(found, [](const oracle::PackComparison& c) { return c.is_there && c.accepted; });
+    const auto left_out = static_cast<std::ptrdiff_t>(found.size()) - compared;
+    return std::to_string(right) + " of " + std::to_string(compared) +
+           (compared == 1 ? " algorithm comes out as the pack has it" : " algorithms come out as the pack has them") +
+           (left_out > 0 ? "; " + std::to_string(left_out) + (left_out == 1 ? " is" : " are") + " not compared." : ".");
 }
 
 struct Verdict {
@@ -67,11 +92,16 @@ std::string painted_line(const std::string& line) {
 }  // namespace
 
 void add_heat_map(PlainPage& page, const oracle::Comparison& found) {
-    page.picture(oracle::heat_map_with_legend(found),
+    page.picture(oracle::heat_map(found),
                  found.equal ? "How far apart: nowhere, so all of it is black"
                              : "How far apart each pixel is, in codes of the reference's format: black is equal");
     if (found.kinds.empty()) return;
     page.picture(oracle::kind_map(found), "Which kind of difference is where: black is equal");
+    const oracle::HeatScale scale = oracle::heat_scale(found);
+    std::vector<PlainPage::Mark> marks;
+    for (const std::uint32_t distance : scale.marks())
+        marks.push_back({scale.position(distance), std::to_string(distance) + (distance == 1 ? " code" : "")});
+    page.scale(oracle::HeatScale::stops(), marks);
     std::vector<PlainPage::Swatch> kinds;
     for (const oracle::KindReport& kind : found.kinds)
         kinds.push_back({oracle::color_of(kind.kind), std::string(name(kind.kind))});
@@ -111,13 +141,7 @@ void add_tables(PlainPage& page, const oracle::Comparison& found) {
 }
 
 std::string sentence_of(const oracle::Comparison& found) {
-    if (found.equal) return "The pictures are equal in every bit.";
-    std::uint32_t greatest = 0;
-    for (const oracle::TargetReport& target : found.targets) greatest = std::max(greatest, target.greatest);
-    const auto pixels = static_cast<std::uint64_t>(found.width) * static_cast<std::uint64_t>(found.height);
-    return std::to_string(found.differing) + " of " + std::to_string(pixels) + " pixels differ, by at most " +
-           std::to_string(greatest) + " code" + (greatest == 1 ? "" : "s") +
-           (found.accepted ? ", which the tolerance allows." : ".");
+    return found.equal ? "The pictures are equal in every bit." : count_of(found);
 }
 
 PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference, const oracle::Picture& candidate,
@@ -152,9 +176,7 @@ PlainPage page_of(const ComparedPaths& paths, const std::vector<oracle::PackPict
     PlainPage page{title_of(std::ranges::all_of(found, &oracle::PackComparison::equal),
                             std::ranges::all_of(found, &oracle::PackComparison::accepted)),
                    command_of(paths)};
-    const auto right = std::ranges::count_if(found, &oracle::PackComparison::accepted);
-    page.sentence(std::to_string(right) + " of " + std::to_string(found.size()) +
-                  " algorithms come out as the pack has them.");
+    page.sentence(sentence_of(found));
     for (const oracle::PackComparison& c : found) {
         page.heading(c.algorithm);
         add_findings(page, c);

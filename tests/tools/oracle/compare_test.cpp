@@ -172,19 +172,19 @@ TEST_CASE("a heat map is black exactly where the pictures are equal, and has the
     }
     const strata::pipeline::Image side = side_by_side(reference, candidate, found),
                                   legend = heat_map_with_legend(found);
-    CHECK(side.width == 4 * 96 + 3 * 4);
-    CHECK(legend.width == 96);
+    CHECK(side.width == 4 * 132 + 3 * 4);
+    CHECK(legend.width == 132);
     CHECK(legend.height == 30 + legend_height_px);
-    CHECK(lit(legend) > 96 * 8);
+    CHECK(lit(legend) > 132 * 8);
     int wrong = 0;
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x)
             for (int c = 0; c < 3; ++c) {
                 const std::size_t own = static_cast<std::size_t>((y * 40 + x) * 4 + c);
                 wrong += side.codes[side.index(x, y, c)] != reference.targets[0].codes[own] ? 1 : 0;
-                wrong += side.codes[side.index(x + 100, y, c)] != candidate.targets[0].codes[own] ? 1 : 0;
-                wrong += side.codes[side.index(x + 200, y, c)] != heat.codes[own] ? 1 : 0;
-                wrong += side.codes[side.index(x + 300, y, c)] != kinds.codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 136, y, c)] != candidate.targets[0].codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 272, y, c)] != heat.codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 408, y, c)] != kinds.codes[own] ? 1 : 0;
                 wrong += legend.codes[legend.index(x, y, c)] != heat.codes[own] ? 1 : 0;
             }
     CHECK(wrong == 0);

@@ -1,8 +1,10 @@
 // Model: lightness as CIE 1976 has it (L* of sRGB, D65), computed here in double; the logarithm of the C library.
 #include "tools/oracle/heat_scale.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 #include "tools/oracle/small_text.h"
 
@@ -81,8 +83,50 @@ TEST_CASE("the legend's bar has the scale's colours from end to end, and its num
         for (int column = x - 8; column < x + 8; ++column)
             missing += word.codes[word.index(column, y, 0)] > image.codes[image.index(column, y, 0)] ? 1 : 0;
     CHECK(missing == 0);
+    // The end's number is whole in the narrowest legend.
+    for (const std::uint32_t greatest : {255u, 65535u, 16'777'215u, 4'294'967'295u}) {
+        const HeatScale other{greatest};
+        strata::pipeline::Image least{strata::pipeline::Format::rgba8, least_legend_width_px, legend_height_px},
+            end = least;
+        draw_legend(least, 0, 0, 1, other);
+        const std::string text = std::to_string(greatest) + " codes";
+        draw_text(end, least_legend_width_px - 8 * static_cast<int>(text.size()), 14, text, 2);
+        CHECK(text.size() * 8 <= std::size_t{least_legend_width_px});
+        for (int y = 14; y < 24; ++y)
+            for (int column = 0; column < least_legend_width_px; ++column)
+                missing += end.codes[end.index(column, y, 0)] > least.codes[least.index(column, y, 0)] ? 1 : 0;
+    }
+    CHECK(missing == 0);
     // A narrow one keeps its ends.
     strata::pipeline::Image narrow{strata::pipeline::Format::rgba8, 20, legend_height_px};
     draw_legend(narrow, 0, 0, 20, scale);
     CHECK(narrow.codes[narrow.index(0, 5, 0)] == scale.color(1)[0]);
+}
+
+TEST_CASE("a legend's numbers rise from 1 code to the end, each where its logarithm has it, three to five of them") {
+    for (int bits = 1; bits <= 32; ++bits) {
+        const HeatScale scale{~std::uint32_t{0} >> (32 - bits)};
+        const auto marks = scale.marks();
+        CHECK(marks.front() == 1);
+        CHECK(marks.back() == scale.end());
+        CHECK(std::is_sorted(marks.begin(), marks.end(), std::less_equal<>{}));
+        CHECK(marks.size() >= 3);
+        CHECK(marks.size() <= 5);
+        CHECK(scale.position(1) == 0);
+        CHECK(scale.position(scale.end()) == 1);
+        for (const std::uint32_t mark : marks)
+            CHECK(std::fabs(scale.position(mark) - std::log2(mark) / std::log2(scale.end())) < 0.01);
+    }
+}
+
+TEST_CASE("a legend's stops are the scale's colours in even steps") {
+    const HeatScale scale{255};
+    const auto stops = HeatScale::stops();
+    CHECK(stops.front() == scale.color(1));
+    CHECK(stops.back() == scale.color(255));
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
+        const auto distance = static_cast<std::uint32_t>(std::lround(std::exp2(share * std::log2(255.0))));
+        CHECK(std::fabs(lightness(stops[i]) - lightness(scale.color(distance))) < 6);  // distances are whole
+    }
 }

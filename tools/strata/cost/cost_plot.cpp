@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/strata/cost/cost_report.h"
+#include "tools/strata/report/svg_style.h"
 
 namespace strata::tools {
 
@@ -85,7 +86,8 @@ std::string frontier_svg(const std::vector<CostPoint>& points, const std::string
         points, [](const CostPoint& p) { return p.error; }, plot_bottom, plot_top);
     std::string svg =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"470\" font-family=\"sans-serif\" "
-        "font-size=\"12\">\n<rect width=\"960\" height=\"470\" fill=\"#fff\"/>\n" +
+        "font-size=\"12\">\n" +
+        std::string(svg_dark_style) + "<rect width=\"960\" height=\"470\" fill=\"#fff\"/>\n" +
         words(plot_left + 40, 20, "start", escaped(title)) + grid(x, y) +
         words((plot_left + plot_right) / 2, plot_bottom + 36, "middle", time_label) +
         words(8, 20, "start", "RMSE / 255");

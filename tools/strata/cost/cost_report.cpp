@@ -157,9 +157,15 @@ std::string table_csv(const std::vector<CostRow>& rows) {
 
 std::vector<CostPoint> points_of(const std::vector<CostRow>& rows, const std::string& scene,
                                  const std::string& column) {
+    const CostRow* const standard = defaults_of(rows)[scene];
+    const auto is_default_again = [&](const CostRow& row) {
+        const auto time = column == "default" ? &CostRow::usual : &CostRow::literal;
+        return standard != nullptr && &row != standard && column != "modelled" && row.rmse == standard->rmse &&
+               row.*time && standard->*time && !is_apart(*(row.*time), *(standard->*time));
+    };
     std::vector<CostPoint> points;
     for (const CostRow& row : rows) {
-        if (row.scene != scene || row.is_chain() || !row.refusal.empty()) continue;
+        if (row.scene != scene || row.is_chain() || !row.refusal.empty() || is_default_again(row)) continue;
         std::optional<double> time = row.modelled;
         if (column == "default") time = row.usual ? std::optional(row.usual->median) : std::nullopt;
         if (column == "literal") time = row.literal ? std::optional(row.literal->median) : std::nullopt;

@@ -17,10 +17,11 @@ std::string found(const std::vector<CheckedPicture>& checked) {
     std::uint64_t compared = 0, off = 0;
     for (const CheckedPicture& p : checked) compared += p.comparison.compared, off += p.comparison.differing;
     std::string text = fmt::format(
-        "{} pictures that the chip drew: {} come out equal in every bit, {} within their bound, {} beyond it; {} are "
+        "Of {} picture{} that the chip drew, {} come out equal in every bit, {} within their bound, {} beyond it; {} "
+        "are "
         "not modelled.",
-        checked.size(), number_of(checked, "equal"), number_of(checked, "within bound"), number_of(checked, "outside"),
-        number_of(checked, "not modelled"));
+        checked.size(), checked.size() == 1 ? "" : "s", number_of(checked, "equal"), number_of(checked, "within bound"),
+        number_of(checked, "outside"), number_of(checked, "not modelled"));
     if (const std::size_t unknown = number_of(checked, "unknown"); unknown > 0)
         text += fmt::format(" The names of {} are not known.", unknown);
     return text + fmt::format(" Of {} pixels compared {} differ.", compared, off);
@@ -41,9 +42,9 @@ void add_difference(PlainPage& page, const CheckedPicture& p, const pipeline::De
 
 PlainPage page_of(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
     PlainPage page{"The profile " + std::string(profile.name) + " against a real chip", "strata hardware-check"};
-    page.paragraph(found(checked));
+    page.sentence(found(checked));
     page.heading("Suites");
-    page.table(suite_table(checked), "pictures and pixels of each suite");
+    page.table(suite_table(checked), "Pictures and pixels of each suite");
     if (number_of(checked, "outside") + number_of(checked, "within bound") > 0) {
         page.heading("Where they differ");
         page.paragraph(
@@ -57,7 +58,7 @@ PlainPage page_of(const std::vector<CheckedPicture>& checked, const pipeline::De
     const Table pictures = picture_table(checked);
     if (!pictures.rows.empty()) {
         page.heading("Pictures that are not equal, or report a count");
-        page.table(pictures, "what differs in each, or why it is not compared");
+        page.table(pictures, "What differs in each, or why it is not compared");
     }
     return page;
 }

@@ -9,7 +9,7 @@ namespace strata::tools {
 using nlohmann::ordered_json;
 
 std::string orbit_text(const ordered_json& degrees) {
-    return degrees.is_null() ? "" : fmt::format("{},{}", degrees[0].dump(), degrees[1].dump());
+    return degrees.is_null() ? "" : fmt::format("{:g},{:g}", degrees[0].get<double>(), degrees[1].get<double>());
 }
 
 std::string safe_text(const ordered_json& bias) {

@@ -69,6 +69,16 @@ void PlainPage::legend(const std::vector<Swatch>& swatches) {
     body_ += "</div>\n";
 }
 
+void PlainPage::scale(std::span<const std::array<std::uint8_t, 3>> colors, const std::vector<Mark>& marks) {
+    std::string stops;
+    for (const auto& [red, green, blue] : colors) stops += fmt::format(",#{:02x}{:02x}{:02x}", red, green, blue);
+    body_ += fmt::format("<div class=\"scale\"><div style=\"background:linear-gradient(to right{})\"></div>", stops);
+    for (const Mark& mark : marks)
+        body_ += fmt::format("<span style=\"left:{0:.1f}%;transform:translateX(-{0:.1f}%)\">{1}</span>",
+                             100 * mark.share, html_text(mark.words));
+    body_ += "</div>\n";
+}
+
 void PlainPage::table(const Table& table, const std::string& name) {
     body_ += fmt::format(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"sorts\">"

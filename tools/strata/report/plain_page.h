@@ -6,6 +6,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ class PlainPage {
         std::string words;
     };
     void legend(const std::vector<Swatch>& swatches);  // of the picture before it
+    // A bar of colours that lead from one to the next in even steps, and numbers below it, each at its share of the way.
+    struct Mark {
+        double share;  // 0 to 1
+        std::string words;
+    };
+    void scale(std::span<const std::array<std::uint8_t, 3>> colors, const std::vector<Mark>& marks);
     void table(const Table& table, const std::string& name);
     // rgba8. `text` is said to those who do not see it, and stands below it.
     void picture(const pipeline::Image& image, const std::string& text);

@@ -8,6 +8,7 @@
 #include "peeling/registry.h"
 #include "peeling/render.h"
 #include "scenes/camera.h"
+#include "tools/strata/bench/spread.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/reproduce/reproduce_chart.h"
 
@@ -20,8 +21,8 @@ struct Run {
     int iterations = 0, passes = 0;
     // Rasterized in all geometry passes.
     std::uint64_t fragments = 0;
-    // Of all passes, without loading and set-up: the median of three runs where a run is short.
-    double seconds = 0;
+    // Of all passes, without loading and set-up: of four runs where a run is short, else of one.
+    Spread seconds{};
     pipeline::Image color{};
 };
 
@@ -42,15 +43,24 @@ Run run(const scenes::Scene& scene, const pipeline::View& view, const std::strin
     const peeling::Algorithm& chosen = *peeling::find_algorithm(algorithm);
     const auto result = renderer.render(chosen);
     std::vector<double> seconds{result.seconds.passes};
-    while (seconds.size() < 3 && result.seconds.passes < short_run)
+    while (seconds.size() < 4 && result.seconds.passes < short_run)
         seconds.push_back(renderer.render(chosen).seconds.passes);
-    std::sort(seconds.begin(), seconds.end());
     return {result.frame.iterations, result.frame.passes.geometry, result.frame.counters->fragments_rasterized,
-            seconds[seconds.size() / 2], result.frame.color};
+            spread_of(seconds), result.frame.color};
 }
 
 // Two decimals, or "-" where there is nothing to divide by.
 std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
+
+// How many times as fast as the baseline; "noise" where the times do not tell: their runs overlap, or, where one of them is of a single long
+// run, they are within a factor of 2.
+std::string times_faster(const Spread& baseline, const Spread& own) {
+    const double times = baseline.median / own.median;
+    const bool is_single = baseline.runs == 1 || own.runs == 1;
+    if (&baseline == &own) return "1";
+    return (is_single ? times < 0.5 || times > 2 : is_apart(baseline, own)) ? ratio(baseline.median, own.median)
+                                                                            : "noise";
+}
 
 peeling::RenderOptions options_for(const ReproduceOptions& options, int size) {
     peeling::RenderOptions render;
@@ -147,14 +157,14 @@ Section beam(const ReproduceOptions& options) {
         section.sheet.rows.push_back({std::to_string(m.slices), m.algorithm, std::to_string(r.iterations),
                                       std::to_string(r.passes), std::to_string(r.fragments),
                                       ratio(double(r.fragments), double(baseline->fragments)),
-                                      ratio(baseline->seconds, r.seconds), printed.figure, printed.why});
+                                      times_faster(baseline->seconds, r.seconds), printed.figure, printed.why});
     }
     const auto chart = [&](const std::string& name, const std::string& caption, auto value) {
         section.pictures.push_back(write_chart(options.folder, name + ".svg", caption, chart_of(runs, caption, value)));
     };
     chart("figure3_passes", "geometry passes", [](const Run& r) { return double(r.passes); });
     chart("figure3_fragments", "fragments of all passes", [](const Run& r) { return double(r.fragments); });
-    chart("figure3_time", "milliseconds on this machine", [](const Run& r) { return 1e3 * r.seconds; });
+    chart("figure3_time", "milliseconds on this machine", [](const Run& r) { return 1e3 * r.seconds.median; });
     const scenes::Scene scene = scenes::load_scene("volume-beam:slices=64,order=near", {});
     peeling::RenderOptions large = options_for(options, options.size);
     large.alpha = 0.1f;
@@ -226,14 +236,15 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
                 why = "the last iteration, which finds nothing, is counted here";
             else if (is_paper && r.iterations != iterations)
                 why = order == "as listed" ? "triangles as the file has them; the paper sorts" : paper.why;
-            const double paper_speed = is_paper ? fps / paper.layer_fps : 0, speed = layer.seconds / r.seconds;
+            const double paper_speed = is_paper ? fps / paper.layer_fps : 0,
+                         speed = layer.seconds.median / r.seconds.median;
             // A difference of up to 5 % is not explained: the printed rates have two digits.
             if (is_paper && std::abs(speed - paper_speed) > 0.05 * paper_speed)
                 why += std::string(why.empty() ? "" : "; ") + "speed: of this machine, where passes cost by fragments";
-            section.sheet.rows.push_back({model.name, paper.view, order, algorithm,
-                                          is_paper ? counts(iterations, passes) : "", counts(r.iterations, r.passes),
-                                          is_paper ? ratio(fps, paper.layer_fps) : "", ratio(layer.seconds, r.seconds),
-                                          ratio(double(r.fragments), double(layer.fragments)), why});
+            section.sheet.rows.push_back(
+                {model.name, paper.view, order, algorithm, is_paper ? counts(iterations, passes) : "",
+                 counts(r.iterations, r.passes), is_paper ? ratio(fps, paper.layer_fps) : "",
+                 times_faster(layer.seconds, r.seconds), ratio(double(r.fragments), double(layer.fragments)), why});
         };
         // Geometry passes an iteration: layer_peel 2, formulation A 6, formulation B 5
         // (algorithms.md 9, 10.2 and 11).

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scenes/files/atomic_file.h"
+#include "tools/strata/report/svg_style.h"
 
 namespace strata::tools {
 
@@ -66,7 +67,8 @@ std::string drawn(const Chart& chart) {
         chart, 10, [](const Point& p) { return p.y; }, 230, 20);
     std::string svg =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"430\" height=\"280\" font-family=\"sans-serif\" "
-        "font-size=\"12\">\n<rect width=\"430\" height=\"280\" fill=\"#fff\"/>\n";
+        "font-size=\"12\">\n" +
+        std::string(svg_dark_style) + "<rect width=\"430\" height=\"280\" fill=\"#fff\"/>\n";
     // 1.001 lets the last line in although products of the base round.
     for (double v = x.low; v <= x.high * 1.001; v *= x.base)
         svg += line(x(v), y.from, x(v), y.to) + text(x(v), y.from + 16, "middle", mark(v));

@@ -42,12 +42,12 @@ int exit_status(const Lines& lines) {
     return 2;
 }
 
-// Pictures that the sweep has left in the folder, by name.
+// Pictures that the sweep has left in the folder, by name: 0007.png stands before 0007.errors.png.
 std::vector<std::filesystem::path> pictures_in(const std::string& folder) {
     std::vector<std::filesystem::path> pictures;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
         if (entry.path().extension() == ".png" || entry.path().extension() == ".svg") pictures.push_back(entry.path());
-    std::sort(pictures.begin(), pictures.end());
+    std::ranges::sort(pictures, {}, [](const auto& path) { return path.parent_path() / path.stem(); });
     return pictures;
 }
 

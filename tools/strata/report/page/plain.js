@@ -4,9 +4,10 @@ for (const table of document.querySelectorAll("table.sorts")) {
   const heads = [...table.tHead.rows[0].cells], body = table.tBodies[0];
   heads.forEach((head, column) => {
     const key = (row) => row.cells[column].textContent;
-    const isNumber = [...body.rows].every((row) => key(row) === "" || key(row) === "-" || Number.isFinite(Number(key(row))));
+    const value = (row) => Number(key(row).replace(/ ?%$/, ""));
+    const isNumber = [...body.rows].every((row) => ["", "-", "noise"].includes(key(row)) || Number.isFinite(value(row)));
     if (!isNumber) {
-      const isLong = [...body.rows].some((row) => key(row).length > 60);
+      const isLong = [...body.rows].some((row) => key(row).length > 30 && key(row).includes(" "));
       for (const row of [table.tHead.rows[0], ...body.rows]) row.cells[column].className = isLong ? "words long" : "words";
     }
     const button = document.createElement("button");
@@ -17,7 +18,7 @@ for (const table of document.querySelectorAll("table.sorts")) {
     button.addEventListener("click", () => {
       const falls = head.getAttribute("aria-sort") === "ascending";
       for (const other of heads) other.setAttribute("aria-sort", other !== head ? "none" : falls ? "descending" : "ascending");
-      const order = (a, b) => isNumber ? (Number(key(a)) || 0) - (Number(key(b)) || 0) : key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0;
+      const order = (a, b) => isNumber ? (value(a) || 0) - (value(b) || 0) : key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0;
       body.append(...[...body.rows].sort((a, b) => falls ? order(b, a) : order(a, b)));
     });
   });
