@@ -10,7 +10,7 @@
 #include "peeling/render_diagnostics.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
-#include "pipeline/fragments/fragment_store.h"
+#include "pipeline/fragments/tile_fragments.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/check_pass.h"
 #include "pipeline/region/executor.h"
@@ -25,9 +25,8 @@ using namespace pipeline;
 
 namespace {
 
-// What sorting takes of a captured fragment, with lists of layers or with compared depths (sorted_fragments.h, layer_lists.h), and what a
-// closed form takes of one (columns.h).
-constexpr std::uint64_t sorted_bytes = 33, column_bytes = 32;
+// What sorting takes of a recorded fragment beside its word (sorted_columns.h), and what a closed form takes of one (columns.h).
+constexpr std::uint64_t sorted_bytes = 4, column_bytes = 32;
 
 // A closed form where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
@@ -120,7 +119,7 @@ struct Renderer::State {
         needs.reference = compares_apart;
         return {.bytes = options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)),
                 .needs = needs,
-                .bytes_a_fragment = FragmentStore::bytes_of(needs) + sorted_bytes,
+                .bytes_a_fragment = TileFragments::bytes_of(needs) + sorted_bytes,
                 .bytes_in_columns = is_closed(options, algorithm) ? column_bytes : 0};
     }
 

@@ -89,7 +89,7 @@ Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool
     state.needs = code_with_color;
     state.primitives = interval.objects;
     state.selection = {.keeps = Keeps::nearest, .least = interval.low, .most = interval.high - 1};
-    if (!first) state.selection.behind = t.peeled;
+    if (!first) state.selection.near = KeyBound::beyond(t.peeled);
     return region.draw(state, [&, first](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)

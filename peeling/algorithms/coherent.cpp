@@ -24,6 +24,13 @@ void keep_after_nearest(const FragmentBatch& in, const Loads& own, Outputs& out)
     keep_before(in, own.depth(2), out);
 }
 
+// The same as a selection.
+FragmentSelection selects_after_nearest(const CoherentPeel& peel) {
+    return {.keeps = Keeps::window,
+            .near = KeyBound::at(peel.nearest),
+            .far = {KeyBound::beyond(peel.previous), KeyBound::beyond(peel.region.opaque_depth())}};
+}
+
 // For the report of an endless listing: the pixels that the last iteration composited at.
 void note_composited(CoherentPeel& peel, const FragmentBatch& in, const Outputs& out) {
     if (!peel.published) return;
@@ -44,8 +51,7 @@ void count_run(CoherentPeel& peel) {
     state.stencil = stencil_test(CompareFunc::greater, 128, StencilOp::keep, StencilOp::invert, StencilOp::incr);
     state.stencil_target = peel.stencil;
     state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
-    state.selection = {
-        .keeps = Keeps::run, .from = peel.nearest, .before = peel.previous, .also_before = region.opaque_depth()};
+    state.selection = selects_after_nearest(peel);
     static_cast<void>(region.draw(state, keep_after_nearest));
     const std::uint32_t* const stencil = region.storage(peel.stencil).stencil(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
@@ -60,10 +66,7 @@ void find_breaker(CoherentPeel& peel) {
     state.stencil = stencil_test(CompareFunc::equal, 255, StencilOp::incr, StencilOp::keep, StencilOp::keep);
     state.stencil_target = peel.stencil;
     state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
-    state.selection = {.keeps = Keeps::nearest_after,
-                       .from = peel.nearest,
-                       .before = peel.previous,
-                       .also_before = region.opaque_depth()};
+    state.selection = selects_after_nearest(peel);
     static_cast<void>(region.draw(state, keep_after_nearest));
 }
 
@@ -83,7 +86,8 @@ void find_reached(CoherentPeel& peel) {
 Drawn composite_run(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.nearest, peel.reached};
-    state.selection = {.keeps = Keeps::window, .from = peel.nearest, .before = peel.reached};
+    state.selection = {
+        .keeps = Keeps::window, .near = KeyBound::at(peel.nearest), .far = {KeyBound::beyond(peel.reached)}};
     return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_from(in, own.depth(0), out);
         keep_before(in, own.depth(1), out);
@@ -97,7 +101,7 @@ Drawn composite_run(CoherentPeel& peel) {
 Drawn composite_end(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.reached, peel.region.opaque_depth()};
-    state.selection = {.keeps = Keeps::window, .at = peel.reached};
+    state.selection = {.keeps = Keeps::window, .near = KeyBound::at(peel.reached), .far = {KeyBound::at(peel.reached)}};
     peel.ties.start();
     return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_at(in, own.depth(0), out);

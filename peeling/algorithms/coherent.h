@@ -59,11 +59,11 @@ inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::Fragment
     keep_before(in, own.depth(1), out);
 }
 
-// The same as a selection: of what is left, the fragments that `keeps` says.
-[[nodiscard]] inline pipeline::FragmentSelection selects_what_is_left(const CoherentPeel& peel, pipeline::Keeps keeps) {
-    return {.keeps = keeps,
-            .behind = peel.from_the_start ? pipeline::Target{} : peel.reached,
-            .before = peel.region.opaque_depth()};
+// The same as a selection.
+[[nodiscard]] inline pipeline::FragmentSelection selects_what_is_left(const CoherentPeel& peel) {
+    return {.keeps = pipeline::Keeps::window,
+            .near = pipeline::KeyBound::beyond(peel.from_the_start ? pipeline::Target{} : peel.reached),
+            .far = {pipeline::KeyBound::beyond(peel.region.opaque_depth())}};
 }
 
 // A pass that finds a depth in `target`, within the range that its program keeps.

@@ -33,8 +33,7 @@ Drawn find_nearest(CoherentPeel& peel) {
     state.color[0] = peel.shifted;
     state.blend[0] = shift(peel.published);
     state.reads = {peel.reached, region.opaque_depth()};
-    // As printed, rgb depends on every update.
-    if (!peel.published) state.selection = selects_what_is_left(peel, Keeps::last_two);
+    state.selection = selects_what_is_left(peel);
     const DepthFormat format = region.frame().key_request().format;
     return region.draw(state, [&, format](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_what_is_left(peel, in, own, out);

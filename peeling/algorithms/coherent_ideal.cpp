@@ -92,12 +92,10 @@ class IdealPeel {
         state.color[1] = registers_;
         state.reads = {registers_, peel_, region_.opaque_depth()};
         state.ordered_rmw = true;
-        // A ratio asks how many registers changed, not only whether any did.
-        if (region_.frame().termination.rule != TerminationRule::ratio)
-            state.selection = {.keeps = Keeps::last_run,
-                               .outside = Outside::nothing_new,
-                               .before = region_.opaque_depth(),
-                               .behind_value = {peel_, 0}};
+        state.selection = {.keeps = Keeps::window,
+                           .outside = Outside::writes_alike,
+                           .near = {peel_, true, 0},
+                           .far = {KeyBound{region_.opaque_depth(), published_}}};  // published, a run ends there, too
         ties_.start();
         return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             composite_under(in, out);
@@ -128,7 +126,7 @@ class IdealPeel {
     void composite_run() {
         PassState state = composite_state(accumulated_);
         state.reads = {registers_, peel_};
-        state.selection = {.keeps = Keeps::window, .behind_value = {peel_, 0}, .before_value = {registers_, z3}};
+        state.selection = {.keeps = Keeps::window, .near = {peel_, false, 0}, .far = {KeyBound{registers_, false, z3}}};
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             for (std::size_t i = 0; i < lanes(in); ++i) {
                 const float z = as_float(in.code[i]);

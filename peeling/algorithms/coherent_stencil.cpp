@@ -14,12 +14,12 @@ using namespace pipeline;
 
 namespace {
 
-PassState find_in_what_is_left(const CoherentPeel& peel, Target target, const StencilFace& face, Keeps keeps) {
+PassState find_in_what_is_left(const CoherentPeel& peel, Target target, const StencilFace& face) {
     PassState state = find_state(target, CompareFunc::less);
     state.stencil = {.enabled = true, .front = face, .back = {}};
     state.stencil_target = peel.stencil;
     state.reads = {peel.reached, peel.region.opaque_depth()};
-    state.selection = selects_what_is_left(peel, keeps);
+    state.selection = selects_what_is_left(peel);
     return state;
 }
 
@@ -29,7 +29,7 @@ Drawn find_nearest(CoherentPeel& peel) {
     peel.region.clear(peel.stencil, {.stencil = 0});
     const StencilFace face{.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr};
     return peel.region.draw(
-        find_in_what_is_left(peel, peel.nearest, face, Keeps::nearest),
+        find_in_what_is_left(peel, peel.nearest, face),
         [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); });
 }
 
@@ -38,7 +38,7 @@ void find_previous(CoherentPeel& peel) {
     peel.region.clear(peel.previous, {.depth = 1.0f});  // the stencil is not cleared (E26)
     const StencilFace face{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
     static_cast<void>(peel.region.draw(
-        find_in_what_is_left(peel, peel.previous, face, Keeps::previous),
+        find_in_what_is_left(peel, peel.previous, face),
         [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); }));
 }
 

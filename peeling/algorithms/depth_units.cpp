@@ -27,9 +27,7 @@ Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool fir
     state.color[0] = layer;
     state.needs.shader_z = false;
     state.needs.reference = in_program;
-    const bool by_unit = !first && !in_program;
-    state.selection =
-        nearest_behind(compare, first ? Target{} : peeled, by_unit ? Outside::depth_unit : Outside::discarded);
+    state.selection = nearest_behind(compare, first ? Target{} : peeled);
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [in_program, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;

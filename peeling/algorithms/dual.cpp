@@ -38,15 +38,12 @@ Drawn peel(Region& region, const DualTargets& t) {
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
-    state.selection = ends_between(compare, t.min_max, region.opaque_depth(), Outside::one_value);
-    state.selection.keys_suffice = compare.is_plain();  // the far fragment passes the front through
+    state.selection = ends_between(compare, t.min_max, region.opaque_depth(), Outside::writes_alike);
     return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes side;
         classify(compare, in, own.color(0), own.depth(2), side);
         write_min_max(in, side.is_between, out.color[0]);
         write_layers(in, own.color(1), side, out.color[1], out.color[2]);
-        const PeelSides has{side, lanes(in)};
-        out.neutral = (has.between ? 0u : 1u) | (has.far ? 0u : 4u);  // what was cleared there is what is written
     });
 }
 

@@ -17,22 +17,10 @@ using namespace pipeline;
 
 namespace {
 
-// The targets that the batch has nothing for. min_max was cleared to what is written there. Of codes UNDER and OVER leave (0, 0, 0, 0)
-// out; of floats they make 0 of -0 and flush denormals, but only once: what lies between leaves that to the ends of its pixel, where
-// it has them.
-unsigned neutral_targets(const PeelSides& has, bool stores_codes, bool has_ends) noexcept {
-    const bool keeps_colors = stores_codes || (has_ends && !has.near && !has.far);
-    return (has.between ? 0u : 1u) | (keeps_colors && !has.near ? 2u : 0u) | (keeps_colors && !has.far ? 4u : 0u);
-}
-
-// (0, 0, 0, 0), which is neutral in both blends, where a lane is none of `chosen`; everywhere if none is.
-void choose(bool some, const Lanes<std::uint32_t>& chosen, const ColorLanes& from, ColorLanes& to,
-            std::size_t count) noexcept {
-    for (std::size_t c = 0; c < 4; ++c)
-        if (some)
-            for (std::size_t i = 0; i < count; ++i) to[c][i] = select(chosen[i], from[c][i], 0.0f);
-        else
-            std::fill_n(to[c].begin(), count, 0.0f);
+// (0, 0, 0, 0), which is neutral in both blends, where a lane is none of `chosen`.
+void choose(const Lanes<std::uint32_t>& chosen, ColorLanes& colors, std::size_t count) noexcept {
+    for (auto& channel : colors)
+        for (std::size_t i = 0; i < count; ++i) channel[i] = select(chosen[i], channel[i], 0.0f);
 }
 
 // Fragments outside the range are discarded; the others write all three targets, a neutral value where they do not
@@ -47,22 +35,18 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
-    state.selection = ends_between(compare, min_max, region.opaque_depth(), Outside::discarded);
-    state.selection.keys_suffice = compare.is_plain();
-    const bool stores_codes = info(region.frame().color_format).type == ChannelType::unorm8;
-    const bool has_ends = compare.is_plain();  // wherever something lies between
+    state.selection = ends_between(compare, min_max, region.opaque_depth(), Outside::dies);
     const bool is_traced = region.frame().trace;
     return region.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes side;
         classify(compare, in, own.color(0), own.depth(1), side);
         write_min_max(in, side.is_between, out.color[0]);
-        const PeelSides has{side, lanes(in)};
-        if (has.near) premultiply(in.color, out.color[1], lanes(in));
-        choose(has.near, side.is_near, out.color[1], out.color[1], lanes(in));
-        choose(has.far, side.is_far, in.color, out.color[2], lanes(in));
+        premultiply(in.color, out.color[1], lanes(in));
+        choose(side.is_near, out.color[1], lanes(in));
+        out.color[2] = in.color;
+        choose(side.is_far, out.color[2], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)
             out.alive[i] &= side.is_near[i] | side.is_far[i] | side.is_between[i];
-        out.neutral = neutral_targets(has, stores_codes, has_ends);
         out.traced = is_traced;
         for (std::size_t i = 0; is_traced && i < lanes(in); ++i) {
             const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];

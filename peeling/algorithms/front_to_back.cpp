@@ -32,7 +32,7 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.shader_z = false;
     state.needs.reference = !first && !compare.is_plain();
-    state.selection = nearest_behind(compare, state.reads[0], Outside::discarded);
+    state.selection = nearest_behind(compare, state.reads[0]);
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
@@ -47,8 +47,7 @@ void composite_layer(Region& region, Target layer, Target depth, Target accumula
     state.color[0] = accumulated;
     state.blend[0] = blend_mode::under;
     state.reads[0] = layer;
-    state.layer = {layer, depth, region.opaque_depth()};
-    const bool is_traced = trace_layer(state, region.frame());
+    const bool is_traced = trace_layer(state, region, depth);
     static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone
         if (is_traced) trace_layer(own, lanes(in), Side::front, out);

@@ -34,7 +34,7 @@ Drawn peel(Region& region, const Buffers& to) {
     state.reads[0] = to.map;
     state.needs.shader_z = false;
     state.needs.reference = !first;
-    state.selection = nearest_behind(compare, to.map, Outside::alpha_test);
+    state.selection = nearest_behind(compare, to.map);
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;
@@ -49,9 +49,9 @@ Drawn peel(Region& region, const Buffers& to) {
     });
 }
 
-// glCopyTexSubImage2D of the whole buffer, which the next pass begins with a clear or a copy over all of it.
+// glCopyTexSubImage2D of the whole buffer.
 [[nodiscard]] Target copied(Region& region, Target from, Target to) {
-    region.copy_and_leave(from, to);
+    region.copy(from, to);
     return to;
 }
 

@@ -51,7 +51,7 @@ Capture capture(Region& region, Target stencil, int pass) {
     state.reads[0] = region.opaque_depth();
     state.needs = code_with_color;
     state.selection = {.keeps = Keeps::arrivals,
-                       .before = region.opaque_depth(),
+                       .far = {KeyBound::beyond(region.opaque_depth())},
                        .first_arrival = static_cast<std::uint32_t>(pass_samples * pass)};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_before(in, own.depth(0), out);  // before the stencil test: what is hidden takes no sample

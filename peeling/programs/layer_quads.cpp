@@ -15,8 +15,7 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
         state.blend[0] = blend_mode::over;
         state.blend[0].write_mask = 0x7;  // the final alpha stays 1
         state.reads[0] = layers.color[layer];
-        state.layer = {layers.color[layer], layers.depth[layer], region.opaque_depth()};
-        const bool is_traced = trace_layer(state, region.frame());
+        const bool is_traced = trace_layer(state, region, layers.depth[layer]);
         static_cast<void>(
             region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
                 out.color[0] = own.color(0);

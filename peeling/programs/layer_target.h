@@ -11,11 +11,13 @@ void composite_layer(pipeline::Region& region, pipeline::Target layer, pipeline:
 
 // A quad that blends a layer reads the two depths that tell where it is. The trace alone looks at their values: without one they are
 // textures, as good as loads, which nobody samples. True with a trace: then a program calls the other of this name.
-[[nodiscard]] inline bool trace_layer(pipeline::PassState& state, const pipeline::Frame& frame) {
-    auto* const depths = frame.trace ? state.reads.data() + 1 : state.textures.data();
-    depths[0] = state.layer.depth;
-    depths[1] = state.layer.surface;
-    return frame.trace;
+[[nodiscard]] inline bool trace_layer(pipeline::PassState& state, const pipeline::Region& region,
+                                      pipeline::Target depth) {
+    const bool is_traced = region.frame().trace;
+    auto* const depths = is_traced ? state.reads.data() + 1 : state.textures.data();
+    depths[0] = depth;
+    depths[1] = region.opaque_depth();
+    return is_traced;
 }
 inline void trace_layer(const pipeline::Loads& own, std::size_t count, pipeline::Side side, pipeline::Outputs& out) {
     out.traced = true;

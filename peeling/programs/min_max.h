@@ -13,20 +13,6 @@ struct alignas(64) PeelLanes {
     pipeline::Lanes<std::uint32_t> is_near, is_far, is_between;
 };
 
-// Whether a batch has lanes of a kind.
-struct PeelSides {
-    bool near, far, between;
-    PeelSides(const PeelLanes& side, std::size_t count) noexcept
-        : near{any(side.is_near, count)}, far{any(side.is_far, count)}, between{any(side.is_between, count)} {}
-
-  private:
-    [[nodiscard]] static bool any(const pipeline::Lanes<std::uint32_t>& mask, std::size_t count) noexcept {
-        std::uint32_t some = 0;
-        for (std::size_t i = 0; i < count; ++i) some |= mask[i];
-        return some != 0;
-    }
-};
-
 inline namespace strict {
 
 // z beyond the opaque surface, before `near` or behind `far`: skipped, no lane set. near == far counts as near.
@@ -118,7 +104,8 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     state.reads[0] = region.opaque_depth();
     state.needs = {
         .shader_z = true, .code = false, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    state.selection = {.keeps = Keeps::ends, .outside = Outside::nothing_new, .before = region.opaque_depth()};
+    state.selection = {
+        .keeps = Keeps::ends, .outside = Outside::writes_alike, .far = {KeyBound::beyond(region.opaque_depth())}};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         Lanes<std::uint32_t> visible;
         for (std::size_t i = 0; i < lanes(in); ++i)
@@ -131,8 +118,10 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
 [[nodiscard]] inline pipeline::FragmentSelection ends_between(const pipeline::DepthCompare& compare,
                                                               pipeline::Target min_max, pipeline::Target surface,
                                                               pipeline::Outside outside) {
-    pipeline::FragmentSelection selection{
-        .keeps = pipeline::Keeps::ends, .outside = outside, .before = surface, .range = min_max};
+    pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::ends,
+                                          .outside = outside,
+                                          .far = {pipeline::KeyBound::beyond(surface)},
+                                          .range = min_max};
     if (!compare.is_plain()) selection.compared = compare;
     return selection;
 }

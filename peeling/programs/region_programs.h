@@ -7,10 +7,10 @@
 namespace strata::peeling {
 // The window of a peel that keeps the nearest fragment behind `peeled`, by whatever depth it compares.
 [[nodiscard]] inline pipeline::FragmentSelection nearest_behind(const pipeline::DepthCompare& compare,
-                                                                pipeline::Target peeled, pipeline::Outside outside) {
-    pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::nearest, .outside = outside, .behind = peeled};
+                                                                pipeline::Target peeled) {
+    pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::nearest,
+                                          .near = pipeline::KeyBound::beyond(peeled)};
     if (!compare.is_plain()) selection.compared = compare;
-    selection.repeats = selection.compared.has_value();
     return selection;
 }
 

@@ -14,7 +14,6 @@
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
-#include "pipeline/fragments/sort_arrivals.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/stages/lane_words.h"
 
@@ -103,7 +102,7 @@ inline pipeline::Rgba SampleColumns::composite(std::uint32_t pixel, const pipeli
     for (std::size_t s = 0; s < samples_.size(); ++s)
         if (const std::uint32_t code = samples_[s].codes[pixel]; code != empty_)
             words_.push_back(std::uint64_t{code} << 32 | s);
-    pipeline::sort_arrivals(words_);
+    std::ranges::sort(words_);
     if (background.bits_per_channel == 32) return composite_as<Singles>(pixel, background);
     if (background.bits_per_channel == 16) return composite_as<Halves>(pixel, background);
     if (rounding_ == pipeline::UnormRounding::product_even) return composite_as<BytesByProduct>(pixel, background);

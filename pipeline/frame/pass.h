@@ -38,14 +38,7 @@ struct PassState {
     bool replaces_depth = false;       // the program may leave another depth (Outputs::depth)
     rasterizer::FragmentNeeds needs;   // what the program looks at; the stages add what they need themselves
     std::span<const PrimitiveRange>
-        primitives{};  // of a geometry pass: these alone, ascending and disjoint; empty: all
-    // Of a full-screen pass that blends a layer UNDER or OVER color[0], its only target. The program hands on the layer's colour. Where both
-    // depth targets hold one code there is no fragment of the layer, and that is (0, 0, 0, 0); elsewhere the program marks it for
-    // the audit, as Side::front under UNDER and Side::back under OVER, with the layer's depth as its key.
-    struct SavedLayer {
-        Target color{}, depth{}, surface{};
-    };
-    SavedLayer layer{};
+        primitives{};                  // of a geometry pass: these alone, ascending and disjoint; empty: all
     FragmentSelection selection;       // of a geometry pass: the fragments that decide what it leaves
     bool saturates_by_design = false;  // a stencil count that stops at its limit is what the listing wants
 };
@@ -75,10 +68,6 @@ struct Outputs {
     std::array<ColorLanes, max_color_targets> color;
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=
     std::uint64_t tally = 0;     // counts whatever the program calls an event
-
-    // A bit a colour target: what this batch writes there leaves it as it is, or as others of the same pixel's fragments leave it
-    // in this pass. A promise about the outputs, which are written all the same: a selection blends only what needs it.
-    unsigned neutral = 0;
 
     // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is set.
     Lanes<Side> side;

@@ -109,18 +109,8 @@ void Region::clear(Target given, const ClearValue& given_value, std::uint8_t sam
 void Region::copy(Target given_from, Target given_to) {
     Target from = given_from, to = given_to;
     if (const Alteration* a = alteration(); a != nullptr && a->copy && !a->copy(*this, from, to)) return;
-    at(to) = at(from);
-    count_copy(from, to);
-}
-
-void Region::copy_and_leave(Target from, Target to) {
-    if (extent_ != Extent::tile) return copy(from, to);
-    std::swap(at(to), at(from));
-    count_copy(from, to);
-}
-
-void Region::count_copy(Target from, Target to) {
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
+    at(to) = at(from);
     opaque_depth_is_cleared_ &= to != opaque_depth_;
     count(of_copy(1, bytes(at(from))));
     count_pass({.copies = 1});

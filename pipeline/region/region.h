@@ -36,13 +36,9 @@ class TileRasterizer;
 
 namespace strata::pipeline {
 
-class FragmentStore;
 class RegionScratchPool;
 struct RegionScratch;  // the arrays that a batch passes through
-struct SortRequest;
-struct SelectedFragments;
-struct KeyWindow;
-class StoredDepth;
+struct Windows;
 class TileCache;
 
 class Region {
@@ -79,8 +75,6 @@ class Region {
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
-    // The same of a target that is written whole before anybody looks at it again: a tile exchanges the two.
-    void copy_and_leave(Target from, Target to);
     // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
     // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
     // NeedsFrame where a region would have to look beyond itself.
@@ -167,7 +161,6 @@ class Region {
     friend class RegionShortcuts;
 
     [[nodiscard]] Trace& traced() noexcept;  // in the scratch
-    void count_copy(Target from, Target to);
 
     // Null where the next step is to be taken as it is.
     [[nodiscard]] const Alteration* alteration() const noexcept {
@@ -180,16 +173,11 @@ class Region {
     template <FragmentProgram P>
     Drawn draw_everything(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
-    Drawn draw_selected(const PassState& state, P& program);
+    Drawn draw_visits(const PassState& state, P& program);
     template <class Quick, class Definition>
     Drawn checked(const Quick& quick, const Definition& definition);
     template <FragmentProgram P>
     Drawn draw_screen(const PassState& state, P& program);
-    template <FragmentProgram P>
-    Drawn draw_pixels(const PassState& state, P& program);
-    // A quad over a saved layer without its program: region_layer.cpp.
-    [[nodiscard]] bool is_saved_layer(const PassState& state) const;
-    Drawn blend_layer(const PassState& state);
     template <class P>
     void run_program(const PassState& state, P& program, FragmentBatch& batch, Outputs& out);
 
@@ -197,7 +185,9 @@ class Region {
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
-    void replay(rasterizer::BatchSink sink);
+    [[nodiscard]] bool may_record(const PreparedDraw& list) const;
+    [[nodiscard]] bool record(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs);
+    void visit_all(const rasterizer::FragmentNeeds& needs, rasterizer::BatchSink sink);
     void require_range(const FragmentBatch& batch) const;
     // Whether depths beyond the range have codes of their own (depth.md 2.9).
     [[nodiscard]] bool wraps_depths() const noexcept {
@@ -212,50 +202,23 @@ class Region {
     }
     void open_tile_cache(const PassState& state);
     void close_tile_cache();
-    // Selections: selections/selected_pass.cpp.
-    [[nodiscard]] bool may_select(const PassState& state, const PreparedDraw& list);
-    void capture_unseen(const PreparedDraw& list, const rasterizer::FragmentNeeds& kept);
-    void select(const PassState& state);
-    void select_nearest(const PassState& state);
-    [[nodiscard]] bool select_layer(const PassState& state);
-    [[nodiscard]] bool select_taken_layer(const PassState& state);
-    [[nodiscard]] StoredDepth stored_depth(const PassState& state) const;
-    [[nodiscard]] std::uint32_t* depth_of_kept(const PassState& state);
+    // Visits of what a selection keeps: region_visits.cpp.
+    [[nodiscard]] bool find_visits(const PassState& state, const PreparedDraw& list);
+    [[nodiscard]] bool sort_for(const PassState& state);
+    [[nodiscard]] bool find_kept(const PassState& state);
+    [[nodiscard]] Windows windows_of(const FragmentSelection& selection) const;
+    [[nodiscard]] FragmentBatch* next_visit(const PassState& state);  // null after the last
+    void find_positions(FragmentBatch& batch) const;
+    [[nodiscard]] bool waits_in_order(const PassState& state) const;
+    void find_arrivals(const PassState& state);
+    void route_arrivals(const PassState& state);
+    void finish_arrivals(const PassState& state);
+    [[nodiscard]] std::uint64_t recorded() const noexcept;  // fragments
     void count_visits(std::uint64_t fragments) noexcept {
         if (books_.counts) books_.fragments_visited += fragments;
     }
-    struct ColumnPart {
-        std::uint32_t first, last, end;  // a window [first, end), of which [first, last) lies before the stored depth
-    };
-    void select_previous(const PassState& state, std::size_t pixel, const ColumnPart& part, std::uint32_t updates);
-    void select_nearest_compared(const PassState& state);
-    void select_ends_compared(const PassState& state);
-    // Selections: selections/repeat_pass.cpp.
-    [[nodiscard]] bool may_repeat(const PassState& state) const;
-    [[nodiscard]] bool is_repeated(const PassState& state);  // else its bounds are those of the next one's pass before
-    void remember(const PassState& state);
-    std::uint64_t repeat(const PassState& state);
-    void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
-    void select_window(const PassState& state);
-    void select_arrivals(const PassState& state);
-    void select_run(const PassState& state);
-    void select_nearest_after(const PassState& state);
-    void select_last_run(const PassState& state);
-    [[nodiscard]] bool waits_in_order(const PassState& state);
-    void finish_waiting(const PassState& state);
-    void select_ends(const PassState& state);
-    template <class FragmentsAt>
-    void count_down(const PassState& state, const FragmentsAt& fragments_at);
-    [[nodiscard]] bool is_compared_apart(const FragmentSelection& selection) const;
-    [[nodiscard]] bool sort_for(const PassState& state);
-    [[nodiscard]] bool find_or_sort(const PassState& state, const SortRequest& request);
-    [[nodiscard]] std::size_t samples_of_pass() const noexcept { return static_cast<std::size_t>(pass_samples_); }
     // Null where there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? storage(t).depth(0) : nullptr; }
-    void find_positions(FragmentBatch& batch, std::size_t count) const;
-    [[nodiscard]] FragmentBatch* next_selected(const PassState& state);  // null after the last
-    [[nodiscard]] std::uint8_t samples_of_selected(const PassState& state) const noexcept;
-    void finish_selected(const PassState& state, Drawn& drawn);
     struct Snapshot {
         std::vector<TargetStorage> targets;
         std::size_t traced;
@@ -263,14 +226,12 @@ class Region {
     [[nodiscard]] Snapshot snapshot();
     void restore(Snapshot& from);
     void require_equal(const Snapshot& selected, Count selected_passed, Count passed);
-    [[nodiscard]] FragmentStore& store() noexcept;
     [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
     [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
     [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list);
     [[nodiscard]] bool sums_suit_rows(const PassState& state);
     Drawn draw_sum_rows(const PassState& state);
     [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
-    void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
     void load(const PassState& state, const FragmentBatch& batch);
@@ -351,12 +312,9 @@ class Region {
     std::unique_ptr<TileCache> cache_;         // of profiles with BlendStorage::cached_tiles
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
-    enum class Source : std::uint8_t {
-        rasterizer,
-        captured,
-        store
-    };  // captured: rasterized, and kept for later passes
+    enum class Source : std::uint8_t { rasterizer, recording, record };
     Source source_ = Source::rasterizer;
+    std::size_t wave_ = 0;  // of the batch that is visited
     PassKind kind_ = PassKind::geometry;
     int pass_samples_ = 1;
     bool samples_textures_ = false;  // somebody looks at the colours of this pass

@@ -13,11 +13,11 @@ Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& pro
         return draw_everything(changed, list, program);
     }
     begin_pass(state, PassKind::geometry);
-    if (state.selection.keeps == Keeps::everything || !may_select(state, list))
+    if (state.selection.keeps == Keeps::everything || !find_visits(state, list))
         return draw_everything(state, list, program);
-    return instruments_.check_selections ? checked([&] { return draw_selected(state, program); },
+    return instruments_.check_selections ? checked([&] { return draw_visits(state, program); },
                                                    [&] { return draw_everything(state, list, program); })
-                                         : draw_selected(state, program);
+                                         : draw_visits(state, program);
 }
 
 template <FragmentProgram P>
@@ -25,11 +25,10 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
     Drawn drawn;
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = start_batch(batch);
-        shade_or_recall(list, batch, out);
+        if (source_ != Source::record) shade(list, batch, out);
         show(Stage::shaded, state, batch, out, out.alive);
         load(state, batch);
         run_program(state, program, batch, out);
-        out.neutral = 0;  // everything is visited, and everything blended
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     };
@@ -42,24 +41,23 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
 }
 
 template <FragmentProgram P>
-Drawn Region::draw_selected(const PassState& state, P& program) {
-    Drawn drawn;
-    if (is_repeated(state)) {
-        drawn.passed.own_ = repeat(state);
-        return drawn;
-    }
-    select(state);
+Drawn Region::draw_visits(const PassState& state, P& program) {
+    const bool is_routed = state.selection.keeps == Keeps::arrivals;
+    if (is_routed) route_arrivals(state);
     open_cache(state);
+    Drawn drawn;
     PassState drawn_to = state;
-    while (FragmentBatch* const batch = next_selected(state)) {
+    while (FragmentBatch* const batch = next_visit(state)) {
         Outputs& out = start_batch(*batch);
         load(state, *batch);
         run_program(state, program, *batch, out);
-        drawn_to.sample_mask = samples_of_selected(state);
+        if (is_routed) drawn_to.sample_mask = static_cast<std::uint8_t>(1u << wave_);
         finish(drawn_to, *batch, out, drawn);
     }
     close_cache();
-    finish_selected(state, drawn);
+    if (is_routed) finish_arrivals(state);
+    if (state.selection.outside == Outside::writes_alike)
+        drawn.passed.own_ = recorded();  // what lies outside passes, too
     return drawn;
 }
 
@@ -84,14 +82,6 @@ Drawn Region::full_screen(const PassState& state, P&& program) {
 template <FragmentProgram P>
 Drawn Region::draw_screen(const PassState& state, P& program) {
     begin_pass(state, PassKind::full_screen);
-    if (!is_saved_layer(state)) return draw_pixels(state, program);
-    return instruments_.check_selections
-               ? checked([&] { return blend_layer(state); }, [&] { return draw_pixels(state, program); })
-               : blend_layer(state);
-}
-
-template <FragmentProgram P>
-Drawn Region::draw_pixels(const PassState& state, P& program) {
     open_cache(state);
     Drawn drawn;
     FragmentBatch& batch = screen_batch();
@@ -99,7 +89,6 @@ Drawn Region::draw_pixels(const PassState& state, P& program) {
         Outputs& out = start_batch(batch);
         load(state, batch);
         run_program(state, program, batch, out);
-        out.neutral = 0;
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }

@@ -1,4 +1,4 @@
-// pipeline/region/region_replay.cpp - where a geometry pass gets its fragments from: the rasterizer, or what an earlier pass captured.
+// pipeline/region/region_replay.cpp - where a geometry pass gets its fragments from: the rasterizer, or what is recorded of the tile.
 #include <algorithm>
 #include <utility>
 
@@ -12,8 +12,6 @@
 namespace strata::pipeline {
 
 using rasterizer::FragmentNeeds;
-
-FragmentStore& Region::store() noexcept { return scratch_->store; }
 
 // A second list's is not asked for tile by tile.
 const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
@@ -43,7 +41,7 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
         given(batch);
     };
     // A silent look orders nothing.
-    const bool checks = wraps_depths() && needs.code && (books_.counts || source_ == Source::captured);
+    const bool checks = wraps_depths() && needs.code && (books_.counts || source_ == Source::recording);
     const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, frame_.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
@@ -66,12 +64,54 @@ void Region::require_range(const FragmentBatch& batch) const {
         throw NeedsFrame{};
 }
 
-// Sends every captured batch down the stages again, in submission order.
-void Region::replay(rasterizer::BatchSink sink) {
-    const Source before = std::exchange(source_, Source::store);
-    for (std::size_t number = 0; number < store().batches(); ++number) {
-        store().recall(number, scratch_->recalled, scratch_->recalled_alive);
-        sink(scratch_->recalled);
+// Whether passes may look at what was recorded, rather than rasterize the list again.
+bool Region::may_record(const PreparedDraw& list) const {
+    return extent_ == Extent::tile && frame_.effects == Effects::needed && instruments_.once_more == Effect::none &&
+           frame_.replay.bytes > 0 && &list == frame_.repeated();
+}
+
+// What all passes look at is recorded before the first of them. False where that does not fit, or is not recorded at all.
+bool Region::record(const PreparedDraw& list, const FragmentNeeds& needs) {
+    TileFragments& fragments = scratch_->fragments;
+    if (fragments.serves(needs)) return true;
+    const FragmentNeeds kept = needs | frame_.replay.needs;
+    if (!TileFragments::records(kept) || !fragments.may_start()) return false;
+    fragments.start(kept, frame_.replay.bytes);
+    scratch_->sorted.forget();
+    scratch_->other_sorted.forget();
+    const MaterialNeeds& materials = needs_of_tile(list);
+    FragmentNeeds drawn = kept;
+    drawn.color |= materials.color;
+    drawn.texcoord |= materials.texcoord && drawn.color;
+    if (drawn.color) drawn.units |= materials.shadow;
+    auto sink = [&](FragmentBatch& batch) {
+        Outputs& out = start_batch(batch);
+        shade(list, batch, out);
+        fragments.append(batch, out.alive);
+    };
+    const Source before = std::exchange(source_, Source::recording);
+    rasterize(list, drawn, {}, rasterizer::BatchSink{sink});
+    source_ = before;
+    fragments.finish();
+    return fragments.serves(needs);
+}
+
+// Sends all recorded fragments down the stages, in the order of arrival.
+void Region::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
+    const Source before = std::exchange(source_, Source::record);
+    FragmentBatch& batch = scratch_->recorded;
+    TileFragments::Reading& reading = scratch_->reading;
+    reading = {0, 0, std::move(reading.stamp)};
+    reading.stamp.assign(rect_.area(), 0);
+    Lanes<std::uint32_t> places;
+    for (auto next = scratch_->fragments.next_places(reading, places); !next.empty();
+         next = scratch_->fragments.next_places(reading, places)) {
+        batch.count = static_cast<int>(next.size());
+        batch.material = 0;
+        for (std::size_t i = 0; i < next.size(); ++i) batch.pixel[i] = scratch_->fragments.pixel()[next[i]];
+        find_positions(batch);
+        scratch_->fragments.fetch(next, needs, batch);
+        sink(batch);
     }
     source_ = before;
 }
@@ -92,46 +132,23 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }
 
-// The first pass over the repeated list captures what it and all later passes look at; a list that did not fit is rasterized
-// every time.
+// A list that did not fit is rasterized every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     depth_ = depth_outcome(state, list);
     const MaterialNeeds& materials = needs_of_tile(list);
-    FragmentNeeds needs = with_value(pass_needs(state, materials, frame_.effects, depth_), instruments_.once_more);
+    const FragmentNeeds needs =
+        with_value(pass_needs(state, materials, frame_.effects, depth_), instruments_.once_more);
     if (instruments_.log_passes)
         books_.pass_log.passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
                                           needs.color && materials.texcoord, &list == frame_.opaque,
                                           books_.iterations});
-    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.repeated() && state.primitives.empty();
-    FragmentNeeds kept = needs;
-    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
-    kept.units = state.needs.units;
-    if (may_replay && store().serves(kept)) {
-        store().recall_only(needs);
-        replay(sink);
-    } else if (may_replay && store().may_start()) {
-        source_ = Source::captured;
-        needs = needs | frame_.replay.needs;
-        needs.texcoord |= materials.texcoord && needs.color;
-        if (needs.color) needs.units |= materials.shadow;
-        store().start(kept | frame_.replay.needs, frame_.replay.bytes);
-        scratch_->sorted.forget();
-        rasterize(list, needs, {}, sink);
-        store().finish();
-    } else {
+    FragmentNeeds looked_at = needs;
+    looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with their texture and shadow
+    looked_at.units = state.needs.units;
+    if (may_record(list) && state.primitives.empty() && record(list, looked_at))
+        visit_all(looked_at, sink);
+    else
         rasterize(list, needs, state.primitives, sink);
-    }
-    source_ = Source::rasterizer;
-}
-
-// The material stage gives the same colours whether it runs or is remembered.
-void Region::shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
-    if (source_ != Source::store) {
-        shade(list, batch, out);
-        if (source_ == Source::captured) store().append(batch, out.alive);
-        return;
-    }
-    std::copy_n(scratch_->recalled_alive.begin(), batch.count, out.alive.begin());
 }
 
 }  // namespace strata::pipeline

@@ -36,8 +36,8 @@ bool Region::draws_rows(const PassState& state, const PreparedDraw& list) {
                           (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
                           !state.replaces_depth && std::ranges::none_of(state.reads, &Target::exists) &&
                           std::ranges::none_of(state.textures, &Target::exists) && !needs_of_tile(list).color;
-    const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
-    return is_plain && !is_recalled;
+    const bool is_recorded = frame_.replay.bytes > 0 && scratch_->fragments.serves(state.needs);
+    return is_plain && !is_recorded;
 }
 
 // LESS with a write is the one depth pass that rows know; every other goes through batches (execution.md 7).

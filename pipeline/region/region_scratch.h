@@ -6,25 +6,23 @@
 #include <vector>
 
 #include "pipeline/fragments/arena.h"
-#include "pipeline/fragments/fragment_store.h"
-#include "pipeline/fragments/selected_fragments.h"
-#include "pipeline/fragments/sorted_sets.h"
+#include "pipeline/fragments/sorted_columns.h"
+#include "pipeline/fragments/tile_fragments.h"
+#include "pipeline/fragments/visits.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
-#include "pipeline/region/repeated_pass.h"
 #include "pipeline/region/target_storage.h"
 #include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
 
-// Contents last from one stage of a batch to the next, but for `store`, `sorted`, `trace` and `arena`, which last as long as the
+// Contents last from one stage of a batch to the next, but for the record and what is sorted of it, `trace` and `arena`, which last as long as the
 // region.
 struct alignas(64) RegionScratch {
     Loads loads;
     Outputs out;
-    FragmentBatch screen;    // of full-screen passes
-    FragmentBatch recalled;  // from the store
-    Lanes<std::uint32_t> recalled_alive;
+    FragmentBatch screen;               // of full-screen passes
+    FragmentBatch recorded;             // from the record
     ColorLanes texel;                   // a texture's or a shadow's colours; also the cut source of narrow surfaces
     ColorCodes codes, idle_codes;       // stored values on their way through the blender
     Lanes<std::uint32_t> alive;         // of one sample
@@ -32,10 +30,10 @@ struct alignas(64) RegionScratch {
     Lanes<std::uint32_t> depth_pass;
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
-    FragmentStore store;
-    SortedSets sorted;  // of the store
-    SelectedFragments selected;
-    RepeatedPass repeated;  // what was selected last
+    TileFragments fragments;
+    TileFragments::Reading reading;
+    SortedColumns sorted, other_sorted;  // of the record: what the present pass looks into, and what another did
+    Visits visits;                       // of the present pass
     Trace trace;
     Arena arena;
     std::vector<TargetWords> target_words;  // of targets that are no more
@@ -61,9 +59,9 @@ class RegionScratchPool {
         if (free_.empty()) return std::make_unique<RegionScratch>();
         std::unique_ptr<RegionScratch> scratch = std::move(free_.back());
         free_.pop_back();
-        scratch->store.forget();
+        scratch->fragments.forget();
         scratch->sorted.forget();
-        scratch->selected.is_remembered = false;
+        scratch->other_sorted.forget();
         scratch->arena.reset();
         return scratch;
     }

@@ -128,7 +128,6 @@ Outputs& Region::start_batch(const FragmentBatch& batch) {
     Outputs& out = scratch_->out;
     std::fill_n(out.alive.begin(), batch.count, ~0u);
     out.traced = out.replaces_depth = false;
-    out.neutral = 0;
     return out;
 }
 
@@ -348,7 +347,6 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
             cache_->blend(k, {batch, out.color[k], alive, fetched, sample});
             continue;
         }
-        if ((out.neutral >> k & 1u) != 0) continue;
         const bool is_idle = idles(Effect::blending, blending.enabled);
         const bool keeps_source =
             is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do

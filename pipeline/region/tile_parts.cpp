@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/fragments/fragment_store.h"
+#include "pipeline/fragments/sort_levels.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/parallel.h"
@@ -20,10 +20,19 @@ struct Depths {
     std::uint64_t all = 0, deepest = 0;
 };
 
+// Below this cutting costs more than it spares.
+constexpr std::uint64_t least_memory = std::uint64_t{512} << 10;
+
+// The words of sorted columns: as many for each pixel of a block as its tallest has.
+std::uint64_t sorted_words(const Rect& rect, const Depths& of) {
+    const std::uint64_t blocks = (rect.area() + block_lanes - 1) / block_lanes;
+    return block_lanes * std::min(of.all, blocks * of.deepest);
+}
+
 bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
     constexpr std::uint64_t least_columns = 16;  // of a block
     const std::uint64_t columns = std::max(least_columns, static_cast<std::uint64_t>(rect.width()));
-    return of.all * replay.bytes_a_fragment + FragmentStore::chunk_bytes <= replay.bytes ||
+    return of.all * replay.bytes_a_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes ||
            (replay.bytes_in_columns > 0 && columns * of.deepest * replay.bytes_in_columns <= replay.bytes);
 }
 
@@ -88,7 +97,7 @@ class CutTile {
 std::vector<RegionPlace> tile_parts(const Frame& frame, int threads) {
     const Geometry& geometry = frame.repeated()->geometry;
     const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
-    const bool cuts = frame.replay.bytes >= 2 * FragmentStore::chunk_bytes && frame.replay.bytes_a_fragment > 0;
+    const bool cuts = frame.replay.bytes >= least_memory && frame.replay.bytes_a_fragment > 0;
     std::vector<std::vector<RegionPlace>> parts(tiles);
     parallel_for(tiles, threads, [&](std::size_t tile) {
         const Rect rect = tile_rect(geometry, tile);

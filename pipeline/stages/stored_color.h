@@ -6,7 +6,7 @@
 //          product, as blend_unorm8.h and blend_float.h say. Of BlendStorage::cached_tiles there remains that codes of
 //          8 bits are blended as the values that they stand for, in binary32.
 // Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
-// Tests    tests/peeling/closed/block_passes_test.cpp, tests/pipeline/stages/layer_blend_test.cpp
+// Tests    tests/peeling/closed/block_passes_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>

@@ -70,7 +70,7 @@ TEST_CASE("a program sees the same window position in a pass that visits what it
         state.depth_target = second;
         state.color[0] = result;
         state.reads[0] = first;
-        state.selection.behind = first;
+        state.selection.near = strata::pipeline::KeyBound::beyond(first);
         static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
                 out.alive[i] &= mask(in.code[i] > own.depth(0)[i]);

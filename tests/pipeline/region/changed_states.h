@@ -78,15 +78,11 @@ inline const std::vector<Change>& changes() {
         {"samples but the first", [](PassState& s, Region&) { s.sample_mask = 0xfe; }},
         {"samples but the last", [](PassState& s, Region&) { s.sample_mask = 0x7f; }},
         {"an alpha test", [](PassState& s, Region&) { s.alpha = {.enabled = true, .func = greater, .ref = 0.5f}; }},
-        {"an alpha test for the selection's sake",
-         [](PassState& s, Region&) { s.selection.outside = Outside::alpha_test; }},
         {"a depth unit",
          [](PassState& s, Region& r) {
              s.depth_units[0] = {r.opaque_depth(), gequal};
              s.depth_unit_count = 1;
          }},
-        {"a depth unit for the selection's sake",
-         [](PassState& s, Region&) { s.selection.outside = Outside::depth_unit; }},
         {"depths of the program's own", [](PassState& s, Region&) { s.replaces_depth = true; }},
         {"reads in order", [](PassState& s, Region&) { s.ordered_rmw = true; }},
         {"facing", [](PassState& s, Region&) { s.needs.facing = true; }},

@@ -1,4 +1,4 @@
-// Peels from both ends whose passes go on from window to window, and peels that leave that course: another range, another surface, another
+// Peels from both ends whose passes go on from range to range, and peels that do not: another range, another surface, another
 // clear, a pass twice. Model: literal execution, which visits every fragment.
 #include <bit>
 #include <catch2/catch.hpp>
@@ -38,7 +38,7 @@ enum class Step {
     other_surface,  // at one pixel
     other_clear,    // of what the pass leaves
     other_outside,  // what a fragment outside does
-    no_keys         // leaves something else of what lies between, and does not promise that keys suffice
+    other_depths    // leaves something else of what lies between
 };
 
 class Peel {
@@ -71,32 +71,28 @@ class Peel {
         if (step == Step::other_surface) put_depth(region_, surface_, x, y, std::max(far, 0.0f));
         const bool is_other = step == Step::other_clear;
         region_.clear(next_, {.color = {is_other ? -0.5f : -1.0f, is_other ? 0.25f : -1.0f, 0, 0}});
-        if (step == Step::other_outside)
-            outside_ = outside_ == Outside::discarded ? Outside::one_value : Outside::discarded;
-        draw(step != Step::no_keys);
+        if (step == Step::other_outside) outside_ = outside_ == Outside::dies ? Outside::writes_alike : Outside::dies;
+        draw(step == Step::other_depths ? 0.5f : 1.0f);
         if (step != Step::again) std::swap(range_, next_);
     }
 
     // The near end leaves its colour, and everything else that is not discarded a value that rises from pass to pass.
-    void draw(bool keys_suffice) {
+    void draw(float scale) {
         PassState state;
         state.color = {next_, ends_};
         state.blend = {blend_mode::max, blend_mode::max};
         state.reads = {range_, surface_};
         state.needs.code = false;
-        state.selection = {.keeps = Keeps::ends,
-                           .outside = outside_,
-                           .before = surface_,
-                           .range = range_,
-                           .keys_suffice = keys_suffice};
-        const bool discards = outside_ == Outside::discarded;
+        state.selection = {
+            .keeps = Keeps::ends, .outside = outside_, .far = {KeyBound::beyond(surface_)}, .range = range_};
+        const bool discards = outside_ == Outside::dies;
         const float others = static_cast<float>(++passes_) / 32.0f;
         static_cast<void>(region_.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
                 const float z = in.shader_z[i], near = -own.color(0)[0][i], far = own.color(0)[1][i];
                 const bool is_inside = z < std::bit_cast<float>(own.depth(1)[i]) && z >= near && z <= far;
                 const bool is_near = is_inside && z == near, is_between = is_inside && z != near && z != far;
-                const float left = keys_suffice ? z : 0.5f * z;
+                const float left = scale * z;
                 out.color[0][0][i] = is_between ? -left : -1.0f;
                 out.color[0][1][i] = is_between ? left : -1.0f;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = is_near ? in.color[c][i] : others;
@@ -111,7 +107,7 @@ class Peel {
     Target range_ = region_.make(Format::rg32f), next_ = region_.make(Format::rg32f);
     Target ends_ = region_.make(Format::rgba32f), surface_ = region_.make_depth();
     int passes_ = 0;
-    Outside outside_ = walk_.seed % 2 == 0 ? Outside::discarded : Outside::one_value;
+    Outside outside_ = walk_.seed % 2 == 0 ? Outside::dies : Outside::writes_alike;
 };
 
 std::string difference_of_walk(const Walk<Step>& walk, const FragmentScene& scene) {
@@ -129,11 +125,11 @@ std::string difference_of_walk(const Walk<Step>& walk, const FragmentScene& scen
 
 }  // namespace
 
-TEST_CASE("a peel from both ends leaves and counts what visiting everything does, wherever it leaves its course") {
+TEST_CASE("a peel from both ends leaves what visiting everything does, whatever its ranges") {
     Random random{2091};
     for (int round = 0; round < 250; ++round) {
         const FragmentScene scene = any_depths(random, round % 4 == 0);
-        const Walk<Step> walk = random_walk(random, 12, Step::no_keys);
+        const Walk<Step> walk = random_walk(random, 12, Step::other_depths);
         INFO("round " << round);
         REQUIRE(difference_of_walk(walk, scene) == "");
     }

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/fragments/fragment_store.h"
 #include "tests/pipeline/frames.h"
 #include "tests/support/random_numbers.h"
 
@@ -32,11 +31,15 @@ struct Room {
                 deepest = std::max(deepest, own);
             }
     }
+    // Sixteen columns as tall as the tallest, at most.
+    [[nodiscard]] std::uint64_t words(const Rect& rect) const {
+        return std::min(16 * all, (rect.area() + 15) / 16 * 16 * deepest);
+    }
     [[nodiscard]] bool fits(const Replay& replay, const Rect& rect) const {
         const auto columns = static_cast<std::uint64_t>(std::max(16, rect.width()));
         const bool in_columns =
             replay.bytes_in_columns > 0 && columns * deepest * replay.bytes_in_columns <= replay.bytes;
-        return in_columns || all * replay.bytes_a_fragment + (256 << 10) <= replay.bytes;
+        return in_columns || all * replay.bytes_a_fragment + 8 * words(rect) <= replay.bytes;
     }
 };
 
@@ -82,17 +85,17 @@ TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits i
     CHECK(pixels > 10);
 }
 
-TEST_CASE("tiles are not cut where nothing is said of a fragment, or memory holds less than two chunks") {
+TEST_CASE("tiles are not cut where nothing is said of a fragment, or of less than 512 KiB of memory") {
     Random random{2087};
     TestFrame test{uneven_scene(random), "ideal", 16};
     const auto parts_with = [&](const Replay& replay) {
         test.frame.replay = replay;
         return tile_parts(test.frame, 1).size();
     };
-    constexpr std::uint64_t chunk = FragmentStore::chunk_bytes;
-    CHECK(parts_with({.bytes = 2 * chunk, .bytes_a_fragment = 100'000}) > 2);
-    CHECK(parts_with({.bytes = 2 * chunk - 1, .bytes_a_fragment = 100'000}) == 2);
-    CHECK(parts_with({.bytes = 2 * chunk}) == 2);
+    constexpr std::uint64_t least = 512 << 10;
+    CHECK(parts_with({.bytes = least, .bytes_a_fragment = 100'000}) > 2);
+    CHECK(parts_with({.bytes = least - 1, .bytes_a_fragment = 100'000}) == 2);
+    CHECK(parts_with({.bytes = least}) == 2);
     CHECK(parts_with({.bytes = 0, .bytes_a_fragment = 1}) == 2);
 }
 

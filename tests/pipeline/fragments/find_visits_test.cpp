@@ -1,0 +1,309 @@
+// Model: each fragment of a pixel asked by itself, in the order of arrival, whether it is kept.
+#include "pipeline/fragments/find_visits.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "tests/pipeline/fragments/recorded_fragments.h"
+
+// A namespace of its own: names of the model are short.
+namespace strata::testing::find_visits_model {
+namespace {
+
+using namespace pipeline;
+using rasterizer::DepthFormat;
+using rasterizer::ordered_code;
+
+constexpr std::uint32_t pixels = 70;
+constexpr int codes = 9;
+
+struct Tile {
+    GivenRecord given;
+    SortedColumns sorted;
+    std::vector<std::uint32_t> words = std::vector<std::uint32_t>(pixels), more = words, stored = words;
+
+    Tile(Random& random, const SortRequest& request) {
+        fill_record(random, random_int(random, 0, 25), pixels, codes, all_values, given);
+        REQUIRE(sorted.sort(given.record, request, pixels, std::uint64_t{1} << 30));
+        for (auto* const plane : {&words, &more, &stored})
+            for (auto& word : *plane) word = static_cast<std::uint32_t>(random_int(random, 0, codes));
+    }
+    // Places of a pixel's fragments that `holds`, as they came.
+    template <class Holds>
+    [[nodiscard]] std::vector<std::uint32_t> places(std::uint32_t pixel, const Holds& holds) const {
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t place = 0; place < given.living.size(); ++place)
+            if (given.living[place].pixel == pixel && holds(given.living[place])) found.push_back(place);
+        return found;
+    }
+};
+
+// What is visited at each pixel, wave after wave; a pixel has one of a wave at most.
+std::map<std::uint32_t, std::vector<std::uint32_t>> visited(const Visits& visits) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> all;
+    for (std::size_t w = 0; w < visits.waves(); ++w) {
+        std::set<std::uint32_t> seen;
+        for (std::size_t k = 0; k < visits.wave(w).pixel.size(); ++k) {
+            const std::uint32_t pixel = visits.wave(w).pixel[k];
+            REQUIRE(seen.insert(pixel).second);
+            all[pixel].push_back(place_of(visits.wave(w).word[k]));
+        }
+    }
+    return all;
+}
+
+BoundPlane codes_in(const std::vector<std::uint32_t>& plane, bool includes) {
+    return {plane.data(), includes, BoundPlane::Holds::codes, DepthFormat::d24};
+}
+
+using Fragment = GivenRecord::Fragment;
+
+}  // namespace
+
+TEST_CASE("of nearest the first arrival of a window's least key is visited, where it lies before what is stored") {
+    Random random{2321};
+    for (int round = 0; round < 60; ++round) {
+        Tile tile{random, {}};
+        const bool includes = round % 2 == 0, has_far = round % 3 == 0;
+        Windows windows{.near = codes_in(tile.words, includes)};
+        if (has_far) windows.far[0] = codes_in(tile.more, round % 5 == 0);
+        for (int pass = 0; pass < 3; ++pass) {  // sought from where the pass before has found it
+            Visits visits;
+            find_nearest(tile.sorted, windows, {tile.stored.data(), false}, visits);
+            auto found = visited(visits);
+            std::uint64_t wrong = 0;
+            for (std::uint32_t p = 0; p < pixels; ++p) {
+                const auto inside = tile.places(p, [&](const Fragment& f) {
+                    const bool is_behind = includes ? f.code >= tile.words[p] : f.code > tile.words[p];
+                    const bool is_before = !has_far || f.code < tile.more[p] + (round % 5 == 0 ? 1 : 0);
+                    return is_behind && is_before && f.code < tile.stored[p];
+                });
+                const auto least =
+                    std::ranges::min_element(inside, {}, [&](std::uint32_t k) { return tile.given.living[k].code; });
+                const auto expected = least == inside.end() ? std::vector<std::uint32_t>{} : std::vector{*least};
+                wrong += found[p] == expected ? 0 : 1;
+            }
+            CHECK(wrong == 0);
+            for (auto& word : tile.words) word = static_cast<std::uint32_t>(random_int(random, 0, codes));
+        }
+    }
+}
+
+TEST_CASE("by a compared depth the nearest code of those behind a bound is visited, however the two differ") {
+    Random random{2322};
+    for (int round = 0; round < 120; ++round) {
+        Tile tile{random, {}};
+        DepthCompare compare{.format = DepthFormat::d24, .has_reference = true};
+        if (round % 3 == 1) compare.epsilon.ulps = 2;
+        if (round % 3 == 2) compare.quantizes = false;
+        Windows windows;
+        if (round % 4 == 0) windows.far[0] = codes_in(tile.more, false);
+        if (round % 5 == 0) windows.least = 3;
+        Visits visits;
+        find_nearest_behind(tile.sorted, tile.given.record, compare, windows, tile.words.data(),
+                            {tile.stored.data(), false}, visits);
+        auto found = visited(visits);
+        std::uint64_t wrong = 0;
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            const auto inside = tile.places(p, [&](const Fragment& f) {
+                return compare.is_behind(f.reference_code, f.reference_z, tile.words[p]) && f.code < tile.stored[p] &&
+                       (round % 4 != 0 || f.code < tile.more[p]) && f.code >= windows.least;
+            });
+            const auto least =
+                std::ranges::min_element(inside, {}, [&](std::uint32_t k) { return tile.given.living[k].code; });
+            // A compared depth that is not rounded is its code's, but for less than a code: the record's are any.
+            if (!compare.quantizes) continue;
+            const auto expected = least == inside.end() ? std::vector<std::uint32_t>{} : std::vector{*least};
+            wrong += found[p] == expected ? 0 : 1;
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("of a window all are visited in the order of arrival, or nothing is said where they are more than half") {
+    Random random{2323};
+    int kept = 0, declined = 0;
+    for (int round = 0; round < 120; ++round) {
+        Tile tile{random, {}};
+        if (round % 5 == 0) std::ranges::fill(tile.words, 1u);  // nearly all
+        if (round % 5 == 0) std::ranges::fill(tile.more, codes - 1u);
+        const Windows windows{.near = codes_in(tile.words, true), .far = {codes_in(tile.more, round % 2 == 0), {}}};
+        Visits visits;
+        const bool finds = find_windows(tile.sorted, windows, visits);
+        std::uint64_t inside = 0, wrong = 0;
+        auto found = visited(visits);
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            const auto expected = tile.places(p, [&](const Fragment& f) {
+                return f.code >= tile.words[p] && f.code < tile.more[p] + (round % 2 == 0 ? 1 : 0);
+            });
+            inside += expected.size();
+            wrong += found[p] == (finds ? expected : std::vector<std::uint32_t>{}) ? 0 : 1;
+        }
+        CHECK(wrong == 0);
+        CHECK(finds == (2 * inside <= tile.given.living.size()));
+        ++(finds ? kept : declined);
+    }
+    CHECK(kept > 10);
+    CHECK(declined > 2);
+}
+
+TEST_CASE("bounds that are binary32 depths or values of codes leave no fragment out") {
+    Random random{2324};
+    constexpr auto value = [](std::uint32_t code) {
+        return static_cast<float>(rasterizer::depth_value(code, DepthFormat::d24));
+    };
+    std::uint64_t wrong = 0, wide = 0;
+    for (int round = 0; round < 40; ++round) {
+        Tile tile{random, {}};
+        std::vector<std::uint32_t> values(pixels);
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            const float odd[]{-1.0f, 2.0f, 0.0f, std::numeric_limits<float>::quiet_NaN(), 0x1p-24f * 2.6f};
+            const int which = random_int(random, 0, 9);
+            values[p] = std::bit_cast<std::uint32_t>(which < 5 ? odd[which] : value(tile.words[p]));
+        }
+        const BoundPlane bound{values.data(), false, BoundPlane::Holds::values, DepthFormat::d24};
+        for (std::uint32_t p = 0; p < pixels; ++p)
+            for (std::uint32_t code = 0; code < codes; ++code) {
+                const auto stored = std::bit_cast<float>(values[p]);
+                wrong += value(code) > stored && code < bound.first_behind(p) ? 1 : 0;
+                wrong += value(code) < stored && code >= bound.end_before(p) ? 1 : 0;
+                wide += value(code) < stored && code >= bound.first_behind(p) ? 1 : 0;
+            }
+        std::vector<std::uint32_t> depths(pixels);
+        for (auto& depth : depths) depth = std::bit_cast<std::uint32_t>(random_float(random, -1, 1));
+        const BoundPlane depth{depths.data(), false, BoundPlane::Holds::depths, DepthFormat::d32f};
+        for (std::uint32_t p = 0; p < pixels; ++p)
+            wrong += depth.key(p) == ordered_code(std::bit_cast<float>(depths[p])) ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+    CHECK(wide < 40 * pixels);
+}
+
+namespace {
+
+struct Ends {
+    std::set<std::uint32_t> needed, may;  // what must be visited, and what may
+};
+
+// Of the ends all arrivals, of what lies between one of the least and of the greatest key, and where there is nothing but one key one from
+// outside.
+template <class IsNear, class IsFar, class IsInside>
+Ends ends_at(const Tile& tile, std::uint32_t p, bool one_outside, const IsInside& is_inside, const IsNear& is_near,
+             const IsFar& is_far) {
+    Ends ends;
+    std::vector<std::uint32_t> between, outside;
+    bool is_near_alone = true;
+    for (const std::uint32_t place : tile.places(p, [](const Fragment&) { return true; })) {
+        const Fragment& f = tile.given.living[place];
+        if (!is_inside(f)) {
+            outside.push_back(place);
+        } else if (is_near(f) || is_far(f)) {
+            is_near_alone &= is_near(f);
+            ends.needed.insert(place);
+        } else {
+            between.push_back(place);
+        }
+    }
+    const auto by_z = [&](std::uint32_t k) { return ordered_code(tile.given.living[k].shader_z); };
+    if (!between.empty()) {
+        ends.needed.insert(*std::ranges::min_element(between, {}, by_z));
+        ends.needed.insert(*std::ranges::max_element(between, {}, by_z));
+    }
+    if (one_outside && between.empty() && is_near_alone) ends.may.insert(outside.begin(), outside.end());
+    return ends;
+}
+
+bool is_right(const std::vector<std::uint32_t>& found, const Ends& ends) {
+    const std::set<std::uint32_t> all{found.begin(), found.end()};
+    if (all.size() != found.size() || !std::ranges::includes(all, ends.needed)) return false;
+    return all.size() == ends.needed.size() + (ends.may.empty() ? 0 : 1) &&
+           std::ranges::all_of(all, [&](std::uint32_t k) { return ends.needed.contains(k) || ends.may.contains(k); });
+}
+
+// Ranges of shader depths that fragments have, empty ones among them, and surfaces.
+struct Ranges {
+    std::vector<std::uint32_t> near = std::vector<std::uint32_t>(pixels), far = near, surface = near;
+    Ranges(Random& random, const Tile& tile) {
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            const auto all = tile.places(p, [](const Fragment&) { return true; });
+            const auto any = [&] {
+                return all.empty() ? 0.5f : tile.given.living[all[random() % all.size()]].shader_z;
+            };
+            near[p] = std::bit_cast<std::uint32_t>(-any());
+            far[p] = std::bit_cast<std::uint32_t>(any());
+            surface[p] = std::bit_cast<std::uint32_t>(random_int(random, 0, 2) == 0 ? any() : 2.0f);
+        }
+    }
+    [[nodiscard]] Windows windows() const {
+        return {.far = {BoundPlane{surface.data(), false, BoundPlane::Holds::depths, DepthFormat::d32f}, {}},
+                .range_near = near.data(),
+                .range_far = far.data()};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("of a range the ends are visited, what lies next to them, and one from outside where there is one key") {
+    Random random{2325};
+    std::uint64_t wrong = 0, alone = 0;
+    for (int round = 0; round < 60; ++round) {
+        Tile tile{random, {.key = DepthKey::shader_z}};
+        const Ranges ranges{random, tile};
+        Visits visits;
+        find_ends(tile.sorted, ranges.windows(), round % 2 == 0, visits);
+        auto found = visited(visits);
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            const float near = -std::bit_cast<float>(ranges.near[p]), far = std::bit_cast<float>(ranges.far[p]);
+            const auto is_inside = [&](const Fragment& f) {
+                return f.shader_z >= near && f.shader_z <= far && f.shader_z < std::bit_cast<float>(ranges.surface[p]);
+            };
+            float first = 2, last = -2;
+            for (const std::uint32_t k : tile.places(p, is_inside)) {
+                first = std::min(first, tile.given.living[k].shader_z);
+                last = std::max(last, tile.given.living[k].shader_z);
+            }
+            const Ends ends = ends_at(
+                tile, p, round % 2 == 0, is_inside, [&](const Fragment& f) { return f.shader_z == first; },
+                [&](const Fragment& f) { return f.shader_z == last; });
+            wrong += is_right(found[p], ends) ? 0 : 1;
+            alone += ends.may.empty() ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(alone > 50);
+}
+
+TEST_CASE("of a range of compared depths the ends are those that reach it, within an epsilon") {
+    Random random{2326};
+    std::uint64_t wrong = 0;
+    for (int round = 0; round < 60; ++round) {
+        Tile tile{random, {.key = DepthKey::shader_z}};
+        const DepthCompare compare{.format = DepthFormat::d32f,
+                                   .epsilon = {.absolute = round % 2 == 0 ? 0.125 : 0.0},
+                                   .has_reference = true,
+                                   .quantizes = round % 3 != 0};
+        const Ranges ranges{random, tile};
+        Visits visits;
+        find_ends_compared(tile.sorted, tile.given.record, compare, ranges.windows(), round % 4 < 2, visits);
+        auto found = visited(visits);
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            const double near = -std::bit_cast<float>(ranges.near[p]), far = std::bit_cast<float>(ranges.far[p]);
+            const auto reaches = [&](double least, double most) { return !compare.exceeds(least, most); };
+            const auto z = [&](const Fragment& f) { return compare.own(f.reference_z); };
+            const Ends ends = ends_at(
+                tile, p, round % 4 < 2,
+                [&](const Fragment& f) {
+                    return near <= far && reaches(near, z(f)) && reaches(z(f), far) &&
+                           f.shader_z < std::bit_cast<float>(ranges.surface[p]);
+                },
+                [&](const Fragment& f) { return reaches(z(f), near); },
+                [&](const Fragment& f) { return reaches(far, z(f)); });
+            wrong += is_right(found[p], ends) ? 0 : 1;
+            wrong += std::ranges::is_sorted(found[p]) ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
+}  // namespace strata::testing::find_visits_model

@@ -1,0 +1,67 @@
+// Model: std::sort of each column on its own.
+#include "pipeline/fragments/sort_levels.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "rasterizer/base/simd.h"
+#include "tests/support/random_numbers.h"
+
+namespace {
+
+using namespace strata;
+using pipeline::block_lanes;
+using testing::Random;
+using testing::random_int;
+
+enum class Order { any, rising, falling, rising_but_for_two, falling_but_for_two };
+enum class Heights { equal, any };
+
+using Column = std::vector<std::uint64_t>;
+
+// Sixteen columns in the order of arrival, ~0 above their ends.
+std::vector<Column> columns_of(Random& random, std::size_t height, Order order, Heights heights) {
+    std::vector<Column> columns(block_lanes);
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+        const bool is_full = heights == Heights::equal || lane == 3;
+        Column& column = columns[lane];
+        column.resize(is_full ? height : static_cast<std::size_t>(random_int(random, 0, static_cast<int>(height))));
+        for (auto& word : column) word = random() >> 1;
+        const bool has_two = order == Order::rising_but_for_two || order == Order::falling_but_for_two;
+        const auto behind = order == Order::any ? column.size() : has_two ? std::min<std::size_t>(column.size(), 2) : 0;
+        const auto ordered = column.end() - static_cast<std::ptrdiff_t>(behind);
+        std::sort(column.begin(), ordered);
+        if (order == Order::falling || order == Order::falling_but_for_two) std::reverse(column.begin(), ordered);
+        column.resize(height, ~std::uint64_t{0});
+    }
+    return columns;
+}
+
+std::vector<std::uint64_t> levels_of(const std::vector<Column>& columns, std::size_t height) {
+    std::vector<std::uint64_t> levels(height * block_lanes);
+    for (std::size_t k = 0; k < height; ++k)
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) levels[k * block_lanes + lane] = columns[lane][k];
+    return levels;
+}
+
+}  // namespace
+
+TEST_CASE("columns of any height and order are sorted, each on its own, on every instruction set") {
+    Random random{91};
+    std::uint64_t wrong = 0;
+    for (const Simd simd : available_simd()) {
+        const SimdScope kernels{simd};
+        for (std::size_t height = 0; height <= 70; ++height)
+            for (const Order order :
+                 {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
+                for (const Heights heights : {Heights::equal, Heights::any}) {
+                    std::vector<Column> columns = columns_of(random, height, order, heights);
+                    std::vector<std::uint64_t> levels = levels_of(columns, height);
+                    pipeline::sort_levels(levels.data(), height);
+                    for (Column& column : columns) std::ranges::sort(column);
+                    wrong += levels == levels_of(columns, height) ? 0 : 1;
+                }
+    }
+    CHECK(wrong == 0);
+}
