@@ -148,7 +148,7 @@ TEST_CASE("float spans stand beside no rule of the chip, and a field below its r
         spans.raster.depth_path = path;
         const auto conflict = conflict_of(spans);
         REQUIRE(conflict);
-        CHECK(conflict->expected == std::string{"snapped_edges beside raster.depth_path "} + word);
+        CHECK(conflict->expected == std::string{"snapped_edges with raster.depth_path "} + word);
     }
     spans.raster.depth_path = DepthPath::float32;
     CHECK_FALSE(conflict_of(spans));

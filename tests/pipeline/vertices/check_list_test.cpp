@@ -133,7 +133,7 @@ TEST_CASE("a view and a profile with a value that no rule covers are refused") {
     spans.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;
     CHECK_THROWS_WITH(
         check(spans),
-        "profile: raster.coverage: expected snapped_edges beside raster.color weights_8bit, found float_spans");
+        "profile: raster.coverage: expected snapped_edges with raster.color weights_8bit, found float_spans");
 }
 
 TEST_CASE("a list with any of its numbers changed is refused at the door of prepare or prepared") {
