@@ -76,6 +76,8 @@ TEST_CASE("a sentence says what its row's knob changes, in the row's own figures
     rows[1].usual->least = rows[0].usual->greatest;
     rows[1].literal->runs = 3;
     CHECK(sentences_of(rows)[0] == errors + ", no other time beyond the noise of 5 rounds, 1.50 times the card's.");
+    rows[1].usual->runs = 3;
+    CHECK(sentences_of(rows)[0] == errors + ", 3 rounds are too few to compare times, 1.50 times the card's.");
 }
 
 TEST_CASE(

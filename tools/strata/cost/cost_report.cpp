@@ -24,10 +24,13 @@ namespace {
     std::string text;
     if (row.usual && standard.usual) {
         const double unit = standard.usual->median;
+        const std::size_t runs = std::min(row.usual->runs, standard.usual->runs);
         text += is_apart(*row.usual, *standard.usual)
                     ? fmt::format(", {:.2f} times the time ({:.2f} to {:.2f})", row.usual->median / unit,
                                   row.usual->least / unit, row.usual->greatest / unit)
-                    : fmt::format(", no other time beyond the noise of {} rounds", row.usual->runs);
+                : runs < least_runs
+                    ? fmt::format(", {} round{} too few to compare times", runs, runs == 1 ? " is" : "s are")
+                    : fmt::format(", no other time beyond the noise of {} rounds", runs);
     }
     if (row.literal && standard.literal && is_apart(*row.literal, *standard.literal))
         text += fmt::format(", run literally {:.2f} times the default's literal time",

@@ -43,7 +43,7 @@ Run run(const scenes::Scene& scene, const pipeline::View& view, const std::strin
     const peeling::Algorithm& chosen = *peeling::find_algorithm(algorithm);
     const auto result = renderer.render(chosen);
     std::vector<double> seconds{result.seconds.passes};
-    while (seconds.size() < 4 && result.seconds.passes < short_run)
+    while (seconds.size() < least_runs && result.seconds.passes < short_run)
         seconds.push_back(renderer.render(chosen).seconds.passes);
     return {result.frame.iterations, result.frame.passes.geometry, result.frame.counters->fragments_rasterized,
             spread_of(seconds), result.frame.color};
