@@ -23,7 +23,7 @@ missing() {
     done
 }
 names() { printf '%s\n' "$@" | cut -d ' ' -f 1; }
-as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo env DEBIAN_FRONTEND=noninteractive "$@"; fi; }
 
 # How far apt-get is, from what APT::Status-Fd says: in place on a terminal, else a line for each quarter.
 progress() {
@@ -41,7 +41,17 @@ progress() {
     done
     if [ -t 1 ]; then printf '\r%-80s\r' ""; fi
 }
-install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends -o APT::Status-Fd=1 "$@" | progress; }
+# apt-get makes the descriptor of its status one that does not wait, which a script of a package must not find as its standard output: the
+# status has a descriptor of its own, opened behind sudo, which closes it. What else is said is shown if it fails.
+install() {
+    local log status=0
+    log=$(mktemp)
+    as_root sh -c 'exec apt-get install -y -qq --no-install-recommends -o APT::Status-Fd=3 "$@" 3>&1 >&2' \
+        install "$@" 2>"$log" | progress || { cat "$log" >&2; status=1; }
+    rm -f "$log"
+    return "$status"
+}
+export DEBIAN_FRONTEND=noninteractive
 
 command -v dpkg-query >/dev/null || fail "this is neither Debian 12 nor one of its kin (no dpkg-query, no apt-get); install what tools/packages.txt lists"
 # shellcheck disable=SC2086

@@ -11,6 +11,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 SETS = {"program", "tests", "tests?", "all?", "headers"}
 # What only tests and tools of their own labels use.
@@ -73,9 +74,36 @@ def scripts(root):
         yield "tools/setup.sh: takes a set that it does not know"
 
 
+APT_GET = """#!/bin/sh
+# Says how far it is on the descriptor that it was told, and other things elsewhere.
+case "$*" in *APT::Status-Fd=3*) ;; *) exit 0 ;; esac
+[ "$(readlink /proc/$$/fd/1)" != "$(readlink /proc/$$/fd/3)" ] || echo "the status shares its descriptor" >&2
+echo "Setting up something" ; echo "a note of a package" >&2
+echo "pmstatus:something:50.0000:Installing something" >&3
+exit {status}
+"""
+
+
+def installation(root):
+    """tools/setup.sh with an apt-get of ours on a machine that lacks everything: progress alone is on the screen, all that was said if it fails."""
+    with tempfile.TemporaryDirectory() as folder:
+        def run(status):
+            for name, text in {"apt-get": APT_GET.replace("{status}", str(status)), "dpkg-query": "#!/bin/sh\nexit 1\n", "sudo": '#!/bin/sh\nexec "$@"\n'}.items():
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+                os.chmod(file.name, 0o755)
+            environment = {**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]}
+            return subprocess.run(["tools/setup.sh", "program"], cwd=root, env=environment, capture_output=True, text=True, check=False)
+        good, bad = run(0), run(100)
+    if good.returncode or "installing: 50 %" not in good.stdout or good.stderr or "Setting up" in good.stdout:
+        yield f"tools/setup.sh: does not show progress alone: {good.stdout[-200:]}{good.stderr}"
+    if bad.returncode == 0 or "a note of a package" not in bad.stderr or "shares its descriptor" in bad.stderr or "could not install" not in bad.stderr:
+        yield f"tools/setup.sh: does not say why an installation fails: {bad.stdout[-200:]}{bad.stderr}"
+
+
 def main(root):
     found, wrong = packages(root)
-    wrong += [*program_packages(root, found), *scripts(root)]
+    wrong += [*program_packages(root, found), *scripts(root), *installation(root)]
     print("\n".join([*wrong, f"{len(found)} packages, {len(wrong)} faults"]))
     return 1 if wrong else 0
 
