@@ -5,8 +5,8 @@
 #include <fstream>
 #include <regex>
 
+#include "scenes/printable.h"
 #include "tests/tools/program.h"
-#include "tools/strata/options/printable.h"
 
 using namespace strata::test;
 
@@ -144,7 +144,9 @@ TEST_CASE("no control character of a name or of a file reaches either stream, an
     }
     CHECK(run_strata(folder, {"digest", "--json", evil}).out.find(R"("e\u001b[2J\u0007\u007f\u009b.png")") !=
           std::string::npos);
-    CHECK(strata::tools::printable("a\n\x9f\xc2\x80\xc2\xa0") == "a\\x0a\\x9f\\u0080\xc2\xa0");
+    CHECK(strata::scenes::shortened("\u00e4bcdef", 6) == "\u00e4bcdef");
+    CHECK(strata::scenes::shortened("\u00e4bcdef\xff", 6) == "\u00e4bc...");
+    CHECK(strata::scenes::printable("a\n\x9f\xc2\x80\xc2\xa0") == "a\\x0a\\x9f\\u0080\xc2\xa0");
 }
 
 TEST_CASE("every fault of a glTF file is told, a line each") {

@@ -64,7 +64,7 @@ TEST_CASE("a page holds its sections in order, their tables and pictures, and ev
     CHECK(page.starts_with("<!doctype html>"));
     CHECK(page.ends_with("</body></html>\n"));
     CHECK(page.find("<p><a href=\"https://paper\">the paper</a></p>") != std::string::npos);
-    CHECK(page.find("<p class=\"lead\">Shows &lt;all></p>") < page.find("<h2>A"));
+    CHECK(page.find("<p class=\"lead\">Shows &lt;all&gt;</p>") < page.find("<h2>A"));
     CHECK(page.find("<title>Title &lt;1") != std::string::npos);
     CHECK(page.find("<h1>Title &lt;1") != std::string::npos);
     CHECK(page.find("<h2>A &lt; B &amp; C</h2>\n<p>text</p>") != std::string::npos);

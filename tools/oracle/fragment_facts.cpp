@@ -78,6 +78,9 @@ std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, cons
         is_reversed != (raster.depth_near > raster.depth_far) ? peeling::NearerZ::greater : peeling::NearerZ::less);
 }
 
+// A fragment has a text of its own: a name of a megabyte would be told for each of them.
+constexpr std::size_t longest_name = 200;
+
 // A triangle's mesh by counting through the instances that are drawn.
 void add_mesh(const RunInput& input, bool draws_all, std::uint32_t source, FragmentFact& fact) {
     for (const pipeline::Instance& instance : input.list.instances) {
@@ -85,7 +88,7 @@ void add_mesh(const RunInput& input, bool draws_all, std::uint32_t source, Fragm
         const pipeline::Mesh& mesh = input.list.meshes[instance.mesh];
         const auto triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
         if (source < triangles) {
-            fact.mesh = mesh.name;
+            fact.mesh = mesh.name.size() <= longest_name ? mesh.name : mesh.name.substr(0, longest_name) + "...";
             fact.triangle = static_cast<int>(source);
             return;
         }

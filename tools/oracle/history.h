@@ -18,8 +18,9 @@ namespace strata::oracle {
 // A fragment of the transparent list; colours and depth are those that fragment programs get.
 struct FragmentFact {
     std::uint32_t primitive = 0;  // submission number of its triangle
-    std::string mesh{};           // "" and triangle -1 where the algorithm sorts triangles by an order of its own
-    int triangle = -1;            // within the mesh
+    std::string
+        mesh{};  // the begin of a long name; "" and triangle -1 where the algorithm sorts triangles by an order of its own
+    int triangle = -1;  // within the mesh
     std::array<double, 3>
         barycentric{};  // of the snapped triangle's corners, in submission order; of a clipped one, its piece's
     std::array<float, 4> color{};

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "scenes/printable.h"
+
 namespace strata::oracle {
 
 namespace {
@@ -37,21 +39,6 @@ std::string share(const Explanation& e) {
     const double percent = 100.0 * static_cast<double>(e.explained) / static_cast<double>(e.of);
     return fmt::format("{:.1f} % of the differing pixels are those of {}{}", percent, e.sentence,
                        e.contradicted == 0 ? "" : fmt::format("; {} equal pixels speak against it", e.contradicted));
-}
-
-std::string escaped(std::string_view text) {
-    std::string xml;
-    for (const char c : text) {
-        if (c == '<')
-            xml += "&lt;";
-        else if (c == '&')
-            xml += "&amp;";
-        else if (c == '"')
-            xml += "&quot;";
-        else
-            xml += c;
-    }
-    return xml;
 }
 
 }  // namespace
@@ -120,9 +107,10 @@ std::string to_junit(const std::vector<JunitCase>& cases) {
     text += fmt::format("<testsuite name=\"strata compare\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
                         cases.size(), failures, skipped);
     for (const JunitCase& c : cases) {
-        text += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(c.group), escaped(c.name));
+        text += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", scenes::markup_text(c.group),
+                            scenes::markup_text(c.name));
         if (!c.failure.empty())
-            text += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n", escaped(c.failure));
+            text += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n", scenes::markup_text(c.failure));
         else
             text += c.is_skipped ? ">\n    <skipped/>\n  </testcase>\n" : "/>\n";
     }

@@ -8,12 +8,12 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/picture_attributes.h"
+#include "scenes/printable.h"
 #include "tools/strata/command.h"
 #include "tools/strata/digests.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/parse.h"
-#include "tools/strata/options/printable.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 
@@ -48,9 +48,10 @@ std::string said_by(const std::string& file) {
     const scenes::Attributes attributes = scenes::read_attributes(file);
     const auto command = attributes.find("command");
     if (command == attributes.end()) return "no command of strata in it\n";
-    std::string text = printable(command->second) + "\n";
+    std::string text = scenes::printable(command->second) + "\n";
     for (const auto& [key, value] : attributes)
-        if (key != "command" && value.size() <= 64) text += fmt::format("{}: {}\n", printable(key), printable(value));
+        if (key != "command" && value.size() <= 64)
+            text += fmt::format("{}: {}\n", scenes::printable(key), scenes::printable(value));
     return text;
 }
 
@@ -59,7 +60,7 @@ std::string text_of(const InfoOptions& options, const FileDigests& digests) {
     std::string text;
     for (const std::string& file : options.files) {
         if (std::ranges::none_of(digests.table.rows, [&](const auto& row) { return row.back() == file; })) continue;
-        text += (options.files.size() > 1 ? printable(file) + ":\n" : "") + said_by(file);
+        text += (options.files.size() > 1 ? scenes::printable(file) + ":\n" : "") + said_by(file);
     }
     return text;
 }
@@ -99,7 +100,7 @@ std::vector<std::string> recorded_words(const std::string& file) {
     for (const std::string& word : split(recorded(file), ' '))
         if (!word.empty()) words.push_back(word);
     if (words.size() < 3 || words[0] != "strata")
-        throw InputError(file, "strata:command", "a command of strata", "'" + printable(recorded(file)) + "'");
+        throw InputError(file, "strata:command", "a command of strata", "'" + scenes::printable(recorded(file)) + "'");
     return words;
 }
 

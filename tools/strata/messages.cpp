@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "scenes/printable.h"
 #include "tools/strata/options/option.h"
-#include "tools/strata/options/printable.h"
 
 namespace strata::tools {
 
@@ -45,9 +45,18 @@ std::string_view code_of(Paint paint) {
     return "";  // unreachable: the enum is closed
 }
 
+// A name in it may have a megabyte: the middle is left out, for the end says what was found.
+std::string shortened(std::string_view sentence) {
+    constexpr std::size_t most = 3000, kept = 1000;
+    if (sentence.size() <= most) return scenes::printable(sentence);
+    const std::size_t left_out = sentence.size() - 2 * kept;
+    return fmt::format("{} [{} bytes left out] {}", scenes::printable(sentence.substr(0, kept)), left_out,
+                       scenes::printable(sentence.substr(kept + left_out)));
+}
+
 // One call a line, so that lines of two threads do not mix.
 void say(const std::string& begin, std::string_view sentence) {
-    std::fprintf(stderr, "%s %s\n", begin.c_str(), printable(sentence).c_str());
+    std::fprintf(stderr, "%s %s\n", begin.c_str(), shortened(sentence).c_str());
 }
 
 }  // namespace
@@ -66,6 +75,11 @@ void add_message_options(CLI::App& app) {
     add_choice(app, wanted().colors, "--color", choices,
                "colours of messages and tables, not of pictures (default auto: on a terminal, unless NO_COLOR is set)")
         ->trigger_on_parse();
+}
+
+bool is_message_option(const CLI::Option& option) {
+    const std::string name = option.get_name();
+    return name == "--quiet" || name == "--verbose" || name == "--color";
 }
 
 std::string painted(std::string_view text, Paint paint, Stream stream) {
@@ -105,8 +119,8 @@ std::string shown_text(std::string_view text, Stream stream) {
         if (taken > 0) {
             shown += rest.substr(0, taken);
         } else {
-            taken = std::max<std::size_t>(utf8_length(rest), 1);
-            shown += printable(rest.substr(0, taken));
+            taken = std::max<std::size_t>(scenes::utf8_length(rest), 1);
+            shown += scenes::printable(rest.substr(0, taken));
         }
         i += taken;
     }

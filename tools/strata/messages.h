@@ -1,6 +1,6 @@
 // tools/strata/messages.h - what the program says beside its result: errors, warnings, details and their colours, and how much of it is wanted.
 //
-// Rule     Messages go to standard error, one line each; no byte of a file or of the command line reaches a terminal as a control
+// Rule     Messages go to standard error, one line each of at most 3,000 bytes or its begin and end; no byte of a file or of the command line reaches a terminal as a control
 //          character. Colours are put round words of a terminal alone, unless --color says otherwise; NO_COLOR (not empty) and
 //          TERM=dumb leave them out.
 // Tests    tests/tools/messages_test.cpp
@@ -14,6 +14,7 @@ namespace strata::tools {
 
 // -q, -v and --color of a command. They count from the word on at which they stand, for errors of later words, too.
 void add_message_options(CLI::App& app);
+[[nodiscard]] bool is_message_option(const CLI::Option& option);
 
 enum class Paint : std::uint8_t { bold, red, yellow, green };
 enum class Stream : std::uint8_t { output, error };

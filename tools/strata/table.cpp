@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "scenes/files/system_error.h"
+#include "scenes/printable.h"
 #include "tools/strata/messages.h"
 
 namespace strata::tools {
@@ -17,6 +18,9 @@ std::size_t width_of(const std::string& text) {
     const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
 }
+
+// A cell is one line, and as long as people read: a name of a megabyte would make every row as long.
+std::string cell_text(const std::string& text) { return scenes::shortened(scenes::printable(text), 200); }
 
 // A row whose cells are padded to the columns' widths.
 std::string to_line(const std::vector<std::string>& cells, const std::vector<Column>& columns,
@@ -35,17 +39,17 @@ std::string to_line(const std::vector<std::string>& cells, const std::vector<Col
 }  // namespace
 
 std::string to_text(const Table& table) {
-    std::vector<std::string> titles;
-    std::vector<std::size_t> widths;
-    for (const Column& column : table.columns) {
-        titles.push_back(column.title);
-        widths.push_back(width_of(column.title));
-    }
+    std::vector<std::vector<std::string>> lines{{}};
+    for (const Column& column : table.columns) lines[0].push_back(cell_text(column.title));
     for (const auto& row : table.rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+        lines.emplace_back();
+        for (const std::string& cell : row) lines.back().push_back(cell_text(cell));
     }
-    std::string text = to_line(titles, table.columns, widths);
-    for (const auto& row : table.rows) text += to_line(row, table.columns, widths);
+    std::vector<std::size_t> widths(table.columns.size());
+    for (const auto& line : lines)
+        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width_of(line[i]));
+    std::string text;
+    for (const auto& line : lines) text += to_line(line, table.columns, widths);
     return text;
 }
 

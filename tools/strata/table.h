@@ -20,7 +20,8 @@ struct Table {
     std::vector<std::vector<std::string>> rows;  // one cell a column
 };
 
-// Two spaces between columns, no space at a line's end; a character counts as one place wide (UTF-8).
+// Two spaces between columns, no space at a line's end; a character counts as one place wide (UTF-8). Of a cell above
+// 200 characters the begin is shown, and no control character of any.
 [[nodiscard]] std::string to_text(const Table& table);
 
 // The text of a table, with its first line bold where standard output shows colours.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/printable.h"
 #include "tools/strata/cost/cost_report.h"
 #include "tools/strata/report/svg_style.h"
 
@@ -12,20 +13,6 @@ namespace strata::tools {
 namespace {
 
 constexpr double plot_left = 70, plot_right = 620, plot_top = 40, plot_bottom = 420;
-
-// As XML wants it: a file's name may hold anything.
-[[nodiscard]] std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else
-            safe += c;
-    }
-    return safe;
-}
 
 // Whole powers of ten about all values, on pixels `from` to `to`.
 struct PowerAxis {
@@ -88,7 +75,7 @@ std::string frontier_svg(const std::vector<CostPoint>& points, const std::string
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"470\" font-family=\"sans-serif\" "
         "font-size=\"12\">\n" +
         std::string(svg_dark_style) + "<rect width=\"960\" height=\"470\" fill=\"#fff\"/>\n" +
-        words(plot_left + 40, 20, "start", escaped(title)) + grid(x, y) +
+        words(plot_left + 40, 20, "start", scenes::markup_text(title)) + grid(x, y) +
         words((plot_left + plot_right) / 2, plot_bottom + 36, "middle", time_label) +
         words(8, 20, "start", "RMSE / 255");
     for (const CostPoint& p : points)

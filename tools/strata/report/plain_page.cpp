@@ -6,8 +6,8 @@
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/text_file.h"
 #include "scenes/images/png_encode.h"
+#include "scenes/printable.h"
 #include "tools/strata/options/option.h"
-#include "tools/strata/options/printable.h"
 #include "tools/strata/report/page_parts.h"
 #include "tools/strata/report/picture_bytes.h"
 #include "tools/strata/report/report_data.h"
@@ -19,45 +19,30 @@ namespace {
 // Text and tables have the rest of the page.
 constexpr std::size_t most_picture_bytes = std::size_t{6} << 20;
 
+// A name from a file may have a megabyte, and a table may hold it many times.
+std::string element_text(const std::string& text) { return html_text(scenes::shortened(text, 2000)); }
+
 std::string cells_of(const std::vector<std::string>& texts) {
     std::string row;
-    for (const std::string& text : texts) row += "<td>" + html_text(text) + "</td>";
+    for (const std::string& text : texts) row += "<td>" + element_text(text) + "</td>";
     return row;
 }
 
 }  // namespace
 
-std::string html_text(const std::string& text) {
-    std::string safe;
-    std::size_t begin = 0;
-    const auto flush = [&](std::size_t end) { safe += printable(std::string_view(text).substr(begin, end - begin)); };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char* const name = text[i] == '&'    ? "&amp;"
-                                 : text[i] == '<'  ? "&lt;"
-                                 : text[i] == '>'  ? "&gt;"
-                                 : text[i] == '"'  ? "&quot;"
-                                 : text[i] == '\n' ? "\n"
-                                                   : nullptr;
-        if (name == nullptr) continue;
-        flush(i);
-        safe += name;
-        begin = i + 1;
-    }
-    flush(text.size());
-    return safe;
-}
+std::string html_text(const std::string& text) { return scenes::markup_text(text); }
 
 PlainPage::PlainPage(const std::string& title, const std::string& subtitle) : title_{title}, subtitle_{subtitle} {}
 
-void PlainPage::heading(const std::string& text) { body_ += "<h2>" + html_text(text) + "</h2>\n"; }
-void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + html_text(text) + "</p>\n"; }
+void PlainPage::heading(const std::string& text) { body_ += "<h2>" + element_text(text) + "</h2>\n"; }
+void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + element_text(text) + "</p>\n"; }
 
-void PlainPage::sentence(const std::string& text) { body_ += "<p class=\"lead\">" + html_text(text) + "</p>\n"; }
+void PlainPage::sentence(const std::string& text) { body_ += "<p class=\"lead\">" + element_text(text) + "</p>\n"; }
 
 void PlainPage::items(const std::vector<std::string>& texts) {
     if (texts.empty()) return;
     body_ += "<ul>\n";
-    for (const std::string& text : texts) body_ += "<li>" + html_text(text) + "</li>\n";
+    for (const std::string& text : texts) body_ += "<li>" + element_text(text) + "</li>\n";
     body_ += "</ul>\n";
 }
 
@@ -65,7 +50,7 @@ void PlainPage::legend(const std::vector<Swatch>& swatches) {
     body_ += "<div class=\"legend\">";
     for (const Swatch& swatch : swatches)
         body_ += fmt::format("<span><span class=\"swatch\" style=\"background:#{:02x}{:02x}{:02x}\"></span>{}</span>",
-                             swatch.color[0], swatch.color[1], swatch.color[2], html_text(swatch.words));
+                             swatch.color[0], swatch.color[1], swatch.color[2], element_text(swatch.words));
     body_ += "</div>\n";
 }
 
@@ -83,8 +68,8 @@ void PlainPage::table(const Table& table, const std::string& name) {
     body_ += fmt::format(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"sorts\">"
         "<caption>{0}</caption>\n<thead><tr>",
-        html_text(name));
-    for (const Column& column : table.columns) body_ += "<th scope=\"col\">" + html_text(column.title) + "</th>";
+        element_text(name));
+    for (const Column& column : table.columns) body_ += "<th scope=\"col\">" + element_text(column.title) + "</th>";
     body_ += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) body_ += "<tr>" + cells_of(row) + "</tr>\n";
     body_ += "</tbody></table></div>\n";
@@ -98,7 +83,7 @@ void PlainPage::add_picture(const std::string& type, const std::string& bytes, c
     }
     const char* const wide = width == Width::own ? " class=\"wide\" tabindex=\"0\"" : "";
     body_ += fmt::format("<figure{}><img src=\"data:{};base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                         wide, type, encoded, html_text(text), html_text(text));
+                         wide, type, encoded, element_text(text), element_text(text));
 }
 
 void PlainPage::picture(const pipeline::Image& image, const std::string& text) {
@@ -121,7 +106,7 @@ std::string PlainPage::html() const {
         "<meta name=\"viewport\" content=\"width=device-width, "
         "initial-scale=1\">\n<title>{0}</title>\n<style>\n{2}</style>\n"
         "</head>\n<body>\n<header><h1>{0}</h1><p>{1}</p></header>\n<main>\n{3}",
-        html_text(title_), html_text(subtitle_), page_css(), body_);
+        element_text(title_), element_text(subtitle_), page_css(), body_);
     if (left_out_ > 0)
         page += fmt::format("<h2>Left out</h2>\n<p>{} pictures, so that this page has at most 8 MiB.</p>\n", left_out_);
     page += fmt::format("</main>\n<script>\n{}</script>\n</body>\n</html>\n", plain_js());

@@ -7,25 +7,12 @@
 
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
+#include "scenes/printable.h"
 #include "tools/strata/report/page_parts.h"
 
 namespace strata::tools {
 
 namespace {
-
-// Text as HTML content or as a quoted attribute that holds no quotation mark.
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '&')
-            out += "&amp;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 // Quoted where the text holds a comma, a quotation mark or a line's end; a quotation mark inside is
 // doubled.
@@ -60,11 +47,12 @@ std::string html(const Sheet& sheet) {
     std::string text = fmt::format(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table class=\"sorts\">\n<thead><tr>",
         sheet.file);
-    for (const auto& column : sheet.columns) text += fmt::format("<th scope=\"col\">{}</th>", escaped(column));
+    for (const auto& column : sheet.columns)
+        text += fmt::format("<th scope=\"col\">{}</th>", scenes::markup_text(column));
     text += "</tr></thead>\n<tbody>\n";
     for (const auto& row : sheet.rows) {
         text += "<tr>";
-        for (const auto& cell : row) text += fmt::format("<td>{}</td>", escaped(cell));
+        for (const auto& cell : row) text += fmt::format("<td>{}</td>", scenes::markup_text(cell));
         text += "</tr>\n";
     }
     return text + fmt::format("</tbody></table></div>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
@@ -82,9 +70,11 @@ constexpr auto head = R"(<!doctype html>
 }  // namespace
 
 void write_page(const std::string& folder, const Page& page) {
-    std::string text = fmt::format(head, escaped(page.title), page_css(), page.link, escaped(page.sentence));
+    std::string text =
+        fmt::format(head, scenes::markup_text(page.title), page_css(), page.link, scenes::markup_text(page.sentence));
     for (const Section& section : page.sections) {
-        text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(section.title), escaped(section.text));
+        text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", scenes::markup_text(section.title),
+                            scenes::markup_text(section.text));
         // A section without rows leaves no table and no CSV.
         if (!section.sheet.rows.empty()) {
             text += html(section.sheet);
@@ -92,7 +82,7 @@ void write_page(const std::string& folder, const Page& page) {
         }
         for (const Picture& picture : section.pictures)
             text += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
-                                picture.file, escaped(picture.caption));
+                                picture.file, scenes::markup_text(picture.caption));
     }
     scenes::write_file(folder + "/index.html",
                        text + "</main>\n<script>\n" + std::string(plain_js()) + "</script>\n</body></html>\n");

@@ -1,14 +1,15 @@
-// tools/strata/options/printable.h - text from outside as it may stand in a sentence: one line of UTF-8.
+// scenes/printable.h - text from outside as it may stand in a sentence, one line of UTF-8, and in a document of XML or HTML.
 //
 // Rule     A control character below U+0020 and a byte that is no part of a UTF-8 character become \xNN; U+007F to U+009F, which JSON does
 //          not escape and some terminals obey, become \u00NN. A file's name and a word of the
-//          command line may hold any byte but 0. Source   RFC 3629 4. Tests    tests/tools/errors_test.cpp
+//          command line may hold any byte but 0. Source   RFC 3629 4. Tests    tests/tools/errors_test.cpp, tests/tools/messages_test.cpp
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace strata::tools {
+namespace strata::scenes {
 
 // The number of bytes of the character at the beginning of `text`; 0 if no character is there.
 [[nodiscard]] constexpr std::size_t utf8_length(std::string_view text) noexcept {
@@ -47,4 +48,36 @@ namespace strata::tools {
     return shown;
 }
 
-}  // namespace strata::tools
+// Of a text of more than `most` characters the begin, and "..." for the rest: `most` in all.
+[[nodiscard]] inline std::string shortened(std::string_view text, std::size_t most) {
+    std::size_t end = 0, begin_of_dots = 0, count = 0;
+    for (; end < text.size(); ++count) {
+        if (count == most) return std::string(text.substr(0, begin_of_dots)) + "...";
+        end += std::max<std::size_t>(1, utf8_length(text.substr(end)));
+        if (count + 4 == most) begin_of_dots = end;
+    }
+    return std::string(text);
+}
+
+// As content of an element, or as an attribute in quotation marks, of XML and HTML: what either does not allow is as `printable` has it,
+// but for line ends.
+[[nodiscard]] inline std::string markup_text(std::string_view text) {
+    std::string safe;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= text.size(); ++i) {
+        const char c = i < text.size() ? text[i] : '\0';
+        const char* const name = c == '&'    ? "&amp;"
+                                 : c == '<'  ? "&lt;"
+                                 : c == '>'  ? "&gt;"
+                                 : c == '"'  ? "&quot;"
+                                 : c == '\n' ? "\n"
+                                             : nullptr;
+        if (name == nullptr && i < text.size()) continue;
+        safe += printable(text.substr(begin, i - begin));
+        if (name != nullptr) safe += name;
+        begin = i + 1;
+    }
+    return safe;
+}
+
+}  // namespace strata::scenes
