@@ -2,6 +2,7 @@
 set(strata_scenes_sources
   bounds.cpp
   camera.cpp
+  inside_folder.cpp
   nearest_name.cpp
   exr/openexr.cpp
   exr/read_parts.cpp

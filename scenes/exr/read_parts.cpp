@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/openexr.h>
 
 #include <filesystem>
 #include <memory>
@@ -109,9 +110,32 @@ StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
     return part;
 }
 
+// What OpenEXR's second parser found, which holds the sizes of attributes against the file's: the classes below ask for the memory
+// first, 2 GiB for a text that is not there (OpenEXR 3.1).
+struct WrongSize {
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    std::string sentence{};
+};
+
+void check_sizes_of_attributes(const std::string& path) {
+    WrongSize wrong;
+    wrong.initializer.user_data = &wrong;
+    wrong.initializer.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char* text) {
+        void* found = nullptr;
+        if (code == EXR_ERR_ATTR_SIZE_MISMATCH && exr_get_user_data(context, &found) == EXR_ERR_SUCCESS &&
+            found != nullptr)
+            static_cast<WrongSize*>(found)->sentence = text;
+    };
+    exr_context_t context = nullptr;
+    if (exr_start_read(&context, path.c_str(), &wrong.initializer) == EXR_ERR_SUCCESS) exr_finish(&context);
+    if (!wrong.sentence.empty())
+        throw InputError(path, "file", "an EXR image", "one with an attribute beyond its end: " + wrong.sentence);
+}
+
 std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path, "no such file");
+    check_sizes_of_attributes(path);
     try {
         return std::make_unique<Imf::MultiPartInputFile>(path.c_str(), start_threads());
     } catch (const std::bad_alloc&) {

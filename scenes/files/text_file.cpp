@@ -2,9 +2,11 @@
 // bytes without end.
 #include "scenes/files/text_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 
 #include "rasterizer/base/input_error.h"
 
@@ -23,7 +25,7 @@ std::string read_standard_input() {
     throw InputError("standard input", "size", "at most 1 GiB", "more");
 }
 
-std::string read_text_file(const std::string& path, std::size_t max_bytes) {
+std::size_t size_of_file(const std::string& path, std::size_t max_bytes) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InputError(path, "no such file");
@@ -33,14 +35,23 @@ std::string read_text_file(const std::string& path, std::size_t max_bytes) {
     const auto size = std::filesystem::file_size(path, error);
     if (error) throw InputError(path, "cannot be read: " + error.message());
     // The limit is compared before memory is asked for.
-    if (size > max_bytes) {
+    if (size > max_bytes)
         throw InputError(path, "has " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_bytes));
-    }
-    std::string text(static_cast<std::size_t>(size), '\0');
+    return static_cast<std::size_t>(size);
+}
+
+std::string read_begin_of_file(const std::string& path, std::size_t bytes) {
+    std::string text(std::min(size_of_file(path, std::numeric_limits<std::size_t>::max()), bytes), '\0');
     std::ifstream file(path, std::ios::binary);
     // A file that shrank since its size was asked is refused too: the read comes up short.
-    if (!file || !file.read(text.data(), static_cast<std::streamsize>(size))) throw InputError(path, "cannot be read");
+    if (!file || !file.read(text.data(), static_cast<std::streamsize>(text.size())))
+        throw InputError(path, "cannot be read");
     return text;
+}
+
+std::string read_text_file(const std::string& path, std::size_t max_bytes) {
+    // The limit is compared before memory is asked for.
+    return read_begin_of_file(path, size_of_file(path, max_bytes));
 }
 
 }  // namespace strata::scenes

@@ -10,5 +10,8 @@ namespace strata::scenes {
 // ends included.
 [[nodiscard]] std::string read_standard_input();  // at most 1 GiB, to its end
 [[nodiscard]] std::string read_text_file(const std::string& path, std::size_t max_bytes = std::size_t{1} << 20);
+// Its size, with the same errors, and its first bytes: all of a shorter file.
+[[nodiscard]] std::size_t size_of_file(const std::string& path, std::size_t max_bytes);
+[[nodiscard]] std::string read_begin_of_file(const std::string& path, std::size_t bytes);
 
 }  // namespace strata::scenes

@@ -14,7 +14,7 @@ namespace strata::scenes {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 32;
+constexpr std::size_t most_bytes = std::size_t{1} << 32, most_header_bytes = std::size_t{1} << 17;
 constexpr std::string_view npy_magic = "\x93NUMPY";
 
 // As NumPy's `descr` has it, in the order of the enum.
@@ -69,6 +69,30 @@ std::vector<std::size_t> shape_of(std::string_view header, const std::string& fi
     return shape;
 }
 
+// All but the numbers, and the bytes before those.
+struct Header {
+    NumberArray array{};
+    std::size_t bytes = 0;
+};
+
+// `begin` is the file's begin, at least its header; `size` the whole file's.
+Header header_of(std::string_view begin, std::size_t size, const std::string& file) {
+    if (!begin.starts_with(npy_magic) || begin.size() < 12) throw InputError(file, "file", "a .npy file", "another");
+    const std::size_t length_bytes = begin[6] == 1 ? 2 : 4, before = 8 + length_bytes;
+    const std::size_t length = little_endian(begin.substr(8, length_bytes));
+    if (length > begin.size() - before) throw InputError(file, "header", "a whole one", "an end within it");
+    const std::string_view text = begin.substr(before, length);
+    if (entry(text, "fortran_order", ",}") != "False")
+        throw InputError(file, "fortran_order", "False (numpy.ascontiguousarray makes it so)", "another order");
+    Header header{{.element = element_of(text, file), .shape = shape_of(text, file)}, before + length};
+    const std::size_t count = header.array.count(), of_each = bytes_of(header.array.element);
+    if (size - header.bytes != count * of_each)
+        throw InputError(file, "size",
+                         fmt::format("{} bytes for {} elements of {} bytes each", count * of_each, count, of_each),
+                         std::to_string(size - header.bytes));
+    return header;
+}
+
 }  // namespace
 
 std::string_view name(Element element) noexcept { return enum_names<Element>[static_cast<std::size_t>(element)]; }
@@ -116,25 +140,16 @@ std::string to_npy(const NumberArray& array) {
 }
 
 NumberArray parse_npy(std::string_view bytes, const std::string& file) {
-    if (!bytes.starts_with(npy_magic) || bytes.size() < 12) throw InputError(file, "file", "a .npy file", "another");
-    const std::size_t length_bytes = bytes[6] == 1 ? 2 : 4;
-    const std::size_t length = little_endian(bytes.substr(8, length_bytes)), begin = 8 + length_bytes;
-    if (length > bytes.size() - begin) throw InputError(file, "header", "a whole one", "an end within it");
-    const std::string_view header = bytes.substr(begin, length);
-    if (entry(header, "fortran_order", ",}") != "False")
-        throw InputError(file, "fortran_order", "False (numpy.ascontiguousarray makes it so)", "another order");
-    NumberArray array{.element = element_of(header, file), .shape = shape_of(header, file)};
-    const std::string_view rest = bytes.substr(begin + length);
-    const std::size_t expected = array.count() * bytes_of(array.element);
-    if (rest.size() != expected)
-        throw InputError(
-            file, "size",
-            fmt::format("{} bytes for {} elements of {} bytes each", expected, array.count(), bytes_of(array.element)),
-            std::to_string(rest.size()));
-    array.bytes = rest;
-    return array;
+    Header header = header_of(bytes, bytes.size(), file);
+    header.array.bytes = bytes.substr(header.bytes);
+    return std::move(header.array);
 }
 
-NumberArray read_npy(const std::string& path) { return parse_npy(read_text_file(path, most_bytes), path); }
+// The header first: no memory is asked for what a file is too short or too long to hold.
+NumberArray read_npy(const std::string& path) {
+    const std::size_t size = size_of_file(path, most_bytes);
+    static_cast<void>(header_of(read_begin_of_file(path, most_header_bytes), size, path));
+    return parse_npy(read_text_file(path, most_bytes), path);
+}
 
 }  // namespace strata::scenes

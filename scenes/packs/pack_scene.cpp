@@ -12,6 +12,7 @@
 #include "scenes/bounds.h"
 #include "scenes/files/strict_json.h"
 #include "scenes/files/text_file.h"
+#include "scenes/inside_folder.h"
 
 namespace strata::scenes {
 
@@ -120,9 +121,7 @@ class Arrays {
         if (io.is_null(key)) return {};
         std::string name;
         io.text(key, name);
-        if (name.empty() || name.front() == '/' || name.find("..") != std::string::npos)
-            io.fail(key, "the name of a file in the pack");
-        return read_npy(folder_ + "/" + name);
+        return read_npy(path_inside(folder_, name, file_, io.pointer_of(key)));
     }
 
   private:
@@ -197,6 +196,10 @@ std::string pack_folder(const std::string& path) {
     std::string folder = path.ends_with(manifest) ? path.substr(0, path.size() - manifest.size()) : path;
     while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
     return folder.empty() ? "." : folder;
+}
+
+std::string pack_profile(const std::string& folder) {
+    return path_inside(folder, "profile.json", folder + "/manifest.json", "profile");
 }
 
 bool is_pack(const std::string& path) {

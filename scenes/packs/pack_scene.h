@@ -18,6 +18,9 @@ inline constexpr int pack_version = 1;
 // The folder.
 [[nodiscard]] std::string pack_folder(const std::string& path);
 
+// FOLDER/profile.json. InputError unless it is there and no link that leaves the folder.
+[[nodiscard]] std::string pack_profile(const std::string& folder);
+
 // manifest.json as a value. InputError for what is none, and for a version that is not known.
 [[nodiscard]] nlohmann::json read_manifest(const std::string& folder);
 

@@ -6,22 +6,28 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/text_file.h"
+#include "scenes/inside_folder.h"
 
 namespace strata::probe {
 
 namespace {
 
-// A kit's answers take a few MiB.
+// A kit's answers take a few MiB, all files together.
 constexpr std::size_t largest_file = std::size_t{1} << 28;
 constexpr std::size_t block = 512;
 
 std::map<std::string, std::string> files_of_folder(const std::string& path) {
     std::map<std::string, std::string> files;
     const std::filesystem::path folder{path};
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-        if (entry.is_regular_file())
-            files[entry.path().lexically_relative(folder).generic_string()] =
-                scenes::read_text_file(entry.path().string(), largest_file);
+    std::size_t left = largest_file;  // for all of them, as for an archive
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string name = entry.path().lexically_relative(folder).generic_string();
+        if (!entry.is_regular_file() ||
+            scenes::inside_folder(folder, name).found != scenes::InsideFolder::Found::inside)
+            continue;
+        files[name] = scenes::read_text_file(entry.path().string(), left);
+        left -= files[name].size();
+    }
     return files;
 }
 

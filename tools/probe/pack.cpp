@@ -139,7 +139,13 @@ ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
     if (!document.is_object() || !document.contains("probe") || !document["probe"].is_object())
         throw InputError(file, "/probe", "an object that says which kit was answered", "none");
     const json& probe = document["probe"];
-    ProbePack pack{.made_by = document.value("made_by", ""), .kit_digest = probe.value("kit", "")};
+    const auto text_of = [&](const json& object, const std::string& key, const std::string& place) -> std::string {
+        if (!object.contains(key)) return "";
+        if (!object[key].is_string()) throw InputError(file, place, "a text", object[key].type_name());
+        return object[key].get<std::string>();
+    };
+    ProbePack pack{.made_by = text_of(document, "made_by", "/made_by"),
+                   .kit_digest = text_of(probe, "kit", "/probe/kit")};
     if (const std::string expected = digest(items); pack.kit_digest != expected)
         throw InputError(file, "/probe/kit", "the kit of this program, " + expected, pack.kit_digest);
     if (probe.contains("device")) pack.device = ordered_json::parse(probe["device"].dump());

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <fstream>
 
+#include "scenes/inside_folder.h"
+
 namespace strata::scenes {
 namespace {
 
@@ -89,13 +91,8 @@ fs::path relative_path(std::string_view uri, const Place& place) {
     const auto is_forbidden = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\\' || c == 0x7f; };
     if (std::any_of(decoded.begin(), decoded.end(), is_forbidden)) place.fail("INVALID_URI", inside, in_quotes(uri));
     const fs::path path{decoded};
-    const bool goes_up = std::find(path.begin(), path.end(), fs::path{".."}) != path.end();
-    if (path.is_absolute() || goes_up) place.fail("NON_RELATIVE_URI", inside, in_quotes(uri));
+    if (leaves_by_name(path)) place.fail("NON_RELATIVE_URI", inside, in_quotes(uri));
     return path;
-}
-
-bool is_inside(const fs::path& path, const fs::path& folder) {  // both canonical
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 }  // namespace
@@ -120,13 +117,12 @@ Resource read_uri(std::string_view uri, const std::optional<fs::path>& folder, c
     if (uri.starts_with("data:")) return read_data_uri(uri, place);
     const fs::path relative = relative_path(uri, place);
     if (!folder) place.fail("FILE_NOT_FOUND", "a data: uri, for this scene has no folder", in_quotes(uri));
-    std::error_code error;
-    const fs::path home = fs::canonical(*folder, error);
-    // Both sides are canonical, with links resolved, so that a link out of the folder is seen.
-    const fs::path path = error ? fs::path{} : fs::canonical(home / relative, error);
-    if (error) place.fail("FILE_NOT_FOUND", "a file in the scene's folder", in_quotes(uri));
-    if (!is_inside(path, home)) place.fail("NON_RELATIVE_URI", "a file in the scene's folder", "a link that leaves it");
-    return {"", read_file(path, place)};
+    const InsideFolder found = inside_folder(*folder, relative);
+    if (found.found == InsideFolder::Found::nothing)
+        place.fail("FILE_NOT_FOUND", "a file in the scene's folder", in_quotes(uri));
+    if (found.found != InsideFolder::Found::inside)
+        place.fail("NON_RELATIVE_URI", "a file in the scene's folder", "a link that leaves it");
+    return {"", read_file(found.path, place)};
 }
 
 }  // namespace strata::scenes

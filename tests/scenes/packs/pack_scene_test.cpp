@@ -92,7 +92,8 @@ TEST_CASE("a pack is refused where it is damaged or asked for what it has not") 
     };
     fails("\"version\":1", "\"version\":2", "manifest.json: /version: expected 1");
     fails("strata-pack", "strata-park", "/format");
-    fails("scene/mesh.000.positions.npy", "../positions.npy", "/scene/meshes/0/positions: expected the name of a file");
+    fails("scene/mesh.000.positions.npy", "../positions.npy",
+          "/scene/meshes/0/positions: expected a file in the folder ");
     fails("scene/mesh.000.positions.npy", "scene/mesh.000.indices.npy", "positions: expected an array (n, 3) of f4");
     fails("\"texture\":-1", "\"texture\":3", "texture");
     fails("\"mesh\":0", "\"mesh\":5", "mesh");

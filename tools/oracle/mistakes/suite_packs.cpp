@@ -5,6 +5,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/strict_json.h"
 #include "scenes/files/text_file.h"
 #include "scenes/packs/new_folder.h"
 #include "tools/oracle/mistakes/catalogue.h"
@@ -73,7 +74,7 @@ std::string folder_of(const std::string& path) {
 
 Scenes scenes_in(const std::string& list, const std::string& file) {
     Scenes scenes;
-    const auto parsed = nlohmann::json::parse(list, nullptr, false);
+    const auto parsed = scenes::parse_strict_json(list, file, "the list of a suite in JSON");
     const auto fail = [&](const std::string& place, const std::string& expected, const std::string& found) {
         throw InputError(file, place, expected, found);
     };

@@ -8,9 +8,11 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/text_file.h"
+#include "scenes/inside_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/pack/exr_copies.h"
 #include "tools/oracle/pack/golden.h"
+#include "tools/oracle/pack/manifest_value.h"
 
 namespace strata::oracle {
 
@@ -68,21 +70,22 @@ std::string manifest_difference(const std::string& found, const std::string& exp
     return fmt::format("{}: expected what is derived again, found something else", patch[0]["path"].get<std::string>());
 }
 
-std::uint64_t sum_at(const json& listed, std::size_t i) {
+std::uint64_t sum_at(const ManifestValue& listed, std::size_t i) {
     std::uint64_t value = 0;
-    const json sums = listed.value("sums", json::array());
-    if (i >= sums.size() || !sums[i].is_string()) return value;
+    const json sums = listed.value().value("sums", json::array());
+    if (!sums.is_array() || i >= sums.size() || !sums[i].is_string())
+        listed.fail("sums", "two sums of bytes, in strings");
     const auto& digits = sums[i].get_ref<const std::string&>();
     std::from_chars(digits.data(), digits.data() + digits.size(), value);
     return value;
 }
 
 // Empty if the file is what the manifest's list says.
-std::string listed_difference(const std::string& bytes, const std::string& name, const json& listed) {
+std::string listed_difference(const std::string& bytes, const std::string& name, const ManifestValue& listed) {
     const scenes::ByteSums sums{sum_at(listed, 0), sum_at(listed, 1)};
     const auto array = array_of(bytes, name);
     const std::string_view hashed = array ? std::string_view{array->bytes} : std::string_view{bytes};
-    if (scenes::digest_of_bytes(hashed) == listed.value("digest", "") && scenes::sums_of(bytes) == sums) return "";
+    if (scenes::digest_of_bytes(hashed) == listed.text("digest") && scenes::sums_of(bytes) == sums) return "";
     const auto changed = scenes::changed_byte(bytes, sums);
     if (!changed) return "expected the bytes that its digest is of, found others, at more than one place";
     return fmt::format("{}: expected {}, found {}", place_in_file(bytes, name, changed->position), changed->was,
@@ -95,16 +98,20 @@ class Check {
 
     // The files that the manifest lists, each with its digest; and no others.
     void files(const json& manifest) {
-        const json listed = manifest.value("files", json::object());
-        for (const auto& [name, entry] : listed.items()) {
-            if (const auto bytes = read(name)) note(name, listed_difference(*bytes, name, entry));
+        const std::string file = folder_ + "/manifest.json";
+        const ManifestValue listed = ManifestValue{manifest, file}.object("files");
+        for (const auto& [name, entry] : listed.value().items()) {
+            const ManifestValue described = listed.object(name);
+            if (scenes::inside_folder(folder_, name).found != scenes::InsideFolder::Found::nothing)
+                static_cast<void>(scenes::path_inside(folder_, name, file, listed.place_of(name)));
+            if (const auto bytes = read(name)) note(name, listed_difference(*bytes, name, described));
         }
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
             if (!entry.is_regular_file()) continue;
             const std::string name = std::filesystem::relative(entry.path(), folder_).generic_string();
             if (is_exr_copy(name))
                 copies_.push_back(name);
-            else if (name != "manifest.json" && !listed.contains(name))
+            else if (name != "manifest.json" && !listed.value().contains(name))
                 note(name, "expected no such file, found one");
         }
         std::ranges::sort(copies_);

@@ -43,7 +43,7 @@ Golden read_pack(const std::string& path) {
     Golden golden;
     golden.color_space = scenes::color_space_of(folder, manifest);
     golden.scene = scenes::load_pack(path, {.color_space = golden.color_space});
-    const std::string profile = folder + "/profile.json";
+    const std::string profile = scenes::pack_profile(folder);
     golden.profile = scenes::parse_profile(scenes::read_text_file(profile), profile);
     golden.options = read_state(manifest, file);
     scenes::JsonReader top{manifest, file, ""};

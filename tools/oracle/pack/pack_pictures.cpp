@@ -9,8 +9,10 @@
 #include "pipeline/formats/format.h"
 #include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/inside_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/numbers_file.h"
+#include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/target_json.h"
 
 namespace strata::oracle {
@@ -23,23 +25,26 @@ pipeline::Format format_named(const std::string& name, const std::string& file) 
 
 namespace {
 
-using nlohmann::json;
 using pipeline::ChannelType;
 using pipeline::Format;
 using scenes::NumberArray;
 
-// Finds the file of a target: nothing if there is none. `own` is the file that the pack names, `place` what a candidate calls it.
-using Finder = std::function<std::optional<std::string>(const std::string& own, const std::string& place)>;
+constexpr int largest_side = 16384, most_samples_a_pixel = 16;
+
+// Finds the file of a target: nothing if there is none. `place` is what a candidate calls it.
+using Finder = std::function<std::optional<std::string>(const ManifestValue& target, const std::string& place)>;
 
 // The samples of a target, each by itself. `is_own`: the array is the pack's and has to be of the target's format.
-void add_samples(const NumberArray& array, const json& described, const std::string& file, bool is_own, Target target,
-                 std::vector<Target>& to) {
-    const Format format = format_named(described.value("format", ""), file);
-    const auto samples = static_cast<std::size_t>(described.value("samples", 1));
+void add_samples(const NumberArray& array, const ManifestValue& described, const std::string& file, bool is_own,
+                 Target target, std::vector<Target>& to) {
+    const Format format = format_named(described.text("format"), file);
+    const auto samples = static_cast<std::size_t>(described.whole("samples", 1, 1, most_samples_a_pixel));
     const auto& shape = array.shape;
     const std::size_t sides = samples > 1 ? 4 : shape.size();
+    const auto fits = [](std::size_t side) { return side >= 1 && side <= largest_side; };
     if ((sides != 2 && sides != 3 && sides != 4) || shape.size() != sides || (samples > 1 && shape[2] != samples) ||
-        shape[0] == 0 || shape[1] == 0 || (sides > 2 && (shape.back() < 1 || shape.back() > 4)))
+        !fits(shape[0]) || !fits(shape[1]) || (sides == 4 && samples == 1 && shape[2] != 1) ||
+        (sides > 2 && (shape.back() < 1 || shape.back() > 4)))
         throw InputError(file, "shape",
                          samples > 1 ? "(rows, columns, samples, channels)" : "(rows, columns, channels)", "another");
     target.width = static_cast<int>(shape[1]);
@@ -70,32 +75,32 @@ class Reader {
   public:
     Reader(Finder find, bool is_own) : find_{std::move(find)}, is_own_{is_own} {}
 
-    void add(const json& described, const std::string& place, const std::string& part, const std::string& name,
+    void add(const ManifestValue& described, const std::string& place, const std::string& part, const std::string& name,
              Picture& to) const {
-        const auto file = find_(described.value("file", ""), place);
+        const auto file = find_(described, place);
         if (!file) return;
         to.file = *file;
         add_samples(scenes::read_npy(*file), described, *file, is_own_, {.part = part, .name = name}, to.targets);
     }
 
-    PackPictures result(const json& object) const {
-        PackPictures pictures{.algorithm = object.value("algorithm", "")};
+    PackPictures result(const ManifestValue& object) const {
+        PackPictures pictures{.algorithm = object.algorithm("algorithm")};
         const std::string folder = pictures.algorithm + "/";
-        add(object.value("picture", json::object()), folder + "picture.npy", "", "color", pictures.picture);
-        add(object.value("depth", json::object()), folder + "depth.npy", "", "depth", pictures.picture);
-        for (const json* layer : near_to_far(object)) {
-            const std::string name = layer->value("name", "");
-            add(layer->value("color", json::object()), folder + name + ".color.npy", name, "color", pictures.layers);
-            add(layer->value("depth", json::object()), folder + name + ".depth.npy", name, "depth", pictures.layers);
+        add(object.object("picture"), folder + "picture.npy", "", "color", pictures.picture);
+        add(object.object("depth"), folder + "depth.npy", "", "depth", pictures.picture);
+        for (const ManifestValue& layer : near_to_far(object)) {
+            const std::string name = layer.name("name");
+            add(layer.object("color"), folder + name + ".color.npy", name, "color", pictures.layers);
+            add(layer.object("depth"), folder + name + ".depth.npy", name, "depth", pictures.layers);
         }
-        for (const json& pass : list_at(object, "passes")) {
-            PassPicture shown{.number = pass.value("number", 0),
-                              .iteration = pass.value("iteration", 0),
-                              .kind = pass.value("kind", "")};
-            for (const json& target : list_at(pass, "targets")) {
-                const std::string name = target.value("name", "");
+        for (const ManifestValue& pass : object.list("passes")) {
+            PassPicture shown{.number = pass.whole("number", 0, 0, INT32_MAX),
+                              .iteration = pass.whole("iteration", 0, 0, INT32_MAX),
+                              .kind = pass.text("kind")};
+            for (const ManifestValue& target : pass.list("targets")) {
+                const std::string name = target.name("name");
                 shown.has_own |=
-                    target.value("file", "").find(fmt::format("/pass.{:03}/", shown.number)) != std::string::npos;
+                    target.text("file").find(fmt::format("/pass.{:03}/", shown.number)) != std::string::npos;
                 add(target, fmt::format("{}pass.{:03}/{}.npy", folder, shown.number, name), "", name, shown.targets);
             }
             if (!shown.targets.targets.empty()) pictures.passes.push_back(std::move(shown));
@@ -104,17 +109,11 @@ class Reader {
     }
 
   private:
-    static const json& list_at(const json& object, const char* key) {
-        static const json none = json::array();
-        const auto found = object.find(key);
-        return found != object.end() && found->is_array() ? *found : none;
-    }
-
     // Back layers are peeled from the far end.
-    static std::vector<const json*> near_to_far(const json& object) {
-        std::vector<const json*> front, back;
-        for (const json& layer : list_at(object, "layers"))
-            (layer.value("name", "").starts_with("back.") ? back : front).push_back(&layer);
+    static std::vector<ManifestValue> near_to_far(const ManifestValue& object) {
+        std::vector<ManifestValue> front, back;
+        for (const ManifestValue& layer : object.list("layers"))
+            (layer.text("name").starts_with("back.") ? back : front).push_back(layer);
         front.insert(front.end(), back.rbegin(), back.rend());
         return front;
     }
@@ -127,15 +126,12 @@ bool is_empty(const PackPictures& pictures) {
     return pictures.picture.targets.empty() && pictures.layers.targets.empty() && pictures.passes.empty();
 }
 
-// A type error of a manifest that nobody made by this program.
 std::vector<PackPictures> all_of(const std::string& folder, const Reader& reader) {
-    const json manifest = scenes::read_manifest(folder);
+    const nlohmann::json manifest = scenes::read_manifest(folder);
+    const std::string file = folder + "/manifest.json";
     std::vector<PackPictures> all;
-    try {
-        for (const json& object : manifest.at("results")) all.push_back(reader.result(object));
-    } catch (const json::exception&) {
-        throw InputError(folder + "/manifest.json", "/results", "what PACK.md describes", "something else");
-    }
+    for (const ManifestValue& object : ManifestValue{manifest, file}.list("results"))
+        all.push_back(reader.result(object));
     std::erase_if(all, is_empty);
     return all;
 }
@@ -144,15 +140,16 @@ std::vector<PackPictures> all_of(const std::string& folder, const Reader& reader
 
 std::vector<PackPictures> expected_pictures(const std::string& path) {
     const std::string folder = scenes::pack_folder(path);
-    const auto find = [&](const std::string& own, const std::string&) -> std::optional<std::string> {
-        return folder + "/" + own;
+    const std::string manifest = folder + "/manifest.json";
+    const auto find = [&](const ManifestValue& target, const std::string&) -> std::optional<std::string> {
+        return scenes::path_inside(folder, target.text("file"), manifest, target.place_of("file"));
     };
     return all_of(folder, Reader{find, true});
 }
 
 std::vector<PackPictures> candidate_pictures(const std::string& pack, const std::string& candidate) {
     if (scenes::is_pack(candidate)) return expected_pictures(candidate);
-    const auto find = [&](const std::string&, const std::string& place) -> std::optional<std::string> {
+    const auto find = [&](const ManifestValue&, const std::string& place) -> std::optional<std::string> {
         const std::string file = candidate + "/" + place;
         std::error_code unreadable;
         if (!std::filesystem::is_regular_file(file, unreadable)) return std::nullopt;

@@ -73,9 +73,13 @@ NumberArray as_array(const Image& image) {
 }
 
 std::optional<Image> as_image(const NumberArray& array, Format format, int samples) {
-    if (array.element != element_of(format) || array.shape.size() < 2) return std::nullopt;
-    Image image{format, static_cast<int>(array.shape[1]), static_cast<int>(array.shape[0]), samples};
-    if (as_array(image).shape != array.shape) return std::nullopt;
+    if (array.element != element_of(format) || array.shape.size() < 2 || array.count() == 0) return std::nullopt;
+    // The shape is compared before memory is asked for; its product has the bytes of a file.
+    Image image{format, 1, 1, samples};
+    std::vector<std::size_t> shape = as_array(image).shape;
+    shape[0] = array.shape[0], shape[1] = array.shape[1];
+    if (shape != array.shape) return std::nullopt;
+    image = {format, static_cast<int>(array.shape[1]), static_cast<int>(array.shape[0]), samples};
     for (std::size_t i = 0; i < image.codes.size(); ++i) image.codes[i] = array.word(i);
     return image;
 }

@@ -1,0 +1,42 @@
+#include "scenes/inside_folder.h"
+
+#include <algorithm>
+
+#include "rasterizer/base/input_error.h"
+
+namespace strata::scenes {
+
+namespace fs = std::filesystem;
+
+bool leaves_by_name(const fs::path& name) {
+    return name.empty() || name.is_absolute() || name.native().find('\0') != std::string::npos ||
+           std::find(name.begin(), name.end(), fs::path{".."}) != name.end();
+}
+
+InsideFolder inside_folder(const fs::path& folder, const fs::path& name) {
+    using enum InsideFolder::Found;
+    if (leaves_by_name(name)) return {name_leaves};
+    // Both sides are canonical, with links resolved, so that a link out of the folder is seen.
+    std::error_code error;
+    const fs::path home = fs::canonical(folder.empty() ? fs::path{"."} : folder, error);
+    const fs::path path = error ? fs::path{} : fs::canonical(home / name, error);
+    if (error) return {nothing};
+    const bool is_inside = std::mismatch(home.begin(), home.end(), path.begin(), path.end()).first == home.end();
+    return is_inside ? InsideFolder{inside, path} : InsideFolder{link_leaves};
+}
+
+std::string path_inside(const std::string& folder, const std::string& name, const std::string& file,
+                        const std::string& place) {
+    using enum InsideFolder::Found;
+    const InsideFolder found = inside_folder(folder, name);
+    const std::string expected = "a file in the folder " + (folder.empty() ? "." : folder);
+    switch (found.found) {
+        case inside: return (fs::path{folder} / name).string();
+        case nothing: throw InputError(file, place, expected, "'" + name + "', which is not there");
+        case name_leaves: throw InputError(file, place, expected, "'" + name + "', which leaves it");
+        case link_leaves: throw InputError(file, place, expected, "'" + name + "', a link that leaves it");
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+}  // namespace strata::scenes

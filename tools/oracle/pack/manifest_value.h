@@ -1,0 +1,38 @@
+// tools/oracle/pack/manifest_value.h - the results of a manifest as another program may have changed them: a key may be missing, but
+// what is there has its type.
+//
+// Tests    tests/tools/oracle/changed_packs_test.cpp
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace strata::oracle {
+
+// A value and its place, which errors name: InputError{file, pointer} for another type than the one that is asked for.
+class ManifestValue {
+  public:
+    // Both outlive it.
+    ManifestValue(const nlohmann::json& value, const std::string& file) : ManifestValue{value, file, ""} {}
+
+    [[nodiscard]] ManifestValue object(const std::string& key) const;             // an empty one if missing or null
+    [[nodiscard]] std::vector<ManifestValue> list(const std::string& key) const;  // of objects
+    [[nodiscard]] std::string text(const std::string& key) const;
+    [[nodiscard]] int whole(const std::string& key, int fallback, int lowest, int highest) const;
+    // The name of an algorithm of this program.
+    [[nodiscard]] std::string algorithm(const std::string& key) const;
+    // Without a slash, so that it can be a part of a path.
+    [[nodiscard]] std::string name(const std::string& key) const;
+    [[nodiscard]] const nlohmann::json& value() const noexcept { return *value_; }
+    [[nodiscard]] std::string place_of(const std::string& key) const { return pointer_ + "/" + key; }
+    [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
+
+  private:
+    ManifestValue(const nlohmann::json& value, const std::string& file, std::string pointer);
+
+    const nlohmann::json* value_;
+    const std::string* file_;
+    std::string pointer_;
+};
+
+}  // namespace strata::oracle
