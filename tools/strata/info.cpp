@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "rasterizer/base/input_error.h"
 #include "scenes/files/picture_attributes.h"
 #include "scenes/printable.h"
 #include "tools/strata/command.h"
@@ -27,14 +26,6 @@ struct InfoOptions {
     std::string expected;  // a digest
     bool json = false, digests = false, channels = false;
 };
-
-std::string recorded(const std::string& file) {
-    const scenes::Attributes attributes = scenes::read_attributes(file);
-    const auto found = attributes.find("command");
-    if (found == attributes.end())
-        throw InputError(file, "strata:command", "a picture that strata wrote", "none of its commands in it");
-    return found->second;
-}
 
 std::optional<std::string> to_digest(std::string_view text) {
     const bool is_digest = text.size() == 32 && std::all_of(text.begin(), text.end(), [](char c) {
@@ -93,44 +84,6 @@ int info(const InfoOptions& options) {
 }
 
 }  // namespace
-
-// The words as canonical_command joins them; a name with a blank in it cannot be told from two.
-std::vector<std::string> recorded_words(const std::string& file) {
-    std::vector<std::string> words;
-    for (const std::string& word : split(recorded(file), ' '))
-        if (!word.empty()) words.push_back(word);
-    if (words.size() < 3 || words[0] != "strata")
-        throw InputError(file, "strata:command", "a command of strata", "'" + scenes::printable(recorded(file)) + "'");
-    return words;
-}
-
-void expand_from(std::vector<std::string>& words) {
-    constexpr std::string_view option = "--from";
-    for (std::size_t i = 0; i < words.size(); ++i)
-        if (words[i].starts_with("--from=") && words[i].size() > option.size() + 1) {
-            words.insert(words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words[i].substr(option.size() + 1));
-            words[i] = option;
-        }
-    const auto at = std::find(words.begin(), words.end(), option);
-    if (words.front() != "render" && words.front() != "layers") return;
-    if (at == words.end() || at + 1 == words.end()) return;
-    const std::string file = *(at + 1);
-    const std::vector<std::string> recorded = recorded_words(file);
-    if (recorded[1] != words.front())
-        throw InputError(file, "strata:command", "a file of strata " + words.front(), "one of strata " + recorded[1]);
-    words.erase(at, at + 2);
-    words.insert(words.begin() + 1, recorded.begin() + 2, recorded.end());
-}
-
-void add_from_option(CLI::App& app) {
-    app.add_option_function<std::string>(
-           "--from",
-           [](const std::string& file) {
-               throw CLI::ValidationError("--from", "expected a picture's name, found '" + file + "'");
-           },
-           "run the command that made this picture again (strata info shows it)")
-        ->type_name("FILE");
-}
 
 Command add_info(CLI::App& root) {
     auto* app =

@@ -168,10 +168,9 @@ int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vec
         print(short_help(commands));
         return 0;
     }
-    expand_from(words);
-    static_cast<void>(replace_old_words(words));  // a picture's own command is spelled as it was made
     const Shown shown = take_amount_of_help(words);
     try {
+        expand_from(words);
         parse(root, words);
         for (const std::string& sentence : old_words) say_warning(sentence);
         for (const Command& command : commands) {

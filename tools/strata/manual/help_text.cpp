@@ -34,6 +34,7 @@ const std::vector<Group>& groups() {
         {"Algorithms, rarely needed",
          Shown::all,
          {"color-format", "average-count", "termination", "max-passes", "formulation", "sorted", "sort", "mistake"}},
+        {"Files of --from, rarely needed", Shown::all, {"files-in"}},
         {"How it is run, to the same bits",
          Shown::all,
          {"execution", "counters", "simd", "effects", "fragment-memory", "max-memory", "tile", "threads"}},

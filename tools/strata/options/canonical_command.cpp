@@ -5,6 +5,7 @@
 #include "scenes/packs/pack_scene.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
+#include "tools/strata/options/shell_words.h"
 
 namespace strata::tools {
 
@@ -58,12 +59,13 @@ void add_view(Words& words, const RunOptions& options) {
     // The view is always named, also where it is the default, unless it comes with the scene.
     const Orbit orbit = options.orbit.value_or(Orbit{});
     if (!options.camera.empty())
-        add(words, "--camera", file_name(options.camera));
+        add(words, "--camera", options.names_camera_of_scene ? options.camera : file_name(options.camera));
     else if (!options.takes_own_view)
         add(words, "--orbit", fmt::format("{},{}", orbit.azimuth, orbit.elevation));
     if (render.alpha) add(words, "--alpha", fmt::format("{}", *render.alpha));
     const auto& b = render.background;
-    if (b != pipeline::Rgba{0, 0, 0, 1}) add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));
+    if (b != pipeline::Rgba{0, 0, 0, 1} && !options.has_frame_background)
+        add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));
 }
 
 void add_comparison(Words& words, const peeling::RenderOptions& render) {
@@ -119,12 +121,16 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     std::string names;
     for (const peeling::Algorithm* algorithm : algorithms) names += (names.empty() ? "" : ",") + algorithm->name;
     add(words, "--algorithm", names);
-    add(words, "--profile", file_name(options.profile));
+    // A pack brings its own profile and, where no option names another, its background.
+    if (options.profile != scenes::pack_folder(options.scene) + "/profile.json")
+        add(words, "--profile", file_name(options.profile));
     add_scene(words, options);
     add_view(words, options);
     add_machine(words, options.render);
     add_order(words, options.render);
-    return fmt::format("{}", fmt::join(words, " "));
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+    return line;
 }
 
 }  // namespace strata::tools

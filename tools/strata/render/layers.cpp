@@ -119,7 +119,7 @@ Command add_layers(CLI::App& root) {
     const auto options = std::make_shared<LayersOptions>();
     options->run.default_algorithm = "front_to_back";  // whose layers are in the order in which they are peeled
     add_picture_options(*app, options->run);
-    add_from_option(*app);
+    add_from_option(*app, options->run.files_in);
     add_execution_options(*app, options->run);
     add_output_options(
         *app, options->run,

@@ -108,7 +108,7 @@ Command add_render(CLI::App& root) {
         "render", "render a scene by one or more algorithms and compare each with the exact A-buffer");
     const auto options = std::make_shared<RenderCommand>();
     add_picture_options(*app, options->run);
-    add_from_option(*app);
+    add_from_option(*app, options->run.files_in);
     add_execution_options(*app, options->run);
     add_output_options(*app, options->run,
                        "the picture, .exr or .png; with several algorithms out.NAME.png; - is standard output");

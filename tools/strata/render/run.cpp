@@ -13,6 +13,7 @@
 #include "scenes/files/load_image_module.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/files/unfinished_files.h"
+#include "scenes/inside_folder.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
@@ -29,7 +30,7 @@ namespace {
 pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) {
     const double aspect = double(options.render.width) / options.render.height;
     if (options.takes_own_view) return *scene.own_view;
-    if (!options.camera.empty()) return view_named(options.camera, scene, aspect);
+    if (!options.camera.empty()) return view_named(options.camera, scene, aspect, options.files_in);
     const Orbit orbit = options.orbit.value_or(Orbit{});
     return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
 }
@@ -73,12 +74,14 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
 
 }  // namespace
 
-pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect) {
+pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect,
+                          const std::string& folder) {
     std::vector<std::string> names;
     for (const auto& camera : scene.cameras) {
         if (camera.name == name) return scenes::camera_view(camera, aspect);
         names.push_back(camera.name);
     }
+    if (!folder.empty()) return scenes::load_camera(scenes::path_inside(folder, name, "--camera", "file"), aspect);
     std::error_code unreadable;  // such as a link to itself: no file
     if (name.ends_with(".json") || std::filesystem::exists(name, unreadable)) return scenes::load_camera(name, aspect);
     const std::string cameras =
@@ -99,6 +102,8 @@ Session open_session(RunOptions& options) {
                            session.scene.list.instances.size(), seconds_text(taken.count())));
     for (const std::string& warning : session.scene.warnings) say_warning(warning);
     warn_of_opaque(options, session.scene);
+    options.names_camera_of_scene =
+        std::ranges::any_of(session.scene.cameras, [&](const auto& camera) { return camera.name == options.camera; });
     options.takes_own_view = options.camera.empty() && !options.orbit && session.scene.own_view.has_value();
     const scenes::ClipConvention own = options.takes_own_view ? options.view_convention : scenes::ClipConvention{};
     const rasterizer::RasterState& raster = options.render.raster;

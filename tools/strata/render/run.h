@@ -21,8 +21,9 @@ struct Session {
     pipeline::View view;
 };
 
-// A camera of the scene, or of a file. CLI::ValidationError where there is neither.
-[[nodiscard]] pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect);
+// A camera of the scene, or of a file, which is in `folder` unless that is empty. CLI::ValidationError where there is neither.
+[[nodiscard]] pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect,
+                                        const std::string& folder = "");
 
 // Loads profile and scene, warns on standard error (of a scene in which nothing is transparent, too), finds the view,
 // and makes --simd and --background the run's.
