@@ -1,10 +1,14 @@
 #include "scenes/files/unfinished_files.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <iterator>
 
@@ -18,11 +22,48 @@ namespace {
 // 16 slots: a run writes a few files at a time.
 struct Slot {
     std::atomic<int> state{empty};
+    bool is_folder = false;
     char path[4096];
     enum State : int { empty, claimed, active };
 };
 Slot slots[16];
 static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<int> group{0};           // a process group of ours, 0: none
+std::atomic<bool> is_ending{false};  // a handler removes files: other threads must not make new ones
+
+// Without the C library's directory streams, which allocate. What other processes put there meanwhile is seen in a further round.
+// The deepest folder of ours is scene/ in a pack in a suite; what a command of the user's leaves there may be deeper.
+void remove_tree(int parent, const char* name, int levels) noexcept {
+    if (::unlinkat(parent, name, 0) == 0 || levels == 0) return;
+    const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0) return;
+    alignas(std::max_align_t) char entries[2048];
+    for (int round = 0; round < 100 && ::unlinkat(parent, name, AT_REMOVEDIR) != 0; ++round) {
+        ::lseek(folder, 0, SEEK_SET);
+        for (ssize_t size = 0; (size = ::getdents64(folder, entries, sizeof entries)) > 0;)
+            for (ssize_t at = 0; at < size;) {
+                const auto* const entry = reinterpret_cast<const dirent64*>(entries + at);
+                const std::string_view inside = entry->d_name;
+                if (inside != "." && inside != "..") remove_tree(folder, entry->d_name, levels - 1);
+                at += entry->d_reclen;
+            }
+    }
+    ::close(folder);
+}
+
+int enter(const std::string& path, bool is_folder) {
+    while (is_ending) ::pause();  // the handler's thread ends the process
+    if (path.size() >= sizeof(Slot::path)) throw SystemError(path, "write", "the name is too long");
+    for (int i = 0; i < static_cast<int>(std::size(slots)); ++i) {
+        int expected = Slot::empty;
+        if (!slots[i].state.compare_exchange_strong(expected, Slot::claimed)) continue;
+        std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
+        slots[i].is_folder = is_folder;
+        slots[i].state = Slot::active;
+        return i;
+    }
+    throw SystemError(path, "write", "too many files are being written at once");
+}
 
 // Two sentences in turn: one is written while the handler may read the other.
 struct Sentence {
@@ -46,7 +87,7 @@ void say_interrupted() noexcept {
     put("\n", 1);
 }
 
-// Async-signal-safe calls alone: write, unlink and _exit. 128 + the signal is what a shell reports for a process that
+// Async-signal-safe calls alone: kill, write, unlinkat, openat, the system's getdents64 and _exit. 128 + the signal is what a shell reports for a process that
 // a signal ended.
 extern "C" void on_interrupt(int signal) {
     remove_unfinished_files();
@@ -80,24 +121,19 @@ void handle_interrupt(int signal) noexcept {
 
 }  // namespace
 
-int enter_unfinished_file(const std::string& path) {
-    if (path.size() >= sizeof(Slot::path)) throw SystemError(path, "write", "the name is too long");
-    for (int i = 0; i < static_cast<int>(std::size(slots)); ++i) {
-        int expected = Slot::empty;
-        if (!slots[i].state.compare_exchange_strong(expected, Slot::claimed)) continue;
-        std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
-        slots[i].state = Slot::active;
-        return i;
-    }
-    throw SystemError(path, "write", "too many files are being written at once");
-}
+int enter_unfinished_file(const std::string& path) { return enter(path, false); }
+int enter_unfinished_folder(const std::string& path) { return enter(path, true); }
 
 void forget_unfinished_file(int place) noexcept { slots[place].state = Slot::empty; }
 
+void end_group_when_interrupted(int of_command) noexcept { group = of_command; }
+
 void remove_unfinished_files() noexcept {
-    for (const Slot& slot : slots) {
-        if (slot.state == Slot::active) ::unlink(slot.path);
-    }
+    constexpr int most_levels = 64;
+    is_ending = true;
+    if (const int of_command = group; of_command > 0) ::kill(-of_command, SIGKILL);
+    for (const Slot& slot : slots)
+        if (slot.state == Slot::active) remove_tree(AT_FDCWD, slot.path, slot.is_folder ? most_levels : 0);
 }
 
 void tell_when_interrupted(std::string_view sentence) noexcept {

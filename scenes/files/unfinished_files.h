@@ -1,6 +1,6 @@
-// scenes/files/unfinished_files.h - the files that are being written, where a signal handler finds them.
+// scenes/files/unfinished_files.h - the files and folders that are being written, where a signal handler finds them.
 //
-// Rule     A signal that ends the process removes them first. SIGKILL and SIGSTOP cannot be caught.
+// Rule     A signal that ends the process removes them first, after it has ended the commands that the process runs. SIGKILL and SIGSTOP cannot be caught.
 // Tests    tests/scenes/files/unfinished_files_test.cpp, tests/tools/interrupt_test.cpp
 #pragma once
 #include <string>
@@ -11,10 +11,16 @@ namespace strata::scenes {
 // Enters a path into the table and answers its place there. SystemError if the table is full or the path too long.
 [[nodiscard]] int enter_unfinished_file(const std::string& path);
 
-// Takes it out again; the file is left as it is.
+// The same of a folder, which goes with everything in it; links in it are not followed.
+[[nodiscard]] int enter_unfinished_folder(const std::string& path);
+
+// Takes either out again; the file or folder is left as it is.
 void forget_unfinished_file(int place) noexcept;
 
-// Unlinks every file of the table. Async-signal-safe.
+// A process group that gets SIGKILL first, for it may write to those folders: one at a time, 0 for none.
+void end_group_when_interrupted(int group) noexcept;
+
+// Removes every file and folder of the table. Async-signal-safe. After it no further one is entered.
 void remove_unfinished_files() noexcept;
 
 // What standard error is told when an interrupt (SIGINT, SIGTERM, SIGHUP) ends the process: "strata: interrupted; ...", one line of

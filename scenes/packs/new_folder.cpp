@@ -2,6 +2,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/unfinished_files.h"
 
 namespace strata::scenes {
 
@@ -9,12 +10,26 @@ NewFolder::NewFolder(const std::string& path) : path_{path} {
     std::error_code error;
     if (std::filesystem::exists(path_, error) && !std::filesystem::is_empty(path_, error))
         throw InputError(path, "folder", "one that does not exist or is empty", "something");
-    std::filesystem::create_directories(path_);
+    // An absolute path: the name stays the same folder's.
+    slot_ = enter_unfinished_folder(std::filesystem::absolute(path_).string());
+    try {
+        std::filesystem::create_directories(path_);
+    } catch (...) {
+        forget_unfinished_file(slot_);
+        throw;
+    }
 }
 
 NewFolder::~NewFolder() {
+    if (keep_) return;
     std::error_code ignored;
-    if (!keep_) std::filesystem::remove_all(path_, ignored);
+    std::filesystem::remove_all(path_, ignored);
+    forget_unfinished_file(slot_);
+}
+
+void NewFolder::keep() noexcept {
+    keep_ = true;
+    forget_unfinished_file(slot_);
 }
 
 void NewFolder::write(const std::string& name, std::string_view bytes) const {

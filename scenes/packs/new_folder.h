@@ -1,4 +1,4 @@
-// scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written.
+// scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written; a signal that ends the process removes it, too.
 //
 // Tests    tests/tools/probe/pack_test.cpp
 #pragma once
@@ -19,10 +19,11 @@ class NewFolder {
 
     // `name` is a path within the folder, with slashes.
     void write(const std::string& name, std::string_view bytes) const;
-    void keep() noexcept { keep_ = true; }
+    void keep() noexcept;
 
   private:
     std::filesystem::path path_;
+    int slot_ = 0;  // in the table of unfinished files
     bool keep_ = false;
 };
 

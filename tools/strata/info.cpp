@@ -12,8 +12,6 @@
 #include "tools/strata/digests.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
-#include "tools/strata/options/parse.h"
-#include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

@@ -12,6 +12,7 @@
 
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/system_error.h"
+#include "scenes/packs/new_folder.h"
 #include "tests/scenes/scenes_support.h"
 
 using strata::SystemError;
@@ -71,6 +72,27 @@ TEST_CASE("every signal that ends a process removes its unfinished files first")
     }
     CHECK(wrong == "");
     CHECK(ended >= 50);  // Linux has 21 plain ones and 31 real-time ones
+}
+
+TEST_CASE("a signal removes an unfinished folder with everything in it, follows no link, and leaves finished ones") {
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder, outside;
+    std::ofstream(outside / "kept") << "kept";
+    const int status = end_of_child([&] {
+        strata::scenes::remove_unfinished_files_when_interrupted();
+        strata::scenes::NewFolder finished{folder / "finished"}, half{folder / "half"};
+        finished.write("a/b/c.txt", "c");
+        finished.keep();
+        // More names than one read of a directory gives.
+        for (int i = 0; i < 500; ++i) half.write("scene/" + std::string(100, 'x') + std::to_string(i), "x");
+        fs::create_directories(folder / "half/a/b/c/d");
+        fs::create_directory_symlink(outside.path, folder / "half/link");
+        ::raise(SIGTERM);
+    });
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGTERM));
+    CHECK(fs::exists(folder / "finished/a/b/c.txt"));
+    CHECK_FALSE(fs::exists(folder / "half"));
+    CHECK(fs::exists(outside / "kept"));
 }
 
 TEST_CASE("a signal that the process was told to ignore stays ignored, and a handler of a fault stays") {

@@ -2,7 +2,6 @@
 #include "tools/oracle/reduce/reduce.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -13,9 +12,13 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/system_error.h"
+#include "scenes/files/unfinished_files.h"
+#include "scenes/packs/pack_scene.h"
 #include "tools/strata/command.h"
+#include "tools/strata/diagnose/shell_command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/options/shell_words.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 #include "tools/strata/tolerances.h"
@@ -27,27 +30,34 @@ namespace {
 struct ReduceOptions {
     std::string pack, command, ending = ".exr", output, algorithm;
     std::optional<oracle::RawLayout> layout{};
-    bool json = false;
+    double seconds = 600;  // of one run of the command
 };
 
-// A folder that goes with everything in it.
+// A folder that goes with everything in it, at the latest when a signal ends the process. Its path is one word of a shell in every kind
+// of quotes, so that it may take the place of a word in a line.
 class OwnFolder {
   public:
     OwnFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "strata-reduce-XXXXXX").string();
+        if (shell_word(name) != name)
+            throw InputError("TMPDIR", "folder", "a name without blanks and other characters that a shell reads",
+                             "'" + name + "'");
         if (mkdtemp(name.data()) == nullptr) throw SystemError(name, "make the folder", std::strerror(errno));
         path_ = name;
+        slot_ = scenes::enter_unfinished_folder(name);
     }
     OwnFolder(const OwnFolder&) = delete;
     OwnFolder& operator=(const OwnFolder&) = delete;
     ~OwnFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
+        scenes::forget_unfinished_file(slot_);
     }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
     std::filesystem::path path_;
+    int slot_ = 0;
 };
 
 std::string with(std::string text, const std::string& word, const std::string& value) {
@@ -56,31 +66,42 @@ std::string with(std::string text, const std::string& word, const std::string& v
     return text;
 }
 
+// What went wrong with a run; empty if it left a picture.
+std::string fault_of(const EndOfCommand& end, double seconds, bool has_picture) {
+    switch (end.way) {
+        case EndOfCommand::Way::timed_out: return fmt::format("no end within {} s (--timeout)", seconds);
+        case EndOfCommand::Way::killed: return fmt::format("signal {}", end.number);
+        case EndOfCommand::Way::exited: break;
+    }
+    if (end.number != 0) return fmt::format("exit status {}", end.number);
+    return has_picture ? "" : "exit status 0 and no picture";
+}
+
 // Runs the command on a pack of the scene. A command that fails has drawn nothing, whatever it left; of the user's own pack that is an error.
 class Runner {
   public:
     explicit Runner(const ReduceOptions& options) : options_{options} {}
 
-    // The user's own pack is there already, and may be large.
-    void use(const std::string& pack) { given_ = pack; }
+    // The user's own pack, which may be large and have any name, is a link to it.
+    void use(const std::string& pack) {
+        std::filesystem::create_directory_symlink(std::filesystem::canonical(scenes::pack_folder(pack)),
+                                                  folder_.path() / "pack");
+        has_given_ = true;
+    }
 
     std::optional<oracle::Picture> operator()(const oracle::Golden& scene) {
         const std::filesystem::path picture = folder_.path() / ("picture" + options_.ending);
-        const std::string pack = given_.empty() ? (folder_.path() / "pack").string() : given_;
-        if (given_.empty()) {
-            std::filesystem::remove_all(pack);
+        const std::string pack = (folder_.path() / "pack").string();
+        const bool is_first = std::exchange(has_given_, false);
+        if (!is_first) {
+            std::filesystem::remove_all(pack);  // of a link: itself alone
             oracle::write_pack(scene, pack);
         }
-        const bool is_first = !std::exchange(given_, {}).empty();
-        std::filesystem::remove(picture);
+        std::filesystem::remove_all(picture);
         const std::string line = with(with(options_.command, "{pack}", pack), "{picture}", picture.string());
-        const int status = std::system((line + " >/dev/null 2>&1").c_str());
-        if (status == -1) throw SystemError(line, "start the command", std::strerror(errno));
-        const std::string fault = !WIFEXITED(status)         ? fmt::format("signal {}", WTERMSIG(status))
-                                  : WEXITSTATUS(status) != 0 ? fmt::format("exit status {}", WEXITSTATUS(status))
-                                  : !std::filesystem::exists(picture) ? "exit status 0 and no picture"
-                                                                      : "";
-        if (!fault.empty() && is_first) throw InputError(line, "end", "exit status 0 and a picture", fault);
+        const EndOfCommand end = run_in_shell(line, options_.seconds);
+        const std::string fault = fault_of(end, options_.seconds, std::filesystem::exists(picture));
+        if (!fault.empty() && is_first) throw InputError(options_.command, "end", "exit status 0 and a picture", fault);
         if (!fault.empty()) return std::nullopt;
         return oracle::read_picture(picture.string(), options_.layout);
     }
@@ -88,7 +109,7 @@ class Runner {
   private:
     const ReduceOptions& options_;
     OwnFolder folder_;
-    std::string given_;
+    bool has_given_ = false;
 };
 
 int reduce(const ReduceOptions& options) {
@@ -96,6 +117,9 @@ int reduce(const ReduceOptions& options) {
         if (options.command.find(word) == std::string::npos)
             throw CLI::ValidationError("COMMAND", fmt::format("expected {} in it, found '{}'", word, options.command));
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
+    if (!options.ending.starts_with('.') || options.ending.find('/') != std::string::npos ||
+        shell_word(options.ending) != options.ending)
+        throw CLI::ValidationError("--picture", "expected an ending such as .exr, found '" + options.ending + "'");
     oracle::Golden scene = oracle::read_pack(options.pack);
     if (!options.algorithm.empty())
         std::erase_if(scene.algorithms, [&](const peeling::Algorithm* a) { return a->name != options.algorithm; });
@@ -143,10 +167,21 @@ Command add_reduce(CLI::App& root) {
              {"--picture", "ENDING", "of {picture}: .exr, .png or .npy, or another one with --layout (default .exr)",
               "an ending"});
     add_layout_option(*app, options->layout);
+    add_option(*app, options->seconds,
+               {"--timeout", "SECONDS", "how long one run of the command may take; then it is killed (default 600)",
+                "a number of seconds above 0, at most 86400"},
+               [](std::string_view text) {
+                   const auto seconds = to_number<double>(text);
+                   return seconds && *seconds > 0 && *seconds <= 86400 ? seconds : std::nullopt;
+               });
     app->footer(
-        "A command that ends with another exit status than 0, or leaves no picture, is an error on PACK itself; a "
-        "smaller\n"
-        "scene on which it does so is not taken. The kind of the failure (strata compare) stays.\n"
+        "A command that ends with another exit status than 0, leaves no picture or takes longer than --timeout is an "
+        "error on\n"
+        "PACK itself; a smaller scene on which it does so is not taken. The kind of the failure (strata compare) "
+        "stays. The command\n"
+        "is a process group of its own, which is killed with all that it started when the run or strata ends; it reads "
+        "nothing, and\n"
+        "what it prints is not shown.\n"
         "Examples:\n"
         "  strata golden showroom --size 32x32 --algorithm front_to_back -o room\n"
         "  strata reduce room \"strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o "
