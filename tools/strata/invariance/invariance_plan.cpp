@@ -88,6 +88,16 @@ KeyValues fallbacks() {
     return values;
 }
 
+// More than anyone waits for, and few enough for the search below.
+constexpr std::size_t most_cells = 10000;
+
+// How many combinations there are; those beyond the limit are not counted.
+std::size_t combinations_of(const KeyValues& grid) {
+    std::size_t product = 1;
+    for (const auto& [name, values] : grid) product = std::min(product * values.size(), most_cells + 1);
+    return product;
+}
+
 // Adds all combinations of the values from key `k` on to `cell`; a cell that is there already is
 // not added again. The search for it is linear, for plans have hundreds of cells.
 void add_combinations(std::vector<Cell>& cells, const KeyValues& grid, std::size_t k, const Cell& cell) {
@@ -128,6 +138,8 @@ std::vector<Cell> parse_plan(const std::string& text, const std::string& file, c
         const std::string place = fmt::format("/grids/{}", i);
         const KeyValues grid = merged(base, grid_of(plan["grids"][i], source, place));
         require_scene(grid, source, place);
+        if (cells.size() + combinations_of(grid) > most_cells)
+            source.fail(place, fmt::format("at most {} cells in all", most_cells), "more");
         add_combinations(cells, grid, 0, {});
     }
     return cells;
@@ -137,6 +149,8 @@ std::vector<Cell> cells_of(const KeyValues& options) {
     const std::string here = "strata";
     const KeyValues grid = merged(fallbacks(), options);
     require_scene(grid, Source{here}, "SCENE");
+    if (combinations_of(grid) > most_cells)
+        Source{here}.fail("options", fmt::format("at most {} cells in all", most_cells), "more");
     std::vector<Cell> cells;
     add_combinations(cells, grid, 0, {});
     return cells;

@@ -140,10 +140,23 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
     if (!in_order) scenes::write_file(results, text_of(lines));
 }
 
+// A folder of results may come from someone else. What is cut, appended to or filled must be in it: a journal that is a link would be
+// cut where the link leads.
+void refuse_links(const std::string& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_ours = name.starts_with("results") || name.starts_with("timings") ||
+                             name.starts_with(".results") || name == "images" || name == "pictures";
+        if (is_ours && entry.is_symlink())
+            throw InputError(entry.path().string(), "file", "a file or folder in its own place", "a link");
+    }
+}
+
 }  // namespace
 
 int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
     std::filesystem::create_directories(folder);
+    refuse_links(folder);
     const std::string results = shard_file(folder, "results", shard);
     const Lock lock(results);
     remove_leftovers(folder, shard);
@@ -164,6 +177,7 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
 int merge_shards(const Work& work, const std::string& folder, std::size_t shards) {
     if (!std::filesystem::is_directory(folder))
         throw InputError(folder, fmt::format("no such folder; it is to hold the results of {} shards", shards));
+    refuse_links(folder);
     const Lock lock(shard_file(folder, "results", {}));
     Lines results(work.cells);
     std::string timings;
