@@ -81,6 +81,43 @@ TEST_CASE("diagnose takes a folder of packs, and says who made the pictures of a
           "none\n");
 }
 
+TEST_CASE("diagnose of a picture that was made by another command says in what the commands differ") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render showroom --size 32x32 --background 1,1,1 --alpha 0.5 -o mine.png && "
+                  "strata render showroom --size 32x32 --profile geforce8_dx101 --orbit 10,20 -o other.exr && "
+                  "strata render showroom --size 32x32 -o right.png")
+                .status == 0);
+    const Ended mine = run_strata(folder, {"diagnose", "showroom", "mine.png"});
+    CHECK(mine.status == 1);
+    CHECK(mine.err ==
+          "strata: warning: mine.png: made by a command with --alpha 0.5 (here: none), --background 1,1,1 (here: "
+          "none); give diagnose the same, or compare other pictures\n");
+    CHECK(run_strata(folder, {"diagnose", "showroom", "mine.png", "-q"}).err == "");
+    CHECK(run_strata(folder, {"diagnose", "showroom", "mine.png", "--alpha", "0.5", "--background", "1,1,1"}).status ==
+          0);
+    const Ended other = run_strata(folder, {"diagnose", "showroom", "other.exr", "--no-light", "--json"});
+    CHECK(other.err.find("with --orbit 10,20 (here: none), --profile geforce8_dx101 (here: geforce8), no --no-light "
+                         "(here: given); ") != std::string::npos);
+    CHECK(nlohmann::json::parse(other.out)["verdict"] == "none_of_mine");
+    CHECK(run_strata(folder, {"diagnose", "showroom", "right.png"}).err == "");
+}
+
+TEST_CASE("options of messages go with a folder of packs and with a suite") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "mkdir set made && strata golden planes:count=2 --size 8x8 --algorithm weighted_sum -o set/planes && "
+                  "strata render set/planes --algorithm weighted_sum -o made/planes.png")
+                .status == 0);
+    for (const std::string option : {"-q", "--quiet", "-v", "--color=never"}) {
+        const Ended ended = run_strata(folder, {"diagnose", "set", "made", option});
+        CHECK(ended.status == 0);
+        CHECK(ended.out.starts_with("all 1 scenes are those of: the right machine"));
+        const Ended suite = run_strata(folder, {"golden", "--suite", "no_such_scene", option, "-o", "suite"});
+        CHECK(suite.err.find("no_such_scene") != std::string::npos);
+    }
+}
+
 TEST_CASE("reduce leaves a small pack on which the command still fails") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"golden", "showroom", "--size", "32x32", "--algorithm", "front_to_back", "-o", "pack"})

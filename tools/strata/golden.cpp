@@ -93,8 +93,9 @@ int write_suite(const GoldenOptions& options) {
 // The suite's scenes bring their own options.
 void check_alone(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options())
-        if (const std::string name = option->get_name();
-            option->count() > 0 && name != "--suite" && name != "--exr" && name != "--output" && name != "SCENE")
+        if (const std::string name = option->get_name(); option->count() > 0 && !is_message_option(*option) &&
+                                                         name != "--suite" && name != "--exr" && name != "--output" &&
+                                                         name != "SCENE")
             throw CLI::ValidationError("--suite", "expected a folder for it alone, found " + name);
 }
 

@@ -171,7 +171,7 @@ Verdict verdict_of(const Diagnosis& d) {
 
 Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerances, const ShowProgress& progress,
                            const std::vector<PassPicture>* passes) const {
-    Diagnosis result;
+    Diagnosis result{.is_blank = is_blank(candidate)};
     const Agreement right_agrees = agreement(laboratory_.right(), candidate, tolerances);
     result.pixels = right_agrees.size();
     result.differing = static_cast<std::uint64_t>(std::ranges::count(right_agrees, false));
@@ -195,7 +195,9 @@ Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerance
         result.verdict = verdict_of(result);
         if (passes != nullptr && result.pixels <= most_pixels_of_pairs) weigh_passes(evidence, *passes, result);
     };
-    if (std::ranges::none_of(result.findings, is_whole)) try_pairs(evidence, progress, result);
+    // One colour everywhere is no evidence of two mistakes, unless passes say more.
+    const bool shows_pairs = !result.is_blank || passes != nullptr;
+    if (shows_pairs && std::ranges::none_of(result.findings, is_whole)) try_pairs(evidence, progress, result);
     rank();
     // Whose picture it is has other passes: two mistakes may leave this picture, too.
     if (result.passes_contradict && result.pairs_tried == 0 && result.differing > 0) {
@@ -324,7 +326,7 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
         return std::pair{x.against, y.known} < std::pair{y.against, x.known};
     });
     // Where nothing is drawn, all who draw nothing fit, and two mistakes more easily than one. What became of the background says more.
-    pairs.resize(is_blank(evidence.candidate) ? 0 : std::min(pairs.size(), most_pairs));
+    pairs.resize(result.is_blank ? 0 : std::min(pairs.size(), most_pairs));
     pairs.insert(pairs.begin(), finished.begin(), finished.end());
     std::vector<std::optional<Finding>> found(pairs.size());
     for_all(pairs.size(), progress, [&](std::size_t i) {

@@ -4,7 +4,8 @@
 //          pixels that agree. The right machine comes before all mistakes that explain no more than it does, and a mistake before
 //          those behind it in the catalogue. A mistake whose picture is the right one here is no finding. If no single one explains every
 //          pixel, pairs are tried: first all that end in a mistake of the finished picture, then those that
-//          contradict the candidate least where only one of the two shows; the latter not where nothing is drawn, which is no evidence of two.
+//          contradict the candidate least where only one of the two shows; none for a candidate of one colour everywhere without
+//          passes, which is no evidence of two.
 //          Where none explains every pixel to the last code, one that explains half of them so and all within one code counts as nearly
 //          explaining them, unless the right machine does.
 //          A candidate's passes, where it has any, decide between those who leave the same picture; a machine whose passes differ
@@ -40,6 +41,7 @@ enum class Verdict : std::uint8_t {
 struct Diagnosis {
     Verdict verdict{};
     std::uint64_t pixels = 0, differing = 0;  // differing: from the right picture, beyond the tolerances
+    bool is_blank = false;                    // the candidate has one colour everywhere
     bool is_nearly = false;                   // what is named explains some pixels only within one code
     bool passes_contradict = false;  // the picture is that of the first finding, but no known machine's passes are
     std::optional<PassAgreement> right_passes{};  // of the right machine

@@ -1,4 +1,6 @@
 // tools/strata/diagnose/diagnose.cpp - strata diagnose: which known mistake made a picture.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -7,17 +9,21 @@
 
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/picture_attributes.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
+#include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/diagnose/mistakes.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
@@ -41,9 +47,10 @@ struct DiagnoseOptions {
 // A pack's own algorithm, if the user names none.
 void choose_algorithm(RunOptions& run) {
     if (!run.algorithms.empty() || scenes::is_procedural(run.scene) || !scenes::is_pack(run.scene)) return;
-    const nlohmann::json manifest = scenes::read_manifest(scenes::pack_folder(run.scene));
-    const nlohmann::json& results = manifest.at("results");
-    if (!results.empty()) run.default_algorithm = results[0].at("algorithm").get<std::string>();
+    const std::string folder = scenes::pack_folder(run.scene), file = folder + "/manifest.json";
+    const nlohmann::json manifest = scenes::read_manifest(folder);
+    const auto results = oracle::ManifestValue{manifest, file}.list("results");
+    if (!results.empty()) run.default_algorithm = results[0].algorithm("algorithm");
 }
 
 // The picture in a candidate's folder, or in another pack's.
@@ -107,6 +114,20 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::
     return opened;
 }
 
+// A picture of this program says how it was made: a forgotten --background is no mistake of a port's.
+void warn_of_other_command(const OpenCase& opened) {
+    const std::string& file = opened.candidate.file;
+    if (!file.ends_with(".png") && !file.ends_with(".exr")) return;
+    const scenes::Attributes attributes = scenes::read_attributes(file);
+    const auto recorded = attributes.find("command");
+    if (recorded == attributes.end()) return;
+    const RunOptions& run = opened.options.run;
+    const auto found = differences(recorded->second, canonical_command("render", run, run.algorithms));
+    if (found.empty()) return;
+    say_warning(fmt::format("{}: made by a command with {}; give diagnose the same, or compare other pictures", file,
+                            fmt::join(found, ", ")));
+}
+
 oracle::ShowProgress shown_by(Progress& bar) {
     return [&bar](double share) { bar.show(share); };
 }
@@ -164,6 +185,7 @@ int diagnose_one(const DiagnoseOptions& options) {
     const oracle::Diagnosis found =
         opened->lineup->diagnose(opened->candidate, options.tolerances, shown_by(pairs), opened->passes_or_null());
     const oracle::Comparison comparison = opened->comparison();
+    if (found.verdict != oracle::Verdict::right) warn_of_other_command(*opened);
     if (!options.report.empty()) {
         PlainPage page{"Diagnosis", canonical_command("render", opened->options.run, opened->options.run.algorithms)};
         add_lines(page, to_text(found, comparison));
@@ -225,6 +247,8 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
                          "a picture or a folder with the name of a pack, such as " + packs[0], "none");
     const oracle::ScenesDiagnosis found =
         oracle::diagnose_scenes(scenes, options.tolerances, [&](double share) { bar.show(0.5 + 0.5 * share); });
+    if (found.verdict != oracle::Verdict::right)
+        for (const auto& one : opened) warn_of_other_command(*one);
     print(options.json ? to_json(found, reports) : to_text(found, reports));
     return status_of(found.verdict);
 }
@@ -234,7 +258,8 @@ void check_several(const CLI::App& app) {
     const std::vector<std::string> fitting{"SCENE",       "CANDIDATE", "--algorithm", "--limit",
                                            "--tolerance", "--layout",  "--json"};
     for (const CLI::Option* option : app.get_options())
-        if (option->count() > 0 && std::ranges::find(fitting, option->get_name()) == fitting.end())
+        if (option->count() > 0 && std::ranges::find(fitting, option->get_name()) == fitting.end() &&
+            !is_message_option(*option))
             throw CLI::ValidationError(option->get_name(), "expected one scene for it, found a folder of packs");
 }
 
