@@ -53,7 +53,8 @@ class FloatSpans {
     // Calls visit(y, x0, x1) for every row of `box` that has covered pixels [x0, x1) there.
     template <class Visit>
     void visit(const Rect& box, const Visit& visit) const {
-        if (!is_drawn_) return;
+        // A box without columns, of a triangle beside the region, has its bounds the other way round: std::clamp takes no such.
+        if (!is_drawn_ || box.x0 >= box.x1) return;
         Side bottom = bottom_, longest = longest_, top = top_;
         const int rows = bottom.rows, rest = top.rows;
         if (area_ < 0.0f) {

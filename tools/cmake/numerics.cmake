@@ -30,6 +30,10 @@ set(sanitizer_flags "")
 if(STRATA_SANITIZE)
   list(APPEND sanitizer_flags -fsanitize=${STRATA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
 endif()
+# An index beyond a vector's end that stays in its memory, or std::clamp with its bounds the other way round: the library sees those.
+if(STRATA_SANITIZE MATCHES "address|undefined")
+  list(APPEND sanitizer_flags -D_GLIBCXX_ASSERTIONS)
+endif()
 if(STRATA_FUZZ)
   list(APPEND sanitizer_flags -fsanitize=fuzzer-no-link)
 endif()
@@ -39,4 +43,4 @@ endif()
 # A target whose STRATA_UNSANITIZED is set is linked with them alone.
 target_compile_options(strata_numerics INTERFACE
   "$<BUILD_INTERFACE:$<$<NOT:$<BOOL:$<TARGET_PROPERTY:STRATA_UNSANITIZED>>>:${sanitizer_flags}>>")
-target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")
+target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")  # a -D there is passed over

@@ -167,6 +167,17 @@ TEST_CASE(
     CHECK((boxes > 1000 && uncovered > 500 && large > 100));
 }
 
+// Under the library's assertions (the sanitized builds) a walk over the columns of such a box ends the test.
+TEST_CASE("a triangle beside a region leaves nothing in it, for its box has no columns or no rows there") {
+    const FloatSpans spans{{{{10, 10}, {10, 30}, {40.25f, 20}}}};
+    int whole = 0, rows = 0;
+    spans.visit({0, 0, 64, 64}, [&](int, int x0, int x1) { whole += x1 - x0; });
+    CHECK(whole == 310);  // 2, 5, 8 .. 29 centres in a row, and the same upwards from row 29
+    for (const Rect& beside : {Rect{50, 0, 40, 64}, {48, 0, 43, 64}, {12, 0, 12, 64}, {0, 40, 64, 33}, {0, 20, 64, 20}})
+        spans.visit(beside, [&](int, int, int) { ++rows; });
+    CHECK(rows == 0);
+}
+
 TEST_CASE("corners of one height keep the order that the rule's comparisons give them") {
     using Order = std::array<std::size_t, 3>;
     const auto order = [](float y0, float y1, float y2) { return by_height({{{0, y0}, {1, y1}, {2, y2}}}); };
