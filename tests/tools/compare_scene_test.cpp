@@ -41,6 +41,29 @@ TEST_CASE("compare with a scene names the mistake of a peel that stops early, an
     CHECK(document["explanations"][0]["mistakes"][0]["n"] == 2);
 }
 
+TEST_CASE("explain --candidate tells which layers a port composited at a pixel") {
+    const Folder folder;
+    REQUIRE(shell(folder, "strata render teapot --size 24x18 --algorithm front_to_back --max-passes 2 -q -o a.png")
+                .status == 0);
+    const Ended compared = run_strata(folder, {"compare", "teapot", "a.png", "--json", "--report", "page.html"});
+    const auto first = nlohmann::json::parse(compared.out)["first_wrong"][0];
+    const std::string pixel = first[0].dump() + "," + first[1].dump();
+    const Ended text = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", pixel});
+    CHECK(text.status == 1);
+    CHECK(text.out.starts_with("pixel " + pixel + ": wrong; "));
+    CHECK(text.out.find("it comes out so if only the nearest 2 layers of up to ") != std::string::npos);
+    const Ended right = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "0,0", "--json"});
+    CHECK(right.status == 0);
+    CHECK(nlohmann::json::parse(right.out)["edits"].empty());
+    // The page's legend counts what its map shows.
+    const std::string page = content_of(folder / "page.html");
+    CHECK(page.find("What each wrong pixel composited") != std::string::npos);
+    CHECK(page.find("pixels: only the nearest 2 layers of up to ") != std::string::npos);
+    const Ended outside = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "24,0"});
+    CHECK(outside.status == 2);
+    CHECK(outside.err.find("expected a pixel from 0,0 to 23,17, found 24,0") != std::string::npos);
+}
+
 TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit") {
     const Folder folder;
     REQUIRE(shell(folder,

@@ -102,7 +102,8 @@ int compare_folders(const CompareOptions& options) {
 oracle::Picture reference_of(const CompareOptions& options) {
     if (!is_scene(options.reference)) return oracle::read_picture(options.reference, options.layout);
     if (!scenes::is_pack(options.reference))
-        return drawn_picture({options.run, options.algorithm}, oracle::read_picture(options.candidate, options.layout));
+        return drawn_picture({options.run, options.algorithm, false, ""},
+                             oracle::read_picture(options.candidate, options.layout));
     auto all = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     if (all.size() != 1)
         throw CLI::ValidationError("--algorithm",
@@ -112,10 +113,8 @@ oracle::Picture reference_of(const CompareOptions& options) {
 
 // What a verdict does not write yet.
 void check_without_files(const CompareOptions& options) {
-    for (const auto& [name, path] : {std::pair{"--heat", &options.heat},
-                                     {"--side", &options.side},
-                                     {"--junit", &options.junit},
-                                     {"--report", &options.report}})
+    for (const auto& [name, path] :
+         {std::pair{"--heat", &options.heat}, {"--side", &options.side}, {"--junit", &options.junit}})
         if (!path->empty())
             throw CLI::ValidationError(std::string(name) + " needs --exact, or a picture as the reference");
 }
@@ -131,7 +130,7 @@ int compare(const CompareOptions& options) {
     if (asks_for_verdict(options)) {
         check_without_files(options);
         const oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
-        return compare_with_scene({options.run, options.algorithm, options.json}, picture);
+        return compare_with_scene({options.run, options.algorithm, options.json, options.report}, picture);
     }
     const oracle::Picture reference = reference_of(options);
     const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);

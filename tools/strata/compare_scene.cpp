@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "peeling/render.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
+#include "tools/oracle/drawings.h"
+#include "tools/oracle/verdict/edits.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/sample.h"
 #include "tools/oracle/verdict/verdict.h"
@@ -22,15 +25,12 @@ bool is_scene(const std::string& reference) {
     return ending == ".gltf" || ending == ".glb" || ending == ".json";
 }
 
-namespace {
-
 const oracle::Target& colors_of(const oracle::Picture& candidate) {
     const auto found = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
     if (found == candidate.targets.end()) throw InputError(candidate.file, "targets", "colours", "none");
     return *found;
 }
 
-// The scene at the candidate's size.
 Session open_at_size(SceneQuestion& question, const oracle::Target& target) {
     RunOptions& run = question.run;
     if (!question.algorithm.empty()) run.algorithms = {to_algorithm(question.algorithm)};
@@ -39,8 +39,6 @@ Session open_at_size(SceneQuestion& question, const oracle::Target& target) {
     run.render.height = target.height;
     return open_session(run);
 }
-
-}  // namespace
 
 oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& candidate) {
     const Session session = open_at_size(question, candidate.targets[0]);
@@ -53,14 +51,73 @@ oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& can
     return picture;
 }
 
+namespace {
+
+using oracle::verdict::EditMap;
+
+// Colours of edits by their number; more than these are never told.
+constexpr std::array<std::uint8_t, 3> edit_colors[] = {{230, 80, 60},  {70, 140, 230},  {240, 200, 60},
+                                                       {80, 190, 100}, {190, 100, 210}, {70, 200, 210}};
+constexpr std::array<std::uint8_t, 3> unexplained_color = {255, 255, 255};
+
+pipeline::Image drawn(const EditMap& map) {
+    pipeline::Image image{pipeline::Format::rgba8, map.width, map.height};
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const std::size_t first = image.index(x, y);
+            const std::uint8_t edit = map.of_pixel[first / 4];
+            image.codes[first + 3] = 255;
+            if (edit == EditMap::right) continue;
+            const auto& color =
+                edit == EditMap::unexplained ? unexplained_color : edit_colors[(edit - 1u) % std::size(edit_colors)];
+            std::ranges::copy(color, image.codes.begin() + static_cast<std::ptrdiff_t>(first));
+        }
+    return image;
+}
+
+std::string counted(std::uint64_t pixels, const std::string& what) {
+    return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
+}
+
+PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::verdict::Verdict& found,
+                  const EditMap& map, const pipeline::DrawList& list) {
+    PlainPage page{"Verdict", std::filesystem::path(candidate.file).filename().string() + " of " +
+                                  std::filesystem::path(scene).filename().string()};
+    std::istringstream lines(to_text(found, list));
+    std::vector<std::string> sentences;
+    for (std::string line; std::getline(lines, line);) sentences.push_back(line.substr(line.find_first_not_of(' ')));
+    page.sentence(sentences[0]);
+    sentences.erase(sentences.begin());
+    page.items(sentences);
+    page.picture(oracle::as_shown(candidate),
+                 "The candidate, " + std::filesystem::path(candidate.file).filename().string());
+    page.picture(drawn(map), found.is_right ? "Wrong pixels: none, so all of it is black"
+                                            : "What each wrong pixel composited: black is right");
+    if (found.is_right) return page;
+    std::vector<PlainPage::Swatch> kinds;
+    for (std::size_t i = 0; i < map.edits.size(); ++i)
+        kinds.push_back({edit_colors[i % std::size(edit_colors)],
+                         counted(map.edits[i].pixels, sentence(map.edits[i].rules, found.facts, list))});
+    if (map.not_explained > 0)
+        kinds.push_back({unexplained_color, counted(map.not_explained, "no mistake that is known here")});
+    page.legend(kinds);
+    return page;
+}
+
+}  // namespace
+
 int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
     const oracle::Target& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors);
     const peeling::RenderOptions& options = question.run.render;
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
                                               options.fragment_memory};
-    const oracle::verdict::Verdict found = oracle::verdict::judge(fragments, oracle::verdict::Colors{colors});
+    const oracle::verdict::Colors seen{colors};
+    const oracle::verdict::Verdict found = judge(fragments, seen);
     const pipeline::DrawList& list = session.scene.list;
+    if (!question.report.empty())
+        write_page(question.report,
+                   page_of(question.run.scene, candidate, found, edit_map(fragments, seen, found), list));
     print(question.json ? to_json(found, list) : with_painted_verdicts(to_text(found, list)));
     return found.is_right ? 0 : 1;
 }

@@ -4,6 +4,7 @@
 #include "scenes/files/atomic_file.h"
 #include "tools/oracle/history_report.h"
 #include "tools/strata/command.h"
+#include "tools/strata/explain_candidate.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
@@ -20,7 +21,7 @@ struct Pixel {
 struct ExplainOptions {
     RunOptions run;
     std::optional<Pixel> pixel;
-    std::string svg;
+    std::string svg, candidate;
     bool json = false;
 };
 
@@ -34,6 +35,12 @@ std::optional<Pixel> to_pixel(std::string_view text) {
 }
 
 int explain(ExplainOptions& options) {
+    if (!options.candidate.empty()) {
+        if (!options.svg.empty()) throw CLI::ValidationError("--svg", "expected no --candidate beside it");
+        const auto [x, y] = options.pixel.value_or(Pixel{});
+        if (!options.pixel) throw CLI::ValidationError("--candidate", "expected --pixel X,Y beside it");
+        return explain_candidate({options.run, options.candidate, x, y, options.json});
+    }
     complete(options.run);
     check_outputs({{"--svg", options.svg, {".svg"}}});
     const auto [x, y] = options.pixel.value_or(Pixel{});
@@ -76,11 +83,16 @@ Command add_explain(CLI::App& root) {
                });
     add_path(*app, options->svg,
              {"--svg", "FILE.svg", "the column of fragments, and which pass took which, as a drawing", "a file name"});
+    add_path(*app, options->candidate,
+             {"--candidate", "PICTURE",
+              "a port's picture of the scene: tell which layers it composited at the pixel, and by which mistake",
+              "a file name"});
     app->add_flag("--json", options->json, "one JSON document instead of text: enough to do every step again");
     app->footer(
         footer("  strata explain teapot --size 64x48 --pixel 32,24\n"
                "  strata explain volume-beam:slices=4 --algorithm dual,front_to_back --size 32x32 --pixel 16,16 --json "
-               "--svg column.svg\n"));
+               "--svg column.svg\n"
+               "  strata explain teapot --candidate port.png --pixel 32,24\n"));
     return {app, [options] { return explain(*options); }};
 }
 

@@ -32,6 +32,10 @@ void Sample::add(const PixelList& list, const std::array<double, 4>& value) {
     pixel.list.hidden = all.subspan(list.visible.size());
 }
 
+bool Sample::has(int x, int y) const noexcept {
+    return std::ranges::any_of(pixels_, [&](const SampledPixel& p) { return p.list.x == x && p.list.y == y; });
+}
+
 void Sample::sort() {
     std::ranges::sort(pixels_, {}, [](const SampledPixel& p) { return std::pair{p.list.y, p.list.x}; });
 }

@@ -40,6 +40,7 @@ class Sample {
     Sample& operator=(Sample&&) noexcept = default;
     ~Sample() = default;
     void add(const PixelList& list, const std::array<double, 4>& value);
+    [[nodiscard]] bool has(int x, int y) const noexcept;
     [[nodiscard]] const std::deque<SampledPixel>& pixels() const noexcept { return pixels_; }
     // In rows from the top: threads add them in no order.
     void sort();

@@ -153,9 +153,9 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
 
 // Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells enough.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
-                           const Families& definite, const Checked& closest, const Parted& parts,
+                           const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
                            const Sample& sample) {
-    constexpr std::size_t most_told = 12;
+    constexpr std::size_t most_told = 12, least_decided = 4;
     const auto is_alike = [](const Rules& a, const Rules& b) {
         return std::ranges::equal(a, b,
                                   [](const Rule& x, const Rule& y) { return x.kind == y.kind && x.scope == y.scope; });
@@ -167,53 +167,73 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         const Families own_families = possible(definite, rules, parts, scene.setting());
         if (own_families.empty()) continue;
         Sample own = sample;
-        const Hypothesis& likely = (found.empty() ? closest : found.back()).account.hypothesis;
+        const auto likely = found.empty() ? closest : found.back().account.hypothesis;
         auto one = account_for(own_families, rules, scene, candidate, own, likely);
-        // A rule that changes nothing that tells is no explanation.
-        if (one && one->changed > one->undecided) found.push_back(*std::move(one));
+        // A rule that changes hardly anything that tells is no explanation: among so many rules one fits a few pixels by chance.
+        if (one && one->changed - one->undecided >= least_decided) found.push_back(*std::move(one));
     }
     return found;
 }
 
 // What leaves much more open than the best one has only room for the picture.
-void drop_roomy(std::vector<Checked>& found, const Checked& closest) {
+void drop_roomy(std::vector<Checked>& found, double most_bits) {
     std::ranges::stable_sort(found, {}, [](const Checked& c) { return bits_of(c); });
     if (found.empty()) return;
-    const double most = std::min(1.05 * bits_of(found[0]) + 64, bits_of(closest));
+    const double most = std::min(1.05 * bits_of(found[0]) + 64, most_bits);
     std::erase_if(found, [&](const Checked& c) { return bits_of(c) > most; });
 }
 
-// How many of the pixels the rules do not reach; `unchanged`: of those that they leave alone.
-enum class Unchanged : std::uint8_t { missed, reached };
-std::size_t missed(const std::vector<PartedPixel>& pixels, const Rules& rules, const Compositor& compositor,
-                   const Setting& setting, Unchanged unchanged) {
+// Which of the pixels the rules reach; `unchanged`: those that they leave alone.
+std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rules& rules, const Compositor& compositor,
+                          const Setting& setting, bool unchanged) {
     StackMaker maker{setting};
-    return static_cast<std::size_t>(std::ranges::count_if(pixels, [&](const PartedPixel& pixel) {
-        const StackedPixel made = stacked(rules, *pixel.sampled, maker);
-        if (is_unchanged(made, pixel)) return unchanged == Unchanged::missed;
-        return reaching(compositor, made) == nullptr;
-    }));
+    std::vector<bool> are_reached;
+    for (const PartedPixel* pixel : pixels) {
+        const StackedPixel made = stacked(rules, *pixel->sampled, maker);
+        are_reached.push_back(is_unchanged(made, *pixel) ? unchanged : reaching(compositor, made) != nullptr);
+    }
+    return are_reached;
 }
 
+std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, std::size_t most) {
+    std::vector<const PartedPixel*> some;
+    const std::size_t step = pixels.size() / most + 1;
+    for (std::size_t i = 0; i < pixels.size(); i += step) some.push_back(&pixels[i]);
+    return some;
+}
+
+// One after the other the rules that explain the most of what those before them do not, less the right pixels that speak against them.
 std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
                            const Setting& setting) {
-    constexpr std::size_t most_leads = 5;
+    constexpr std::size_t most_leads = 6, most_looked_at = 1024;
     const Compositor compositor{hypothesis};
+    const auto wrong = thinned(parts.wrong, most_looked_at), right = thinned(parts.right, most_looked_at);
     std::vector<Lead> leads(all.size());
+    std::vector<std::vector<bool>> explained(all.size());
     parallel_for(all.size(), 0, [&](std::size_t i) {
-        Lead& lead = leads[i];
-        lead = {.rules = all[i], .of = parts.wrong.size(), .right = parts.right.size()};
-        lead.explained = lead.of - missed(parts.wrong, all[i], compositor, setting, Unchanged::missed);
-        lead.contradicted = missed(parts.right, all[i], compositor, setting, Unchanged::reached);
+        explained[i] = reached(wrong, all[i], compositor, setting, false);
+        const auto holds = static_cast<std::uint64_t>(std::ranges::count(explained[i], true));
+        leads[i] = {.rules = all[i], .explained = holds, .of = wrong.size(), .right = right.size()};
+        if (holds == 0) return;
+        const std::vector<bool> are_right = reached(right, all[i], compositor, setting, true);
+        leads[i].contradicted = static_cast<std::uint64_t>(std::ranges::count(are_right, false));
     });
-    std::erase_if(leads, [](const Lead& l) { return l.explained == 0 || l.contradicted >= l.explained; });
-    std::ranges::stable_sort(leads, std::ranges::greater{}, [](const Lead& l) { return l.explained - l.contradicted; });
+    std::vector<bool> is_told(wrong.size());
     std::vector<Lead> best;
-    for (const Lead& lead : leads) {
-        const bool is_there = std::ranges::any_of(best, [&](const Lead& b) {
-            return b.rules[0].kind == lead.rules[0].kind && b.rules[0].scope == lead.rules[0].scope;
-        });
-        if (!is_there && best.size() < most_leads) best.push_back(lead);
+    while (best.size() < most_leads) {
+        std::ptrdiff_t most = 0;
+        std::size_t next = all.size();
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            // A port may do it at some pixels alone, by what no rule knows.
+            std::ptrdiff_t gain = -static_cast<std::ptrdiff_t>(leads[i].contradicted / 4);
+            for (std::size_t p = 0; p < wrong.size(); ++p) gain += explained[i][p] && !is_told[p] ? 1 : 0;
+            if (gain <= most) continue;
+            most = gain;
+            next = i;
+        }
+        if (next == all.size()) break;
+        for (std::size_t p = 0; p < wrong.size(); ++p) is_told[p] = is_told[p] || explained[next][p];
+        best.push_back(leads[next]);
     }
     return best;
 }
@@ -238,9 +258,25 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
     if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
     const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts, scene.setting()) : singles(rules);
     const Families left = possible(definite, parts, closest.account.hypothesis);
-    std::vector<Checked> found =
-        whole(survivors(all, parts, widest(left), scene.setting()), scene, candidate, left, closest, parts, sample);
-    drop_roomy(found, closest);
+    std::vector<Checked> found = whole(survivors(all, parts, widest(left), scene.setting()), scene, candidate, left,
+                                       closest.account.hypothesis, parts, sample);
+    drop_roomy(found, bits_of(closest));
+    return found;
+}
+
+std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
+                                const Sample& sample) {
+    Parted parts;
+    for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
+    std::vector<Hypothesis> each;
+    for (const HypothesisFamily& family : narrow)
+        std::ranges::copy_if(family.members, std::back_inserter(each),
+                             [](const Hypothesis& h) { return h.slack == 0; });
+    const std::vector<Rules> all = singles(rules_for(facts_of(scene, sample)));
+    const std::vector<Rules> left = survivors(all, parts, each, scene.setting());
+    if (left.empty()) return {};
+    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample);
+    drop_roomy(found, std::numeric_limits<double>::max());
     return found;
 }
 

@@ -17,6 +17,10 @@ namespace strata::oracle::verdict {
                                           const Families& definite, const Checked& closest, const Sample& sample,
                                           int most_rules);
 
+// The same with one rule, under hypotheses that leave little open: those that explain every pixel of the sample, whether it is right by another one or not.
+[[nodiscard]] std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate,
+                                              const Families& narrow, const Sample& sample);
+
 // The rules that explain most of the wrong pixels of a sample, the best first.
 [[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample);
 

@@ -82,11 +82,7 @@ std::vector<Checked> told_better(const SceneFragments& scene, const Colors& cand
     if (leaves_little_open(right)) return {};
     const Sample deep = deepest(even, most);
     const Families narrow = narrower(all.definite, right.account.hypothesis, deep);
-    const auto closest = best_of(narrow, {}, deep, Wrong::some);
-    if (!closest) return {};
-    Checked to_beat = right;
-    to_beat.account.hypothesis = *closest;
-    std::vector<Checked> better = search(scene, candidate, narrow, to_beat, deep, 1);
+    std::vector<Checked> better = search_all(scene, candidate, narrow, deep);
     std::erase_if(better, [&](const Checked& c) { return c.bits + least_bits > share * right.bits; });
     return better;
 }
@@ -141,14 +137,16 @@ Verdict judge(SceneFragments& scene, const Colors& candidate) {
     Sample sample = even, examples{scene.setting()};
     verdict.right = closest_account(scene, candidate, all.definite, even, examples);
     if (verdict.right.is_whole()) return is_right(std::move(verdict.right), even);
-    // What leaves more open than the closest account has to beat it.
+    // What leaves more open than the closest account has to beat it, or to show that no pixel is far off.
+    constexpr double few_codes = 2;
+    const double most_bits = 1.1 * bits_of(verdict.right, storage) + 64;
     for (const Families* some : {&all.definite, &all.coarse, &all.loose}) {
         auto right = account_for(*some, {}, scene, candidate, sample);
-        // The plainest of the hypotheses that do nearly as well was taken.
-        if (right && right->bits <= 1.1 * bits_of(verdict.right, storage) + 64)
+        if (right && (right->bits <= most_bits || (has_codes(storage) && right->observed <= few_codes)))
             return is_right(*std::move(right), even);
     }
-    for (const SampledPixel& pixel : examples.pixels()) sample.add(pixel.list, pixel.value);
+    for (const SampledPixel& pixel : examples.pixels())
+        if (!sample.has(pixel.list.x, pixel.list.y)) sample.add(pixel.list, pixel.value);
     for (const auto& [some, most_rules] : {std::pair{&all.definite, 1}, {&all.coarse, 1}, {&all.definite, 2}}) {
         verdict.explanations = search(scene, candidate, *some, verdict.right, sample, most_rules);
         if (!verdict.explanations.empty()) return verdict;

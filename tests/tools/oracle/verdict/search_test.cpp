@@ -119,6 +119,18 @@ TEST_CASE("a peel that is stopped is told by the layers that it has composited")
     CHECK(found(judged(opened, *opened.picture("dual", pipeline::Format::rgba8))).contains("ends_alone 1"));
 }
 
+TEST_CASE("layers that are lost in the middle of many are found, though a port that cuts could lose as much") {
+    const OpenedScene opened{"hard:case=inside-out", 32, 32};
+    Hypothesis floats = port_of_codes(Order::both_ends);
+    floats.front = floats.back = {Storage::single, Source::unrounded, Rounding::nearest};
+    const auto lose_middle = [](PortList& l) {
+        while (l.visible.size() > 10) lose(l, 5);
+    };
+    const Verdict verdict = judged(opened, picture_of_port(opened, floats, lose_middle));
+    CHECK_FALSE(verdict.is_right);
+    CHECK(found(verdict).contains("ends_alone 5"));
+}
+
 TEST_CASE("what explains a part of the wrong pixels is a lead and no finding") {
     const OpenedScene opened{"showroom", 48, 48};
     std::size_t number = 0;
