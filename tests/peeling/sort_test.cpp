@@ -125,3 +125,22 @@ TEST_CASE("parts are submitted one after the other, each sorted or as listed") {
               return sum(soup, a) == sum(soup, b) ? a < b : sum(soup, a) < sum(soup, b);
           }) == 0);
 }
+
+TEST_CASE("the buckets of a part cut the range of its own keys, however far other parts lie") {
+    // Ten triangles of keys 9, 8 ... 0 between others a thousand times as far; five buckets take two each.
+    TriangleSoup soup;
+    for (std::uint32_t t = 0; t < 30; ++t)
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            const bool is_inner = t >= 10 && t < 20;
+            soup.indices.push_back(3 * t + corner);
+            soup.vertices.push_back({.z = is_inner ? static_cast<float>(19 - t) / 3 : t < 10 ? -3000.0f : 3000.0f});
+        }
+    soup.runs = {{.first_index = 0, .index_count = 30, .object = 0},
+                 {.first_index = 30, .index_count = 30, .object = 1},
+                 {.first_index = 60, .index_count = 30, .object = 2}};
+    const auto order = submission_order(soup, {.rule = SortRule::bucket, .buckets = 5},
+                                        {.part_of_run = {0, 1, 2}, .sorts = {true, true, true}});
+    REQUIRE(order.parts == std::vector<strata::pipeline::PrimitiveRange>{{0, 10}, {10, 20}, {20, 30}});
+    const std::vector<std::uint32_t> inner(order.triangles.begin() + 10, order.triangles.begin() + 20);
+    CHECK(inner == std::vector<std::uint32_t>{18, 19, 16, 17, 14, 15, 12, 13, 10, 11});
+}

@@ -9,7 +9,9 @@ namespace strata::testing {
 
 // What differs between two results, by name; empty if nothing does. `work` and `seconds` may differ.
 [[nodiscard]] inline std::string difference(const peeling::RenderResult& a, const peeling::RenderResult& b) {
-    const auto same_layer = [](const auto& x, const auto& y) { return x.color == y.color && x.depth == y.depth; };
+    const auto same_layer = [](const auto& x, const auto& y) {
+        return x.color == y.color && x.depth == y.depth && x.side == y.side;
+    };
     if (a.outcome != b.outcome || a.refusal != b.refusal) return "outcome";
     if (a.frame.color != b.frame.color) return "colour";
     if (a.frame.depth != b.frame.depth) return "depth";

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "pipeline/device/check.h"
 #include "tests/pipeline/frames.h"
@@ -94,12 +95,13 @@ void branch(Region& region) {
     region.publish(sum);
 }
 
-// Two loops, from slot 0 and from slot 6. A tile that has found all of a loop's fragments leaves it.
-void two_loops(Region& region) {
+// A loop from each of these slots. A tile that has found all of a loop's fragments leaves it.
+template <int... starts>
+void loops_from(Region& region) {
     const Target sum = region.make_color();
-    for (const int start : {0, 6}) {
+    for (const int start : {starts...}) {
         region.begin_loop();
-        for (int slot = start; slot < slots && !region.limit_reached(); ++slot) {
+        for (int slot = start; slot < slots && !region.limit_reached(2); ++slot) {
             region.begin_iteration();
             const Count found = count_slot(region, slot);
             add_found(region, sum, slot);
@@ -175,6 +177,48 @@ int everywhere(const FrameResult& result, std::size_t channel) {
 
 }  // namespace
 
+// A layer from the far and one from the near end an iteration, in this order; green where a fragment lies in the slot.
+void keep_both_ends(Region& region) {
+    const Target layer = region.make_color(), depth = region.make_depth();
+    const auto keep = [&](int slot, Side side) {
+        region.clear(layer, {.color = {0, 0, 0, 0}});
+        region.clear(depth, {.depth = 1});
+        add_found(region, layer, slot);
+        region.keep_layer(layer, depth, side);
+    };
+    for (int slot = 0; slot < slots && !region.limit_reached(); ++slot) {
+        region.begin_iteration();
+        const Count found = count_slot(region, slot);
+        keep(slots - 1 - slot, Side::back);
+        keep(slot, Side::front);
+        if (!region.any(found, Idle::yes)) break;
+    }
+    region.clear(layer, {.color = {0, 0, 0, 0}});
+    region.clear(depth, {.depth = 1});
+    region.keep_no_layer(layer, depth);
+    region.publish(layer);
+}
+
+TEST_CASE("layers keep the end that they were taken from, whichever tile stops first") {
+    // Five, one and two slots in the first tile, in one between and in the last.
+    for (const std::size_t deepest : {std::size_t{1}, std::size_t{260}, std::size_t{511}}) {
+        TestFrame test{spots({{1, {0}}, {260, {0, 11}}, {511, {0, 1}}, {deepest, {0, 1, 2, 3, 4, 7}}}), "geforce8"};
+        test.frame.keep_layers = true;
+        const FrameResult literal = execute(test, keep_both_ends, Execution::literal);
+        // Slots 0 to 4 hold fragments and slot 5 none: six iterations of two layers, and one that shows nothing more.
+        REQUIRE(literal.layers.size() == 12);
+        for (std::size_t i = 0; i < 12; ++i) CHECK(literal.layers[i].side == (i % 2 == 0 ? Side::back : Side::front));
+        const FrameResult tiled = execute(test, keep_both_ends, Execution::replay);
+        REQUIRE(tiled.layers.size() == 12);
+        for (std::size_t i = 0; i < 12; ++i) {
+            INFO("layer " << i << ", deepest at pixel " << deepest);
+            CHECK(tiled.layers[i].side == literal.layers[i].side);
+            CHECK(tiled.layers[i].color == literal.layers[i].color);
+            CHECK(tiled.layers[i].depth == literal.layers[i].depth);
+        }
+    }
+}
+
 TEST_CASE("a body that changes finished pixels runs every tile to the frame's end") {
     const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0}}}), "geforce8"};  // most tiles are empty
     const FrameResult result = both(test, count_iterations);
@@ -198,13 +242,27 @@ TEST_CASE("a tile whose count is zero and later is not goes on with the frame") 
 TEST_CASE("a tile leaves each of several loops by itself, and counts what the frame's loops cost") {
     // Loop 1 finds slots 0 to 3 and not 4, loop 2 slots 6 and 7 and not 8; tile 3 has nothing, the others less than all.
     const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0, 6}}, {300, {6, 7}}, {301, {0, 1}}}), "geforce8"};
-    const FrameResult result = both(test, two_loops);
+    const FrameResult result = both(test, loops_from<0, 6>);
     CHECK(result.iterations == 5 + 3);
     CHECK(result.passes.geometry == 2 * (5 + 3));
     CHECK(result.answers == Answers{{}, {true, true, true, true, false}, {true, true, false}});
     CHECK(result.color.codes[4 * 5] == 4);
     CHECK(result.color.codes[4 * 20] == 2);
     CHECK(result.color.codes[4 * 300] == 2);
+}
+
+TEST_CASE("a limit cuts the third loop where the frame's passes end, whichever tile left the first two early") {
+    // Slots 0 to 2, 4 to 6 and 8 to 10 hold fragments, in tile 0 alone or in others: four iterations of two passes a loop.
+    const std::vector<Spot> all{
+        {1, {0, 1, 2, 4, 8, 9}}, {28, {0, 4, 5, 6}}, {260, {8}}, {511, {0, 1, 8, 9, 10}}, {300, {4}}};
+    std::set<int> iterations;
+    for (int limit = 1; limit <= 26; ++limit) {
+        TestFrame test{spots(all), "geforce8"};
+        test.frame.max_passes = limit;
+        INFO("at most " << limit << " passes");
+        iterations.insert(both(test, loops_from<0, 4, 8>).iterations);
+    }
+    CHECK(iterations.size() >= 10);
 }
 
 TEST_CASE("a ratio is of the frame's pixels, and stops tiles that would go on by their own count") {

@@ -119,6 +119,31 @@ TEST_CASE("depth and stencil of a d24s8 target are filled apart") {
     CHECK(storage.code(2, 0, 0) == 0x123456u);
 }
 
+TEST_CASE("the memory of an earlier target shows nothing of it, whatever is written first") {
+    constexpr std::size_t pixels = 20;
+    for (const Format format : all_formats)
+        for (const int first : {0, 1, 2, 3}) {  // nothing, one sample, all samples, a stencil
+            TargetStorage earlier{Format::rgba32f, 2, 2 * pixels};
+            earlier.fill({~0u, ~0u, ~0u, ~0u}, 3u);
+            TargetStorage target{format, 2, pixels, earlier.give_memory()};
+            const bool has_stencil = format == Format::d24s8;
+            if (first == 1) target.fill({1, 1, 1, 1}, 2u);
+            if (first == 2) target.fill({1, 1, 1, 1}, 3u);
+            if (first == 3 && has_stencil) target.fill_stencil(1, 2u);
+            std::size_t wrong = 0;
+            for (std::size_t p = 0; p < pixels; ++p)
+                for (const int sample : {0, 1}) {
+                    const bool is_filled = first == 2 || (first == 1 && sample == 1);
+                    for (int c = 0; c < std::max(1, info(format).channels); ++c)
+                        wrong += target.code(p, c, sample) == (is_filled ? 1u : 0u) ? 0 : 1;
+                    const std::uint32_t stencil = first == 3 && sample == 1 ? 1 : 0;
+                    wrong += has_stencil && target.stencil(sample)[p] != stencil ? 1 : 0;
+                }
+            INFO(info(format).name << ", first " << first);
+            CHECK(wrong == 0);
+        }
+}
+
 TEST_CASE("a new target is zero wherever nothing was cleared, and so is a copy of it") {
     constexpr std::size_t pixels = 20;
     const auto is_filled = [](const TargetStorage& target, int sample, std::uint32_t expected) {
