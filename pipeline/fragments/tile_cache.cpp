@@ -168,12 +168,12 @@ void TileCache::blend(std::size_t number, const CachedLanes& lanes) {
     target.blend(lanes, first, batch.count);
 }
 
+// Owners stay: of the next pass's targets nothing is held in their tiles, so that nothing is put back.
 void TileCache::close() {
     for (std::size_t number = 0; number < targets_.size(); ++number) {
         if (!targets_[number]) continue;
         targets_[number]->put_back();
         targets_[number].reset();
-        owner_[number].fill(nobody);
     }
 }
 
