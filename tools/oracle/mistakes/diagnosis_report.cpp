@@ -29,9 +29,8 @@ std::string first_line(const Diagnosis& d) {
             "none that is known: the picture is that of: {}; but no known machine that leaves it has these passes\n",
             sentence_of(best.mistakes));
     if (d.verdict == Verdict::none_of_mine && d.is_blank)
-        return "none of mine: the picture has one colour everywhere: nothing was drawn, or the picture was never "
-               "written, "
-               "and it does not show why\n";
+        return "none that is known: the picture has one colour everywhere: nothing was drawn, or the picture was never "
+               "written, and it does not show why\n";
     if (d.verdict == Verdict::none_of_mine)
         return fmt::format(
             "none that is known: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
