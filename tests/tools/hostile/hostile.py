@@ -10,7 +10,7 @@ writing. It has succeeded, and this exits with 1, if the program
   - wrote, changed or removed anything but the output that the command names, or left an output of a run that failed;
   - used a file outside of the folder (the attempt says so: such a file would do, and the run must fail), or asked the network;
   - ran a word of the file as a command;
-  - ended by a signal or with a status of the system's, took longer than 20 s or more than 600 MB;
+  - ended by a signal or with a status of the system's, took more than 20 s of a processor, or 600 MB, or was not done after 5 minutes;
   - put a control character, or a byte that is no UTF-8, on a stream, said more than 40 lines or 20,000 bytes of errors, or wrote
     JSON, XML or HTML in which a name of the file became a part of the document.
 """
@@ -32,7 +32,7 @@ import xml.etree.ElementTree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import attempts  # noqa: E402
 
-SECONDS, MEGABYTES = 20, 600
+PROCESSOR_SECONDS, SECONDS, MEGABYTES = 20, 300, 600  # other work of the machine takes no processor time
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
@@ -53,7 +53,10 @@ def tree(folder):
 def measured(words, place):
     """Status (negative: a signal), output, errors, megabytes; None for the status of a run that took too long."""
     environment = {**os.environ, "HOME": str(place / "outside"), "TMPDIR": str(place / "tmp"), "TERM": "xterm"}
-    limit = lambda: resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # noqa: E731
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_SECONDS, PROCESSOR_SECONDS + 5))
     with open(place / "out", "wb") as out, open(place / "err", "wb") as err, \
             subprocess.Popen(words, cwd=place / "here", stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=environment,
                              preexec_fn=limit) as child:
@@ -66,7 +69,8 @@ def measured(words, place):
     written = [(place / name).read_bytes() for name in ("out", "err")]
     for name in ("out", "err"):
         (place / name).unlink()
-    return None if late.is_set() else child.returncode, *written, used.ru_maxrss // 1024
+    is_late = late.is_set() or used.ru_utime + used.ru_stime >= PROCESSOR_SECONDS
+    return None if is_late else child.returncode, *written, used.ru_maxrss // 1024
 
 
 class Page(html.parser.HTMLParser):
@@ -135,7 +139,7 @@ def faults(program, attempt, root):
         shown = " ".join(w if len(w) < 60 else w[:57] + "..." for w in command)
         about = lambda sentence: f"strata {shown}: {sentence} ({said})"  # noqa: E731, B023
         if status is None:
-            yield about(f"not done after {SECONDS} s")
+            yield about(f"not done after {PROCESSOR_SECONDS} s of a processor, or {SECONDS} s")
             return
         if status not in (0, 1, 2):
             yield about(f"status {status}")
