@@ -305,7 +305,7 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     const SimdScope kernels{options.simd};
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
     rasterizer::DepthRequest depth;
-    depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+    depth.format = profile.depth_buffer(options.depth);
     depth.path = options.depth_path.value_or(profile.raster.depth_path);
     depth.reference = options.reference_path;
     View first = view;

@@ -84,7 +84,7 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     const Target result = region.make_color();
     region.call(result, "result");
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
-    SampleColumns columns{samples_of(region, captures), empty, region.profile().unorm_rounding};
+    SampleColumns columns{samples_of(region, captures), empty, region.profile().color_rounding()};
     const Texels background = region.storage(region.opaque_color()).texels(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
         shortcuts.store_pixel(result, pixel, columns.composite(pixel, background));

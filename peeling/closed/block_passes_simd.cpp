@@ -234,8 +234,11 @@ void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha me
 void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
                std::uint32_t* words) {
     using enum pipeline::UnormRounding;
-    if (rules.color.rounding.unorm == half_up) return last_quad_by<half_up>(front, back, meaning, words);
-    last_quad_by<product_even>(front, back, meaning, words);
+    switch (rules.color.rounding.unorm) {
+        case half_up: return last_quad_by<half_up>(front, back, meaning, words);
+        case product_even: return last_quad_by<product_even>(front, back, meaning, words);
+        case product_even_wide: return last_quad_by<product_even_wide>(front, back, meaning, words);
+    }
 }
 
 }  // namespace strata::peeling::HWY_NAMESPACE

@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/formats/half.h"
-#include "pipeline/formats/unorm8.h"
+#include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/stages/lane_words.h"
@@ -27,7 +26,7 @@ struct SamplePlanes {
 
 class SampleColumns {
   public:
-    SampleColumns(std::vector<SamplePlanes> samples, std::uint32_t empty, pipeline::UnormRounding rounding)
+    SampleColumns(std::vector<SamplePlanes> samples, std::uint32_t empty, pipeline::ColorRounding rounding)
         : samples_{std::move(samples)}, empty_{empty}, rounding_{rounding} {
         words_.reserve(samples_.size());
     }
@@ -43,24 +42,22 @@ class SampleColumns {
     std::vector<SamplePlanes> samples_;
     std::vector<std::uint64_t> words_;
     std::uint32_t empty_;
-    pipeline::UnormRounding rounding_;
+    pipeline::ColorRounding rounding_;
 };
 
 namespace sample_formats {
 
 // How a channel's code is read; `bits` is its width.
+template <pipeline::UnormRounding rounding>
 struct Bytes {
     static constexpr std::size_t bits = 8;
-    static float value(std::uint32_t code) noexcept { return pipeline::unorm8_value(code); }
+    static float value(std::uint32_t code) noexcept { return pipeline::code_value<rounding>(code); }
 };
-struct BytesByProduct {
-    static constexpr std::size_t bits = 8;
-    static float value(std::uint32_t code) noexcept { return pipeline::unorm8_product(code); }
-};
+template <pipeline::HalfRounding rounding>
 struct Halves {
     static constexpr std::size_t bits = 16;
     static float value(std::uint32_t code) noexcept {
-        return pipeline::half_to_float(static_cast<std::uint16_t>(code));
+        return pipeline::half_value<rounding>(static_cast<std::uint16_t>(code));
     }
 };
 struct Singles {
@@ -103,10 +100,18 @@ inline pipeline::Rgba SampleColumns::composite(std::uint32_t pixel, const pipeli
         if (const std::uint32_t code = samples_[s].codes[pixel]; code != empty_)
             words_.push_back(std::uint64_t{code} << 32 | s);
     std::ranges::sort(words_);
+    using enum pipeline::UnormRounding;
+    using enum pipeline::HalfRounding;
     if (background.bits_per_channel == 32) return composite_as<Singles>(pixel, background);
-    if (background.bits_per_channel == 16) return composite_as<Halves>(pixel, background);
-    if (rounding_ == pipeline::UnormRounding::product_even) return composite_as<BytesByProduct>(pixel, background);
-    return composite_as<Bytes>(pixel, background);
+    if (background.bits_per_channel == 16 && rounding_.half == no_infinity)
+        return composite_as<Halves<no_infinity>>(pixel, background);
+    if (background.bits_per_channel == 16) return composite_as<Halves<nearest_even>>(pixel, background);
+    switch (rounding_.unorm) {
+        case half_up: return composite_as<Bytes<half_up>>(pixel, background);
+        case product_even: return composite_as<Bytes<product_even>>(pixel, background);
+        case product_even_wide: return composite_as<Bytes<product_even_wide>>(pixel, background);
+    }
+    return {};  // unreachable: the enum is closed
 }
 
 }  // namespace strata::peeling

@@ -49,7 +49,7 @@ namespace {
 
 DepthRequest ChainScene::depth() const {
     DepthRequest request;
-    request.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+    request.format = profile.depth_buffer(options.depth);
     request.path = options.depth_path.value_or(profile.raster.depth_path);
     return request;
 }

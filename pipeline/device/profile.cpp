@@ -139,10 +139,42 @@ DeviceProfile softpipe() {
     return p;
 }
 
+// Chromium's WebGL without a GPU: what is set here is measured (swiftshader-rasterizer.md).
+DeviceProfile swiftshader() {
+    DeviceProfile p = geforce8_dx101();
+    p.name = "swiftshader";
+    p.description = "no device: SwiftShader as headless Chromium 156 runs WebGL 2 on it";
+    p.raster = {.subpixel_bits = 4,
+                .snap = Snap::nearest_even,
+                .guard_band_px = 524288,
+                .clip = ClipVolume::view_volume_depth_first,
+                .w_divide = WDivide::reciprocal,
+                .viewport = ViewportArithmetic::half_pixel_first,
+                .y_axis = YAxis::clip,
+                .area_sign = AreaSign::single,
+                .plane_rule = PlaneRule::greatest_w,
+                .plane_corners = PlaneCorners::given,
+                .perspective = PerspectiveDivide::reciprocal,
+                .depth_rounding = DepthRounding::product_even,
+                .depth_limits = DepthLimits::zero_to_one,
+                .offset_unit = OffsetUnit::differences};
+    p.blend_rounding = BlendRounding::unrounded_source;
+    p.half_rounding = HalfRounding::no_infinity;
+    p.unorm_rounding = UnormRounding::product_even_wide;
+    p.min_max_nan = MinMaxNan::destination;
+    p.depth24 = Depth24::binary32;
+    p.has_d16 = true;
+    p.has_unclamped_depth_clear = false;
+    p.max_texture_units = 32;
+    p.max_samples = 4;
+    return p;
+}
+
 // Column of ProfileField::source.
 int source_column(std::string_view name) {
     if (name == "geforce3") return 0;
     if (name == "geforce8" || name == "geforce8_dx101") return 1;
+    if (name == "swiftshader") return 4;
     return name == "ideal" ? 2 : 3;
 }
 
@@ -150,7 +182,7 @@ int source_column(std::string_view name) {
 
 const std::vector<DeviceProfile>& builtin_profiles() {
     static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(),     geforce8_dx101(), ideal(),
-                                                     llvmpipe(), llvmpipe_sse(), softpipe()};
+                                                     llvmpipe(), llvmpipe_sse(), softpipe(),       swiftshader()};
     return profiles;
 }
 

@@ -1,6 +1,7 @@
 // pipeline/device/profile.h - what an emulated device can do, and with which numbers. A value: compare it, print it, store it as JSON.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,15 +14,18 @@ namespace strata::pipeline {
 
 // The alpha test compares 8-bit codes always, or on 8-bit targets alone (fragment-stages.md 3).
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
-// How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself (fragment-stages.md 8.2).
-enum class BlendRounding : std::uint8_t { nearest, truncate, each_product };
+// How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself; or all in binary32, of a source
+// that is no code (fragment-stages.md 8.2).
+enum class BlendRounding : std::uint8_t { nearest, truncate, each_product, unrounded_source };
 // What a blend reads and leaves: the target's codes, or binary32 in a cache of tiles, rounded when a tile leaves it or the pass
 // ends (fragment-stages.md 9.5).
 enum class BlendStorage : std::uint8_t { target, cached_tiles };
-// The result of MIN and MAX of one NaN and one number (fragment-stages.md 9.3).
-enum class MinMaxNan : std::uint8_t { other_operand, propagate };
+// The result of MIN and MAX of one NaN and one number; destination: also of two equal ones (fragment-stages.md 9.3).
+enum class MinMaxNan : std::uint8_t { other_operand, propagate, destination };
 // Whether binary32 blending turns operands and results below 2^-126 into zeros (fragment-stages.md 9.1).
 enum class DenormalRule : std::uint8_t { flush, keep };
+// What depth buffers of 24 bits hold: codes of 24 bits, or the binary32 of a D32F buffer (depth.md 2.10).
+enum class Depth24 : std::uint8_t { codes, binary32 };
 // The result of a filtered lookup: a multiple of 1/255, or binary32 (texturing.md 3). Nearest lookups and pass-through
 // coordinates go by it, too (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single };
@@ -43,6 +47,7 @@ struct DeviceProfile {
     MinMaxNan min_max_nan = MinMaxNan::other_operand;
     DenormalRule denormals = DenormalRule::flush;
     TextureFilterPrecision texture_filter = TextureFilterPrecision::single;
+    Depth24 depth24 = Depth24::codes;
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;
@@ -85,12 +90,22 @@ struct DeviceProfile {
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
 
     [[nodiscard]] ColorRounding color_rounding() const noexcept { return {half_rounding, unorm_rounding}; }
-    // Whether 8-bit targets follow one of the rules that kernels beside the stages know: one rounding of the exact value.
+    // Whether targets follow one of the rules that kernels beside the stages know: 8-bit codes round the exact value once, and
+    // halves have an infinity.
     [[nodiscard]] bool rounds_codes_once() const noexcept {
-        return unorm_rounding == UnormRounding::half_up && blend_rounding != BlendRounding::each_product &&
+        return unorm_rounding == UnormRounding::half_up && half_rounding != HalfRounding::no_infinity &&
+               (blend_rounding == BlendRounding::nearest || blend_rounding == BlendRounding::truncate) &&
                blend_storage == BlendStorage::target;
     }
 
+    // The format in which a depth buffer of that format is kept.
+    [[nodiscard]] DepthFormat stored(DepthFormat f) const noexcept {
+        return f == DepthFormat::d24 && has_d24 && depth24 == Depth24::binary32 ? DepthFormat::d32f : f;
+    }
+    // The same of the format that was asked for, or of the best one.
+    [[nodiscard]] DepthFormat depth_buffer(std::optional<DepthFormat> asked) const noexcept {
+        return stored(asked.value_or(has_d32f ? DepthFormat::d32f : DepthFormat::d24));
+    }
     // Whether depth buffers of that format exist; d24s8 is a d24 with stencil beside it.
     [[nodiscard]] bool has_depth(DepthFormat f) const noexcept {
         switch (f) {
@@ -104,7 +119,7 @@ struct DeviceProfile {
     }
 };
 
-// geforce3, geforce8, geforce8_dx101, ideal, llvmpipe; in that order.
+// geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader; in that order.
 [[nodiscard]] const std::vector<DeviceProfile>& builtin_profiles();
 
 // Null if there is no such name.

@@ -8,7 +8,8 @@ namespace strata::pipeline {
 namespace {
 
 using Names = std::span<const std::string_view>;
-using Sources = std::array<std::string_view, 4>;
+// The last is that of swiftshader; left out, it is as that of geforce8_dx101.
+using Sources = std::array<std::string_view, 5>;
 using Profile = DeviceProfile;
 using Rules = rasterizer::RasterRules;
 using Hypothesis = rasterizer::DepthHypothesis;
@@ -41,6 +42,7 @@ constexpr ProfileField field_of(std::string_view key, FieldKind kind, const Sour
         at<member>(p) = static_cast<std::remove_reference_t<decltype(at<member>(p))>>(value);
     };
     field.source = source;
+    if (field.source.back().empty()) field.source.back() = "[A] as geforce8_dx101";
     return field;
 }
 
@@ -96,56 +98,78 @@ constexpr std::string_view drawn = "[M] tools/bench/README.md: Mesa 22.3 draws t
 constexpr std::string_view opengl = "[S] OpenGL 4.5, which Mesa 22.3 implements";
 constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
 constexpr std::string_view unweighted = "[A] of 8-bit colour weights, which this profile lacks";
+constexpr std::string_view webgl = "[M] Chromium 156 answers so in WebGL 2";
 constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
 // Sources: [S] a specification, [M] measured, [A] our assumption (devices.md); then the page and section of the book.
 constexpr std::array fields{
-    integer<&Rules::subpixel_bits>("raster.subpixel_bits", {4, 12, 4},
-                                   {"[M] coverage.md 1.2: hardware tests on NV2A; the minimum OpenGL allows",
-                                    "[S] coverage.md 1.2: D3D 11.3 3.4.1", ours, drawn}),
+    integer<&Rules::subpixel_bits>(
+        "raster.subpixel_bits", {4, 12, 4},
+        {"[M] coverage.md 1.2: hardware tests on NV2A; the minimum OpenGL allows",
+         "[S] coverage.md 1.2: D3D 11.3 3.4.1", ours, drawn, "[M] swiftshader-rasterizer.md 1.1: SUBPIXEL_BITS"}),
     choice<&Rules::snap>("raster.snap", {"[M] coverage.md 4.1: 0.5624 lands on 0.5",
-                                         "[A] coverage.md 4.1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
-    choice<&Rules::coverage>("raster.coverage", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
-                                                 "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
+                                         "[A] coverage.md 4.1: 0.6 ULP is allowed, the ideal is taken", ours, drawn,
+                                         "[M] swiftshader-rasterizer.md 1.1"}),
+    choice<&Rules::coverage>(
+        "raster.coverage", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
+                            "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn, "[M] swiftshader-rasterizer.md 1.3"}),
     choice<&Rules::tie_rule>("raster.tie_rule", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
-                                                 "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
+                                                 "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn,
+                                                 "[M] swiftshader-rasterizer.md 1.3: by the rows of y_axis"}),
     integer<&Rules::guard_band_px>(
         "raster.guard_band_px", {1, 524288},
         {"[M] chip-geometry.md 5.3: 513,000 pixels keep their place", "[S] coverage.md 1.3: D3D 11.3 15.6.1", ours,
-         "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
+         "[A] Mesa cuts at the viewport: compare scenes that lie inside it", "[A] none: it cuts at the view volume"}),
     choice<&Rules::clip>("raster.clip", {"[A] coverage.md 2.3: the guard band", "[S] coverage.md 1.3: D3D 11.3 15.6.1",
-                                         ours, "[M] mesa-rasterizers.md 1.2"}),
+                                         ours, "[M] mesa-rasterizers.md 1.2", "[M] swiftshader-rasterizer.md 1.2"}),
     choice<&Rules::z_clip>("raster.z_clip", {"[M] depth.md 5.2: fragments outside zmin..zmax are discarded",
-                                             "[S] depth.md 5.2: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
+                                             "[S] depth.md 5.2: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7",
+                                             "[M] swiftshader-rasterizer.md 1.2"}),
     choice<&Rules::w_clip>("raster.w_clip",
                            {"[A] coverage.md 2.1", "[S] coverage.md 2.1: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
     choice<&Rules::w_signs>("raster.w_signs", {"[M] chip-float-depth.md 8: 40 of 40 pictures",
                                                "[A] coverage.md 5.8: no such positions", ours, unmeasured}),
-    choice<&Rules::w_divide>("raster.w_divide", {"[S] coverage.md 3.2", "[A] coverage.md 3.2", ours, drawn}),
-    choice<&Rules::viewport>("raster.viewport", {"[A] coverage.md 3.3", "[A] coverage.md 3.3", ours,
-                                                 "[A] either: half of 1024 scales exactly"}),
-    choice<&Rules::plane_origin>("raster.plane_origin", {"[M] chip-geometry.md 2.2: 99.80 % of 65,536 pixels",
-                                                         "[S] depth.md 3.7: D3D 11.3 15.16.2", ours,
-                                                         "[M] Mesa 22.3: planes start at the float32 positions"}),
+    choice<&Rules::w_divide>("raster.w_divide", {"[S] coverage.md 3.2", "[A] coverage.md 3.2", ours, drawn,
+                                                 "[M] swiftshader-rasterizer.md 1.1"}),
+    choice<&Rules::viewport>("raster.viewport",
+                             {"[A] coverage.md 3.3", "[A] coverage.md 3.3", ours,
+                              "[A] either: half of 1024 scales exactly", "[M] swiftshader-rasterizer.md 1.1"}),
+    choice<&Rules::y_axis>("raster.y_axis",
+                           {"[A] coverage.md 3.7: no picture tells", "[A] coverage.md 3.7: no picture tells", ours,
+                            unmeasured, "[M] swiftshader-rasterizer.md 1.1"}),
+    choice<&Rules::area_sign>(
+        "raster.area_sign", {"[A] coverage.md 6.5: the exact area", "[S] coverage.md 6.2: D3D 11.3 15.11", ours, drawn,
+                             "[M] swiftshader-rasterizer.md 1.4"}),
+    choice<&Rules::plane_origin>(
+        "raster.plane_origin",
+        {"[M] chip-geometry.md 2.2: 99.80 % of 65,536 pixels", "[S] depth.md 3.7: D3D 11.3 15.16.2", ours,
+         "[M] Mesa 22.3: planes start at the float32 positions", "[M] swiftshader-rasterizer.md 2.2"}),
     choice<&Rules::plane_rule>(
-        "raster.plane_rule", {"[A] depth.md 3.1: the exact plane, rounded once",
-                              "[A] depth.md 3.1: the exact plane, rounded once", ours, "[M] mesa-rasterizers.md 2.4"}),
+        "raster.plane_rule",
+        {"[A] depth.md 3.1: the exact plane, rounded once", "[A] depth.md 3.1: the exact plane, rounded once", ours,
+         "[M] mesa-rasterizers.md 2.4", "[M] swiftshader-rasterizer.md 2.1"}),
+    choice<&Rules::plane_corners>("raster.plane_corners",
+                                  {"[A] depth.md 3.10: the pieces'", "[A] depth.md 3.10: the pieces'", ours,
+                                   "[M] mesa-rasterizers.md 1.2", "[M] swiftshader-rasterizer.md 2.2"}),
     choice<&Rules::perspective>(
-        "raster.perspective", {"[A] attributes.md 1.1: a quotient rounded once",
-                               "[A] attributes.md 1.1: a quotient rounded once", ours, "[M] mesa-rasterizers.md 2.5"}),
+        "raster.perspective",
+        {"[A] attributes.md 1.1: a quotient rounded once", "[A] attributes.md 1.1: a quotient rounded once", ours,
+         "[M] mesa-rasterizers.md 2.5", "[M] swiftshader-rasterizer.md 2.4"}),
     choice<&Rules::window_z>("raster.window_z", {"[M] chip-depth.md 1.4", "[A] coverage.md 3.4", ours, unmeasured}),
     choice<&Rules::depth_path>("raster.depth_path",
                                {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words",
                                 "[A] depth.md 4.1: D3D 11.3 16.3.1 fixes all but the last bit", ours,
                                 "[A] Mesa rounds each step of its plane; the exact plane is taken"}),
     choice<&Rules::depth_rounding>("raster.depth_rounding", {"[M] chip-depth.md 1.3: NV2A floors integer depth",
-                                                             "[S] depth.md 2.1: D3D 11.3 17.10", ours, unmeasured}),
+                                                             "[S] depth.md 2.1: D3D 11.3 17.10", ours, unmeasured,
+                                                             "[M] swiftshader-rasterizer.md 2.5"}),
     choice<&Rules::depth_limits>("raster.depth_limits",
                                  {"[S] depth.md 2.1: GL 2.1 2.11.1", "[S] depth.md 2.1: D3D 11.3 17.10", ours,
                                   "[M] depth.md 2.9: depths of a program, drawn and read"}),
     choice<&Rules::offset_unit>(
-        "raster.offset_unit", {"[M] chip-float-depth.md 2.1: 1 in every format", "[S] coverage.md 9.2: D3D 11.3 15.10",
-                               ours, "[M] mesa-rasterizers.md 1.3: 2 codes at 72 places"}),
+        "raster.offset_unit",
+        {"[M] chip-float-depth.md 2.1: 1 in every format", "[S] coverage.md 9.2: D3D 11.3 15.10", ours,
+         "[M] mesa-rasterizers.md 1.3: 2 codes at 72 places", "[M] swiftshader-rasterizer.md 2.6"}),
     choice<&Rules::offset_rule>("raster.offset_rule",
                                 {"[M] chip-float-depth.md 2.2: 89 of 98 pictures",
                                  "[A] coverage.md 9.1: before the plane is made", ours, unmeasured}),
@@ -156,30 +180,31 @@ constexpr std::array fields{
     choice<&Hypothesis::divide>("raster.divide",
                                 {"[A] depth.md 8.2: rounded once; chip-depth.md 6.3 knows no bit-exact rule",
                                  "[A] depth.md 8.2: rounded once", ours, unmeasured}),
-    choice<&Hypothesis::window_z>("raster.window_z_rule",
-                                  {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words", unused, unused, unused}),
-    choice<&Hypothesis::weights>("raster.weights",
-                                 {"[M] chip-float-depth.md 1.2: 4 of 1,083,110 words wrong", unused, unused, unused}),
+    choice<&Hypothesis::window_z>("raster.window_z_rule", {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words",
+                                                           unused, unused, unused, unused}),
+    choice<&Hypothesis::weights>(
+        "raster.weights", {"[M] chip-float-depth.md 1.2: 4 of 1,083,110 words wrong", unused, unused, unused, unused}),
     integer<&Hypothesis::reciprocal_bits>("raster.reciprocal_bits", {24, 30},
-                                          {"[M] chip-float-depth.md 1.2", unused, unused, unused}),
-    integer<&Hypothesis::reciprocal_deficit>("raster.reciprocal_deficit", {0, 8},
-                                             {"[M] chip-float-depth.md 1.1: 1.82 to 2.86", unused, unused, unused}),
+                                          {"[M] chip-float-depth.md 1.2", unused, unused, unused, unused}),
+    integer<&Hypothesis::reciprocal_deficit>(
+        "raster.reciprocal_deficit", {0, 8},
+        {"[M] chip-float-depth.md 1.1: 1.82 to 2.86", unused, unused, unused, unused}),
     integer<&Hypothesis::sum_bits>("raster.sum_bits", {24, 29},
-                                   {"[M] depth.md 8.3: a 29-bit aligned add", unused, unused, unused}),
+                                   {"[M] depth.md 8.3: a 29-bit aligned add", unused, unused, unused, unused}),
     boolean<&Hypothesis::quantize_reference>(
         "raster.quantize_reference",
         {"[M] chip-depth.md 7.2: R is cut like a depth write", "[S] depth.md 6.2: D3D 11.3 22.4.19", ours, unmeasured}),
     choice<&Hypothesis::w_slope>("raster.w_slope",
-                                 {"[A] chip-float-depth.md 4.5: either occurs", unused, unused, unused}),
+                                 {"[A] chip-float-depth.md 4.5: either occurs", unused, unused, unused, unused}),
     choice<&Hypothesis::plane_anchor>("raster.plane_anchor",
                                       {"[A] depth.md 4.7: either is in use", "[A] depth.md 4.7: either is in use", ours,
                                        "[A] depth.md 4.7: either is in use"}),
     integer<&Interpolation::vertex_color_bits>(
         "raster.vertex_color_bits", {9, 24},
-        {"[M] attributes.md 2.2: all of 3,944 greys", unweighted, unweighted, unweighted}),
+        {"[M] attributes.md 2.2: all of 3,944 greys", unweighted, unweighted, unweighted, unweighted}),
     choice<&Interpolation::perspective_color>(
         "raster.perspective_color",
-        {"[M] chip-float-depth.md 7: 5 of 800,480 pixels wrong", unweighted, unweighted, unweighted}),
+        {"[M] chip-float-depth.md 7: 5 of 800,480 pixels wrong", unweighted, unweighted, unweighted, unweighted}),
     choice<&Interpolation::texture_coordinates>("raster.texture_coordinates",
                                                 {"[M] attributes.md 3.2: 41,274 coordinates, for equal w",
                                                  "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
@@ -188,60 +213,68 @@ constexpr std::array fields{
         {"[A] attributes.md 3.3: captures cannot show it", "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
     choice<&Profile::alpha_test>("alpha_test", {"[M] chip-fragment.md 2: 16 of 16 pictures",
                                                 "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
-    choice<&Profile::blend_rounding>("blend_rounding",
-                                     {"[M] chip-fragment.md 1.2: 1,673 of 1,673",
-                                      "[A] fragment-stages.md 8.2: the contract that NV2A confirms", ours, unmeasured}),
-    choice<&Profile::blend_storage>("blend_storage", {"[M] chip-fragment.md 1.2: 1,673 of 1,673",
-                                                      "[A] fragment-stages.md 8.2: the contract that NV2A confirms",
-                                                      ours, "[M] mesa-rasterizers.md 3.5"}),
-    choice<&Profile::half_rounding>(
-        "half_rounding", {"[A] formats.md 3.2: no float targets",
-                          "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero", ours, unmeasured}),
+    choice<&Profile::blend_rounding>("blend_rounding", {"[M] chip-fragment.md 1.2: 1,673 of 1,673",
+                                                        "[A] fragment-stages.md 8.2: the contract that NV2A confirms",
+                                                        ours, unmeasured, "[M] swiftshader-rasterizer.md 3.2"}),
+    choice<&Profile::blend_storage>(
+        "blend_storage",
+        {"[M] chip-fragment.md 1.2: 1,673 of 1,673", "[A] fragment-stages.md 8.2: the contract that NV2A confirms",
+         ours, "[M] mesa-rasterizers.md 3.5", "[M] swiftshader-rasterizer.md 3.2"}),
+    choice<&Profile::half_rounding>("half_rounding", {"[A] formats.md 3.2: no float targets",
+                                                      "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero",
+                                                      ours, unmeasured, "[M] swiftshader-rasterizer.md 3.3"}),
     choice<&Profile::unorm_rounding>(
-        "unorm_rounding", {"[S] formats.md 2.1: D3D 11.3 3.2.3.6", "[S] formats.md 2.1: D3D 11.3 3.2.3.6", ours,
-                           "[M] mesa-rasterizers.md 2.6: 0 of 303,960 channels wrong"}),
+        "unorm_rounding",
+        {"[S] formats.md 2.1: D3D 11.3 3.2.3.6", "[S] formats.md 2.1: D3D 11.3 3.2.3.6", ours,
+         "[M] mesa-rasterizers.md 2.6: 0 of 303,960 channels wrong", "[M] swiftshader-rasterizer.md 3.1"}),
     choice<&Profile::min_max_nan>(
         "min_max_nan", {"[A] fragment-stages.md 9.3: no float targets",
-                        "[A] fragment-stages.md 9.3: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),
-    choice<&Profile::denormals>(
-        "denormals", {"[A] fragment-stages.md 9.1: no float targets",
-                      "[A] fragment-stages.md 9.1: flushed in and out, as the shader does", ours, unmeasured}),
+                        "[A] fragment-stages.md 9.3: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured,
+                        "[M] swiftshader-rasterizer.md 3.4"}),
+    choice<&Profile::denormals>("denormals", {"[A] fragment-stages.md 9.1: no float targets",
+                                              "[A] fragment-stages.md 9.1: flushed in and out, as the shader does",
+                                              ours, unmeasured, "[M] swiftshader-rasterizer.md 3.4"}),
     choice<&Profile::texture_filter>("texture_filter",
                                      {"[A] texturing.md 3.2: one rounding to 8 bits",
                                       "[A] texturing.md 3.1: binary32 in a fixed order", ours, unmeasured}),
-    boolean<&Profile::has_d16>("has_d16",
-                               {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours, opengl}),
-    boolean<&Profile::has_d24>("has_d24", {"[M] devices.md 5: Z24S8", "[M] devices.md 5: Z24S8", ours, opengl}),
+    choice<&Profile::depth24>("depth24", {"[M] chip-depth.md 1.3: codes", "[S] depth.md 2.1: D3D 11.3 17.10", ours,
+                                          unmeasured, "[M] swiftshader-rasterizer.md 2.5"}),
+    boolean<&Profile::has_d16>(
+        "has_d16", {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours, opengl, webgl}),
+    boolean<&Profile::has_d24>("has_d24", {"[M] devices.md 5: Z24S8", "[M] devices.md 5: Z24S8", ours, opengl, webgl}),
     boolean<&Profile::has_d32f>("has_d32f", {"[M] devices.md 5: no such format",
-                                             "[M] devices.md 5: Z32F among G80's depth formats", ours, opengl}),
+                                             "[M] devices.md 5: Z32F among G80's depth formats", ours, opengl, webgl}),
     boolean<&Profile::has_d16f>("has_d16f", {"[M] chip-float-depth.md 3.2: 98 pictures",
-                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl}),
+                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl, webgl}),
     boolean<&Profile::has_d24f>("has_d24f", {"[M] chip-float-depth.md 3.3: 98 pictures",
-                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl}),
+                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl, webgl}),
     boolean<&Profile::has_narrow_surfaces>(
-        "has_narrow_surfaces", {"[M] chip-fragment.md 5", "[A] devices.md 5: none is emulated", ours, opengl}),
-    boolean<&Profile::has_float_targets>("has_float_targets", {"[S] devices.md 5: NV30 had the first, without blending",
-                                                               "[S] devices.md 5: Bavoil and Myers", ours, opengl}),
+        "has_narrow_surfaces", {"[M] chip-fragment.md 5", "[A] devices.md 5: none is emulated", ours, opengl, webgl}),
+    boolean<&Profile::has_float_targets>("has_float_targets",
+                                         {"[S] devices.md 5: NV30 had the first, without blending",
+                                          "[S] devices.md 5: Bavoil and Myers", ours, opengl, webgl}),
     boolean<&Profile::has_unclamped_depth_clear>(
-        "has_unclamped_depth_clear", {"[S] formats.md 5.5: NV_depth_buffer_float",
-                                      "[S] formats.md 5.5: NV_depth_buffer_float", ours, "[A] as geforce8_dx101"}),
+        "has_unclamped_depth_clear",
+        {"[S] formats.md 5.5: NV_depth_buffer_float", "[S] formats.md 5.5: NV_depth_buffer_float", ours,
+         "[A] as geforce8_dx101", "[S] WebGL 1 6.7: clearDepth clamps"}),
     boolean<&Profile::has_fragment_programs>(
-        "has_fragment_programs", {"[S] devices.md 6: combiners and texture shaders", "[S] devices.md 6", ours, opengl}),
+        "has_fragment_programs",
+        {"[S] devices.md 6: combiners and texture shaders", "[S] devices.md 6", ours, opengl, webgl}),
     boolean<&Profile::has_separate_alpha_blend>(
         "has_separate_alpha_blend", {"[M] devices.md 6: one factor pair and one equation",
-                                     "[M] devices.md 6: register fields since NV30 and NV40", ours, opengl}),
+                                     "[M] devices.md 6: register fields since NV30 and NV40", ours, opengl, webgl}),
     boolean<&Profile::has_independent_blend>(
         "has_independent_blend",
         {"[M] devices.md 6", "[M] devices.md 6: a shared equation; per target from GT215 (DirectX 10.1) on", ours,
-         opengl}),
+         opengl, webgl}),
     boolean<&Profile::has_two_sided_stencil>("has_two_sided_stencil",
                                              {"[S] devices.md 6: EXT_stencil_two_side came with NV30",
-                                              "[S] devices.md 6: STENCIL_TWO_SIDE_ENABLE", ours, opengl}),
+                                              "[S] devices.md 6: STENCIL_TWO_SIDE_ENABLE", ours, opengl, webgl}),
     boolean<&Profile::has_depth_clamp>("has_depth_clamp", {"[M] chip-geometry.md 5.3: clamped when depth clamp is on",
-                                                           "[S] depth.md 5.3: NV_depth_clamp", ours, opengl}),
+                                                           "[S] depth.md 5.3: NV_depth_clamp", ours, opengl, webgl}),
     boolean<&Profile::has_depth_replace>(
-        "has_depth_replace",
-        {"[S] texture-shader.md 7: NV_texture_shader", "[S] devices.md 6: refused", ours, "[A] as geforce8_dx101"}),
+        "has_depth_replace", {"[S] texture-shader.md 7: NV_texture_shader", "[S] devices.md 6: refused", ours,
+                              "[A] as geforce8_dx101", webgl}),
     boolean<&Profile::has_sequential_depth_units>(
         "has_sequential_depth_units",
         {"[A] devices.md 6: an emulator extension", "[A] devices.md 6: an emulator extension", ours,
@@ -250,21 +283,22 @@ constexpr std::array fields{
                                        {"[A] devices.md 6", "[A] devices.md 6", ours, "[A] devices.md 6"}),
     boolean<&Profile::has_signed_blend>("has_signed_blend",
                                         {"[M] fragment-stages.md 8.3: 478 of 478 pictures",
-                                         "[S] fragment-stages.md 8.3: no such equation", ours, opengl}),
+                                         "[S] fragment-stages.md 8.3: no such equation", ours, opengl, webgl}),
     integer<&Profile::max_render_targets>("max_render_targets", {1, 8},
                                           {"[S] devices.md 7: one colour buffer", "[S] devices.md 7: D3D 11.3 17.14",
-                                           ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS"}),
+                                           ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS", webgl}),
     integer<&Profile::max_texture_units>(
         "max_texture_units", {1, 32},
         {"[S] devices.md 7: four texture shader stages", "[A] devices.md 7: sixteen samplers of Direct3D 10", ours,
-         "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS"}),
+         "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS", webgl}),
     integer<&Profile::max_viewport_px>(
         "max_viewport_px", {1, 16384},
         {"[A] coverage.md 1.3: never found documented", "[A] devices.md 7: the limit of Direct3D 10.0", ours,
-         "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS"}),
-    integer<&Profile::max_samples>("max_samples", {1, 8},
-                                   {"[A] devices.md 7: 4-sample multisampling",
-                                    "[A] devices.md 7: 8-sample multisampling", ours, "[M] Mesa 22.3: GL_MAX_SAMPLES"}),
+         "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS", webgl}),
+    integer<&Profile::max_samples>(
+        "max_samples", {1, 8},
+        {"[A] devices.md 7: 4-sample multisampling", "[A] devices.md 7: 8-sample multisampling", ours,
+         "[M] Mesa 22.3: GL_MAX_SAMPLES", webgl}),
 };
 
 }  // namespace
@@ -284,6 +318,8 @@ std::string text_of(const ProfileField& field, const DeviceProfile& profile) {
 std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {
     using rasterizer::DepthPath;
     const rasterizer::RasterRules& rules = profile.raster;
+    if (profile.blend_rounding == BlendRounding::unrounded_source && profile.has_signed_blend)
+        return FieldConflict{"blend_rounding", "another with has_signed_blend", "unrounded_source"};
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return std::nullopt;
     const auto beside = [](std::string_view other) {
         return FieldConflict{"raster.coverage", "snapped_edges with " + std::string{other}, "float_spans"};
@@ -291,6 +327,9 @@ std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {
     if (rules.color == rasterizer::ColorInterpolation::weights_8bit) return beside("raster.color weights_8bit");
     if (rules.depth_path == DepthPath::window_z) return beside("raster.depth_path window_z");
     if (rules.depth_path == DepthPath::w_buffer) return beside("raster.depth_path w_buffer");
+    if (rules.viewport == rasterizer::ViewportArithmetic::half_pixel_first)
+        return beside("raster.viewport half_pixel_first");
+    if (rules.y_axis == rasterizer::YAxis::clip) return beside("raster.y_axis clip");
     return std::nullopt;
 }
 

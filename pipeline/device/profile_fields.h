@@ -25,8 +25,8 @@ struct ProfileField {
     // Read and write the field as such a number; the caller of `set` has checked the range.
     int (*value)(const DeviceProfile&) = nullptr;
     void (*set)(DeviceProfile&, int) = nullptr;
-    // One each for geforce3, for geforce8 and geforce8_dx101, for ideal, for llvmpipe; devices.md has the marks.
-    std::array<std::string_view, 4> source;
+    // One each for geforce3, for geforce8 and geforce8_dx101, for ideal, for Mesa's and for swiftshader; devices.md has the marks.
+    std::array<std::string_view, 5> source;
 };
 
 [[nodiscard]] std::span<const ProfileField> profile_fields();

@@ -62,7 +62,9 @@ inline void encode(ChannelType type, ColorRounding rounding, const float* __rest
         case ChannelType::half:
             if (rounding.half == HalfRounding::nearest_even)
                 return encode_half<HalfRounding::nearest_even>(values, codes, count);
-            return encode_half<HalfRounding::toward_zero>(values, codes, count);
+            if (rounding.half == HalfRounding::toward_zero)
+                return encode_half<HalfRounding::toward_zero>(values, codes, count);
+            return encode_half<HalfRounding::no_infinity>(values, codes, count);
         case ChannelType::single:
             for (std::size_t i = 0; i < count; ++i) codes[i] = std::bit_cast<std::uint32_t>(values[i]);
             return;

@@ -3,7 +3,8 @@
 //
 // Rule     half_to_float and to_half<nearest_even> of half.h, to the bit; but a signalling NaN becomes quiet. `Words`
 //          is a tag of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that:
-//          values_of_halves and codes_of_halves go lane by lane on the others, rounded_to_half by integers.
+//          values_of_halves and codes_of_halves go lane by lane on the others, rounded_to_half by integers; without infinity all three
+//          go lane by lane.
 // Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/closed/block_passes_test.cpp; tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/half.h"
@@ -40,36 +41,41 @@ constexpr bool has_halves = false;
 #endif
 
 // The two for any set, where a few vectors are converted.
-template <class Words>
+template <HalfRounding rounding, class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> values_of_halves(Words d, hn::Vec<Words> codes) {
-    if constexpr (has_halves) {
+    if constexpr (has_halves && rounding != HalfRounding::no_infinity) {
         return half_values(d, codes);
     } else {
         alignas(64) std::uint32_t word[hn::MaxLanes(d)];
         alignas(64) float value[hn::MaxLanes(d)];
         hn::Store(codes, d, word);
-        for (std::size_t i = 0; i < hn::Lanes(d); ++i) value[i] = half_to_float(static_cast<std::uint16_t>(word[i]));
+        for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+            value[i] = half_value<rounding>(static_cast<std::uint16_t>(word[i]));
         return hn::Load(hn::RebindToFloat<Words>{}, value);
     }
 }
 
 // Of values that a half has.
-template <class Words>
+template <HalfRounding rounding, class Words>
 HWY_INLINE hn::Vec<Words> codes_of_halves(Words d, hn::Vec<hn::RebindToFloat<Words>> values) {
-    if constexpr (has_halves) {
+    constexpr bool is_special = rounding == HalfRounding::no_infinity;
+    if constexpr (has_halves && !is_special) {
         return half_codes(d, values);
     } else {
         alignas(64) std::uint32_t word[hn::MaxLanes(d)];
         alignas(64) float value[hn::MaxLanes(d)];
         hn::Store(values, hn::RebindToFloat<Words>{}, value);
-        for (std::size_t i = 0; i < hn::Lanes(d); ++i) word[i] = to_half<HalfRounding::nearest_even>(value[i]);
+        for (std::size_t i = 0; i < hn::Lanes(d); ++i)
+            word[i] = to_half < is_special ? rounding : HalfRounding::nearest_even > (value[i]);
         return hn::Load(d, word);
     }
 }
 
-// half_to_float of to_half: the value that a half keeps of each lane, by to_half's steps on binary32's own bits.
+// half_value of to_half: the value that a half keeps of each lane, by to_half's steps on binary32's own bits.
 template <HalfRounding rounding, class Words>
-HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> rounded_to_half(Words, hn::Vec<hn::RebindToFloat<Words>> values) {
+HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> rounded_to_half(Words words, hn::Vec<hn::RebindToFloat<Words>> values) {
+    if constexpr (rounding == HalfRounding::no_infinity)
+        return values_of_halves<rounding>(words, codes_of_halves<rounding>(words, values));
     const hn::RebindToSigned<Words> d;
     const hn::RebindToFloat<Words> floats;
     constexpr bool is_nearest = rounding == HalfRounding::nearest_even;

@@ -5,10 +5,13 @@
 //
 // Rule     to binary32: exact, a NaN keeps its sign and payload. From binary32: nearest even (65520 and above is
 //          infinity) or toward zero (finite values end at 65504); denormals are kept; a NaN keeps its sign and the
-//          upper ten payload bits and becomes quiet.
+//          upper ten payload bits and becomes quiet. no_infinity: e = 31 is an exponent like the others, 65536 to 131008; nearest
+//          even, what is larger or infinite becomes 131008 and a NaN -131008, the sign that x86 gives to one it makes: arithmetic
+//          defines none; below 2^-14 the significand is cut to 24 bits after the shift and then rounded.
 // Source   formats.md 3 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
 // Tests    tests/pipeline/formats/half_test.cpp: all 65,536 halves; all 2^32 floats under both roundings
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -18,11 +21,12 @@
 namespace strata::pipeline {
 inline namespace strict {
 
-// How binary32 becomes binary16 on a store: nearest overflows to infinity, toward zero to 65504.
-enum class HalfRounding : std::uint8_t { nearest_even, toward_zero };
+// How binary32 becomes binary16 on a store: nearest overflows to infinity, toward zero to 65504, and without infinity to 131008.
+enum class HalfRounding : std::uint8_t { nearest_even, toward_zero, no_infinity };
 
 namespace half_bits {
-inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bff, quiet_nan = 0x7e00;
+inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bff, quiet_nan = 0x7e00,
+                               largest_without_infinity = 0x7fff;
 }
 
 // No branch, no shift by a variable: the compiler turns a loop over it into vector instructions.
@@ -40,9 +44,35 @@ inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bf
     return std::bit_cast<float>(sign | result);
 }
 
+// A code's value under a rounding: without infinity exponent 31 is one more binade.
+template <HalfRounding rounding>
+[[nodiscard]] constexpr float half_value(std::uint16_t half) noexcept {
+    const std::uint32_t magnitude = half & half_bits::largest_without_infinity;
+    if (rounding != HalfRounding::no_infinity || magnitude < half_bits::infinity) return half_to_float(half);
+    return std::bit_cast<float>((std::uint32_t{half} & half_bits::sign) << 16 | ((magnitude << 13) + (112u << 23)));
+}
+[[nodiscard]] constexpr float half_value(std::uint16_t half, HalfRounding rounding) noexcept {
+    return rounding == HalfRounding::no_infinity ? half_value<HalfRounding::no_infinity>(half) : half_to_float(half);
+}
+
+// to_half<no_infinity>.
+[[nodiscard]] constexpr std::uint16_t to_half_without_infinity(float value) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7fffffffu, field = magnitude >> 23;
+    // The code with 13 bits more: those of a denormal have lost what the shift pushes out.
+    const std::uint32_t shift = std::min(113 - field, 31u);
+    const std::uint32_t denormal = field == 0 ? 0 : ((magnitude & 0x7fffffu) | 0x800000u) >> shift;
+    const std::uint32_t wide = field < 113 ? denormal : magnitude - (112u << 23);
+    const std::uint32_t code = (wide + 0xfffu + (wide >> 13 & 1u)) >> 13;
+    const bool is_beyond = magnitude >= std::bit_cast<std::uint32_t>(131040.0f), is_nan = magnitude > 0x7f800000u;
+    return static_cast<std::uint16_t>((is_nan ? half_bits::sign : bits >> 16 & half_bits::sign) |
+                                      (is_beyond ? half_bits::largest_without_infinity : code));
+}
+
 // Normal, denormal and overflowing results are all computed, and one is selected: no branch.
 template <HalfRounding rounding>
 [[nodiscard]] constexpr std::uint16_t to_half(float value) noexcept {
+    if constexpr (rounding == HalfRounding::no_infinity) return to_half_without_infinity(value);
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const std::uint32_t magnitude = bits & 0x7fffffffu;
     const std::uint32_t is_denormal = mask(magnitude < (113u << 23));  // below 2^-14
@@ -71,8 +101,13 @@ template <HalfRounding rounding>
 }
 
 [[nodiscard]] constexpr std::uint16_t to_half(float value, HalfRounding rounding) noexcept {
-    return rounding == HalfRounding::nearest_even ? to_half<HalfRounding::nearest_even>(value)
-                                                  : to_half<HalfRounding::toward_zero>(value);
+    using enum HalfRounding;
+    switch (rounding) {
+        case nearest_even: return to_half<nearest_even>(value);
+        case toward_zero: return to_half<toward_zero>(value);
+        case no_infinity: return to_half<no_infinity>(value);
+    }
+    return 0;  // unreachable: the enum is closed
 }
 
 }  // namespace strict

@@ -36,7 +36,7 @@ HWY_INLINE hn::Vec<Words> unorm8_codes(Words words, hn::Vec<hn::RebindToFloat<Wo
     // NaN is not above 0 and becomes 0, as -0 does.
     const auto positive = hn::IfThenElseZero(hn::Lt(hn::Zero(d), x), x);  // 0 for NaN
     const auto clamped = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 1.0f)), positive, hn::Set(d, 1.0f));
-    if constexpr (rounding == UnormRounding::product_even) {
+    if constexpr (rounding != UnormRounding::half_up) {
         const auto at_one = hn::Set(d, 0x1.8p23f);  // the unit in the last place of a sum with it is 1
         const auto code = hn::Sub(hn::Add(hn::Mul(clamped, hn::Set(d, 255.0f)), at_one), at_one);
         return hn::BitCast(words, hn::ConvertTo(hn::RebindToSigned<Words>{}, code));

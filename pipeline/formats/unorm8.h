@@ -1,7 +1,8 @@
 // pipeline/formats/unorm8.h - 8-bit normalised colour: the code k means k / 255.
 //
 // Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product; UnormRounding::product_even: 255 x
-//          rounded to binary32, and that to the nearest even code. From UNORM8: k / 255, rounded once.
+//          rounded to binary32, and that to the nearest even code; product_even_wide: the same. From UNORM8: k / 255, rounded
+//          once; by the other two as unorm8_product.h says.
 // Source   formats.md 2 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
 // Numbers  255 x has at most 32 significant bits: exact in binary64. Where adding 1/2 rounds, x is far from every
 //          half code.
@@ -18,8 +19,8 @@
 namespace strata::pipeline {
 inline namespace strict {
 
-// How a binary32 value becomes an 8-bit code.
-enum class UnormRounding : std::uint8_t { half_up, product_even };
+// How a binary32 value becomes an 8-bit code, and a code a value.
+enum class UnormRounding : std::uint8_t { half_up, product_even, product_even_wide };
 
 // x within [0,1]; 0 for NaN.
 [[nodiscard]] constexpr float unorm_clamped(float x) noexcept {

@@ -55,8 +55,8 @@ CachedTarget::CachedTarget(const CachedTiles& tiles, const DeviceProfile& profil
 }
 
 float CachedTarget::value_of(std::uint32_t code) const noexcept {
-    if (!clamps_) return half_to_float(static_cast<std::uint16_t>(code));
-    return profile_.unorm_rounding == UnormRounding::product_even ? unorm8_product(code) : unorm8_value(code);
+    if (!clamps_) return half_value(static_cast<std::uint16_t>(code), profile_.half_rounding);
+    return code_value(code, profile_.unorm_rounding);
 }
 
 // As bits of binary32: the values that the target's codes stand for, or those that are held.

@@ -210,13 +210,12 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = storage(target);
     const FormatInfo format = info(from.format());
-    const bool by_product = profile().unorm_rounding == UnormRounding::product_even;
     Rgba color{0, 0, 0, 1};
     for (int c = 0; c < format.channels; ++c) {
         const std::uint32_t code = from.code(pixel, c, sample);
         color[static_cast<std::size_t>(c)] =
-            format.type == ChannelType::unorm8 ? (by_product ? unorm8_product(code) : unorm8_value(code))
-            : format.type == ChannelType::half ? half_to_float(static_cast<std::uint16_t>(code))
+            format.type == ChannelType::unorm8 ? code_value(code, profile().unorm_rounding)
+            : format.type == ChannelType::half ? half_value(static_cast<std::uint16_t>(code), profile().half_rounding)
                                                : std::bit_cast<float>(code);
     }
     return color;

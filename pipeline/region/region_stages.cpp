@@ -172,14 +172,22 @@ void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBa
     const FormatInfo format = info(from.format());
     from.gather(batch.pixel, batch.count, 0, scratch_->codes);
     for (std::size_t c = 0; c < 4; ++c) {
-        if (c < static_cast<std::size_t>(format.channels) && format.type == ChannelType::unorm8 &&
-            profile().unorm_rounding == UnormRounding::product_even)
+        Lanes<float>& values = scratch_->loads.color_[read][c];
+        const auto each = [&](auto value) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-                scratch_->loads.color_[read][c][i] = unorm8_product(scratch_->codes[c][i]);
-        else if (c < static_cast<std::size_t>(format.channels))
-            decode(format.type, scratch_->codes[c], scratch_->loads.color_[read][c], batch.count);
+                values[i] = value(scratch_->codes[c][i]);
+        };
+        const UnormRounding unorm = profile().unorm_rounding;
+        const HalfRounding half = profile().half_rounding;
+        const bool is_there = c < static_cast<std::size_t>(format.channels);
+        if (is_there && format.type == ChannelType::unorm8 && unorm != UnormRounding::half_up)
+            each([&](std::uint32_t code) { return code_value(code, unorm); });
+        else if (is_there && format.type == ChannelType::half && half == HalfRounding::no_infinity)
+            each([&](std::uint32_t code) { return half_value(static_cast<std::uint16_t>(code), half); });
+        else if (is_there)
+            decode(format.type, scratch_->codes[c], values, batch.count);
         else
-            std::fill_n(scratch_->loads.color_[read][c].begin(), batch.count, c == 3 ? 1.0f : 0.0f);
+            std::fill_n(values.begin(), batch.count, c == 3 ? 1.0f : 0.0f);
     }
 }
 

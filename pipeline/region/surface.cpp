@@ -36,7 +36,7 @@ struct Surface::State {
         Frame frame;
         frame.profile = &profile;
         frame.transparent = &list;
-        frame.depth = {profile.raster.depth_path, layout.depth};
+        frame.depth = {profile.raster.depth_path, profile.stored(layout.depth)};
         frame.color_format = layout.color;
         return frame;
     }
@@ -72,7 +72,7 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     raster.range_culls_triangles = state.range_culls_triangles;
     raster.w_scale = 1.0f;
     raster.window_positions = true;
-    raster.depth_format = layout.depth;
+    raster.depth_format = profile.stored(layout.depth);
     soup.runs = {{.first_index = 0,
                   .index_count = static_cast<std::uint32_t>(soup.indices.size()),
                   .double_sided = state.cull == rasterizer::CullFace::none}};

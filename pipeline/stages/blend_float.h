@@ -4,7 +4,8 @@
 //          1 - x is one more rounding. Weight 0 or 1 is a multiplication like any other: NaN, infinity times 0 and
 //          signed zeros propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results
 //          below 2^-126 become zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the
-//          profile), two give 0x7fffffff; max(-0,+0) = +0, min = -0. SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
+//          profile), two give 0x7fffffff; max(-0,+0) = +0, min = -0; MinMaxNan::destination: d unless s is less, or greater.
+//          SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
 // Source   fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is our
 //          assumption.
 // Tests    tests/pipeline/stages/blend_float_test.cpp
@@ -44,6 +45,7 @@ template <BlendEquation equation, MinMaxNan rule>
 [[nodiscard]] constexpr float extreme(float a, float b) noexcept {
     const auto a_bits = std::bit_cast<std::uint32_t>(a), b_bits = std::bit_cast<std::uint32_t>(b);
     const std::uint32_t takes_a = mask(equation == BlendEquation::min ? a < b : a > b), are_equal = mask(a == b);
+    if (rule == MinMaxNan::destination) return canonical(std::bit_cast<float>(select(takes_a, a_bits, b_bits)));
     const std::uint32_t drops_b = rule == MinMaxNan::other_operand ? mask(is_nan_bits(b_bits)) : 0;
     std::uint32_t result = select(takes_a | drops_b, a_bits, b_bits);
     // Equal operands differ at most as zeros do, in the sign: MAX takes it if both have it, MIN if one has.

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "pipeline/formats/convert.h"
+#include "pipeline/formats/unorm8_product.h"
 #include "pipeline/stages/blend.h"
 #include "pipeline/stages/blend_float.h"
 #include "pipeline/stages/blend_kernels.h"
@@ -39,6 +40,14 @@ struct PlainHalves {
         encode_half<HalfRounding::nearest_even>(values, codes, count);
     }
 };
+
+// The values of stored halves: `Halves` knows those with an infinity alone.
+template <class Halves>
+void widen(HalfRounding rounding, const std::uint32_t* codes, float* values, std::size_t count) noexcept {
+    if (rounding != HalfRounding::no_infinity) return Halves::decode(codes, values, count);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = half_value<HalfRounding::no_infinity>(static_cast<std::uint16_t>(codes[i]));
+}
 
 // The rounding of a store: `Halves` knows the nearest even one alone.
 template <class Halves>
@@ -93,12 +102,32 @@ void blend_unorm8(const Job& job) noexcept {
     });
 }
 
+// BlendRounding::unrounded_source: values in binary32, one rounding an operation, and a code at the end. No operand is NaN or a
+// denormal that could reach a code.
+inline void blend_unrounded(const Job& job, UnormRounding to_code) noexcept {
+    alignas(64) ColorLanes s, d;
+    std::array<float, 4> constant{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        constant[c] = unorm_clamped(job.state.constant[c]);
+        if (job.writes(channel) || channel == 3) load(job.src[c], s[c], job.count, unorm_clamped);
+        if (channel < job.channels)
+            load(job.codes[c], d[c], job.count, [=](std::uint32_t code) { return code_value(code & 0xff, to_code); });
+    }
+    if (job.channels < 4) d[3].fill(1.0f);
+    using Arithmetic = FloatArithmetic<DenormalRule::keep, MinMaxNan::destination>;
+    blend_channels<Arithmetic>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
+        encode(ChannelType::unorm8, {HalfRounding::nearest_even, to_code}, out.data(), job.codes[c].data(), job.count);
+    });
+}
+
 template <UnormRounding to_code>
 void blend_unorm8(const Job& job, BlendRounding rounding) noexcept {
     switch (rounding) {
         case BlendRounding::nearest: return blend_unorm8<BlendRounding::nearest, to_code>(job);
         case BlendRounding::truncate: return blend_unorm8<BlendRounding::truncate, to_code>(job);
         case BlendRounding::each_product: return blend_unorm8<BlendRounding::each_product, to_code>(job);
+        case BlendRounding::unrounded_source: return blend_unrounded(job, to_code);
     }
 }
 
@@ -116,7 +145,7 @@ void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexce
         if (type == ChannelType::single) {
             load(job.codes[c], d[c], job.count, [&](std::uint32_t code) { return flush(std::bit_cast<float>(code)); });
         } else {
-            Halves::decode(job.codes[c].data(), d[c].data(), job.count);  // widened halves are never denormal
+            widen<Halves>(rounding, job.codes[c].data(), d[c].data(), job.count);  // never denormal
         }
     }
     if (job.channels < 4) d[3].fill(1.0f);
@@ -130,11 +159,14 @@ template <class Halves>
 void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
     using enum DenormalRule;
     using enum MinMaxNan;
-    const bool flushes = profile.denormals == flush, propagates = profile.min_max_nan == propagate;
-    if (flushes && !propagates) return blend_float<Halves, flush, other_operand>(job, type, profile.half_rounding);
-    if (flushes) return blend_float<Halves, flush, propagate>(job, type, profile.half_rounding);
-    if (!propagates) return blend_float<Halves, keep, other_operand>(job, type, profile.half_rounding);
-    return blend_float<Halves, keep, propagate>(job, type, profile.half_rounding);
+    const auto by = [&]<DenormalRule denormals>() {
+        switch (profile.min_max_nan) {
+            case other_operand: return blend_float<Halves, denormals, other_operand>(job, type, profile.half_rounding);
+            case propagate: return blend_float<Halves, denormals, propagate>(job, type, profile.half_rounding);
+            case destination: return blend_float<Halves, denormals, destination>(job, type, profile.half_rounding);
+        }
+    };
+    profile.denormals == flush ? by.template operator()<flush>() : by.template operator()<keep>();
 }
 
 // Blending off is a conversion and no arithmetic: nothing is flushed, and NaN keeps its sign (fragment-stages.md 9.2).
@@ -150,6 +182,8 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
         blend_float<Halves>(job, type, profile);
     } else if (profile.unorm_rounding == UnormRounding::half_up) {
         blend_unorm8<UnormRounding::half_up>(job, profile.blend_rounding);
+    } else if (profile.blend_rounding == BlendRounding::unrounded_source) {
+        blend_unrounded(job, profile.unorm_rounding);  // which reads codes, too
     } else {
         blend_unorm8<UnormRounding::product_even>(job, profile.blend_rounding);
     }

@@ -60,6 +60,8 @@ class StoredColors<Unorm8Rules<blend, to_code, storage>> {
     HWY_INLINE static WordVec codes(Held x) { return x; }
     HWY_INLINE static FloatVec value(Held x) {
         if constexpr (to_code == UnormRounding::half_up) return unorm8_values(Words{}, x);
+        if constexpr (to_code == UnormRounding::product_even_wide)
+            return hn::Mul(hn::Mul(number(x), hn::Set(Floats{}, 257.0f)), hn::Set(Floats{}, 1.0f / 65535.0f));
         return hn::Mul(number(x), hn::Set(Floats{}, 1.0f / 255.0f));
     }
     HWY_INLINE static Held stored(FloatVec x) { return unorm8_codes<to_code>(Words{}, x); }
@@ -81,7 +83,8 @@ class StoredColors<Unorm8Rules<blend, to_code, storage>> {
     }
 
   private:
-    static constexpr bool blends_values = storage == BlendStorage::cached_tiles;
+    static constexpr bool blends_values =
+        storage == BlendStorage::cached_tiles || blend == BlendRounding::unrounded_source;
 
     // Codes are at most 255: exact in binary32, and positive as signed words.
     HWY_INLINE static FloatVec number(Held x) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, x)); }
@@ -103,11 +106,11 @@ class StoredColors<FloatRules<type, half>> {
         : kept_of_small_{hn::Set(Words{}, rules.flushes ? 0x80000000u : ~0u)} {}
     HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 1.0f); }
     HWY_INLINE Held held(WordVec codes) const {
-        if constexpr (is_half) return values_of_halves(Words{}, codes);
+        if constexpr (is_half) return values_of_halves<half>(Words{}, codes);
         return flushed(hn::BitCast(Floats{}, codes));
     }
     HWY_INLINE static WordVec codes(Held x) {
-        if constexpr (is_half) return codes_of_halves(Words{}, x);
+        if constexpr (is_half) return codes_of_halves<half>(Words{}, x);
         return hn::BitCast(Words{}, x);
     }
     HWY_INLINE static FloatVec value(Held x) { return x; }

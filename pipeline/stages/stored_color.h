@@ -4,7 +4,8 @@
 // Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes
 //          operands, codes of 8 bits as whole numbers and floats without denormals, and rounds its sum once, or each
 //          product, as blend_unorm8.h and blend_float.h say. Of BlendStorage::cached_tiles there remains that codes of
-//          8 bits are blended as the values that they stand for, in binary32.
+//          8 bits are blended as the values that they stand for, in binary32; so they are by BlendRounding::unrounded_source, for a
+//          layer that was stored is a code.
 // Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
 // Tests    tests/peeling/closed/block_passes_test.cpp
 #pragma once
@@ -52,6 +53,7 @@ void with_blend(const ColorRules& rules, const Body& body) {
         case nearest: return body(Unorm8Rules<nearest, to_code>{});
         case truncate: return body(Unorm8Rules<truncate, to_code>{});
         case each_product: return body(Unorm8Rules<each_product, to_code>{});
+        case unrounded_source: return body(Unorm8Rules<unrounded_source, to_code>{});
     }
 }
 
@@ -63,18 +65,16 @@ void with_rules(const ColorRules& rules, const Body& body) {
     using enum UnormRounding;
     if (rules.type == single) return body(FloatRules<single, nearest_even>{});
     if (rules.type == half && rules.rounding.half == nearest_even) return body(FloatRules<half, nearest_even>{});
-    if (rules.type == half) return body(FloatRules<half, toward_zero>{});
-    if (rules.rounding.unorm == half_up) return with_blend<half_up>(rules, body);
-    with_blend<product_even>(rules, body);
+    if (rules.type == half && rules.rounding.half == toward_zero) return body(FloatRules<half, toward_zero>{});
+    if (rules.type == half) return body(FloatRules<half, no_infinity>{});
+    switch (rules.rounding.unorm) {
+        case half_up: return with_blend<half_up>(rules, body);
+        case product_even: return with_blend<product_even>(rules, body);
+        case product_even_wide: return with_blend<product_even_wide>(rules, body);
+    }
 }
 
 inline namespace strict {
-
-// The value of an 8-bit code, as programs read it.
-template <UnormRounding to_code>
-[[nodiscard]] constexpr float code_value(std::uint32_t code) noexcept {
-    return to_code == UnormRounding::half_up ? unorm8_value(code) : unorm8_product(code);
-}
 
 namespace scalar {
 
@@ -84,7 +84,8 @@ struct StoredColor;
 // Values of codes are multiples of about 2^-8: no product of them is a denormal.
 template <BlendRounding blend, UnormRounding to_code, BlendStorage storage>
 struct StoredColor<Unorm8Rules<blend, to_code, storage>> {
-    static constexpr bool blends_values = storage == BlendStorage::cached_tiles;
+    static constexpr bool blends_values =
+        storage == BlendStorage::cached_tiles || blend == BlendRounding::unrounded_source;
     static constexpr float one = blends_values ? 1.0f : 255.0f;
 
     explicit StoredColor(const ColorRules&) noexcept {}
@@ -114,7 +115,7 @@ struct StoredColor<FloatRules<type, half>> {
     explicit StoredColor(const ColorRules& rules) noexcept : flushes{rules.flushes} {}
     [[nodiscard]] static float value(std::uint32_t code) noexcept {
         if constexpr (type == ChannelType::single) return std::bit_cast<float>(code);
-        return half_to_float(static_cast<std::uint16_t>(code));
+        return half_value<half>(static_cast<std::uint16_t>(code));
     }
     [[nodiscard]] static std::uint32_t code(float x) noexcept {
         if constexpr (type == ChannelType::single) return std::bit_cast<std::uint32_t>(x);

@@ -16,7 +16,7 @@ namespace {
 // Whether the guard band holds the viewport, or there is none.
 [[nodiscard]] bool guard_holds(const Rect& viewport, const RasterRules& rules) noexcept {
     const int guard = guard_band(rules);
-    return rules.clip == ClipVolume::view_volume ||
+    return rules.clip != ClipVolume::guard_band ||
            (viewport.x0 >= -guard && viewport.y0 >= -guard && viewport.x1 <= guard && viewport.y1 <= guard);
 }
 
@@ -24,12 +24,16 @@ namespace {
 
 Clipper::Clipper(const RasterState& state, const RasterRules& rules)
     : symmetric_{state.clip_depth == ClipDepth::minus_one_to_one},
-      is_single_{rules.clip == ClipVolume::view_volume},
+      is_single_{rules.clip != ClipVolume::guard_band},
+      is_depth_first_{rules.clip == ClipVolume::view_volume_depth_first},
       holds_view_volume_{state.clip_plane_count == 0 && guard_holds(state.viewport, rules)} {
     if (state.window_positions) return;  // there is no clip space; set-up keeps positions within the guard band
     add({0, 0, 0, 1, -double{least_w}, Kind::w});
     const bool clips_z = !state.depth_clamp && rules.z_clip == ZClip::per_primitive;
-    if (is_single_) add_view_volume(clips_z);
+    if (is_depth_first_)
+        add_view_volume_depth_first(clips_z);
+    else if (is_single_)
+        add_view_volume(clips_z);
     if (!is_single_ && clips_z) add_near_and_far();
     if (!is_single_) add_guard_band(state, rules);
     assert(state.clip_plane_count <= static_cast<int>(state.clip_planes.size()) && "at most six user clip planes");
@@ -65,6 +69,14 @@ void Clipper::add_view_volume(bool clips_z) noexcept {
     add({0, -1, 0, 1, 0, Kind::other});
     add({0, 1, 0, 1, 0, Kind::other});
     if (clips_z) add_near_and_far();
+}
+
+void Clipper::add_view_volume_depth_first(bool clips_z) noexcept {
+    if (clips_z) add_near_and_far();
+    add({1, 0, 0, 1, 0, Kind::other});
+    add({-1, 0, 0, 1, 0, Kind::other});
+    add({0, -1, 0, 1, 0, Kind::other});
+    add({0, 1, 0, 1, 0, Kind::other});
 }
 
 // From the left in binary64, each step rounded (coverage.md 2.3): a vertex has one distance, whichever triangle asks.
@@ -133,14 +145,26 @@ std::size_t append(const ClipPolygon& from, std::size_t i, ClipPolygon& to) noex
     return from + product;
 }
 
-[[nodiscard]] ClipVertex step(const ClipVertex& from, const ClipVertex& other, float t) noexcept {
+// `value` of each number of two vertices.
+template <class Value>
+[[nodiscard]] ClipVertex each(const ClipVertex& first, const ClipVertex& second, const Value& value) noexcept {
     static_assert(sizeof(ClipVertex) == 14 * sizeof(float));
     using Floats = std::array<float, 14>;
-    auto values = std::bit_cast<Floats>(from);
-    const auto others = std::bit_cast<Floats>(other);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = step(values[i], others[i], t);
+    auto values = std::bit_cast<Floats>(first);
+    const auto others = std::bit_cast<Floats>(second);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(values[i], others[i]);
     return std::bit_cast<ClipVertex>(values);
 }
+
+// (d_out in - d_in out) times the reciprocal, each operation rounded to binary32.
+struct FromInside {
+    float d_in, d_out, reciprocal;
+
+    [[nodiscard]] float operator()(float in, float out) const noexcept {
+        const float inner = d_out * in, outer = d_in * out;
+        return (inner - outer) * reciprocal;
+    }
+};
 
 }  // namespace
 
@@ -172,7 +196,7 @@ void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygo
     to.extra_count = from.extra_count;
     const auto cross = [&](std::size_t start, std::size_t other, float t) {
         const std::size_t n = append(from, start, to);
-        to.corner[n] = step(from.corner[start], from.corner[other], t);
+        to.corner[n] = each(from.corner[start], from.corner[other], [t](float a, float b) { return step(a, b, t); });
         to.is_new[n] = true;
         for (std::size_t e = 0; e < from.extra_count; ++e)
             to.extra[n][e] = step(from.extra[start][e], from.extra[other][e], t);
@@ -192,13 +216,36 @@ void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygo
     }
 }
 
+// A corner on the plane makes a second one beside it on the way out, and none on the way in (coverage.md 2.8).
+void Clipper::cut_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
+    to.count = 0;
+    to.extra_count = from.extra_count;
+    const auto cross = [&](std::size_t in, float d_in, std::size_t out, float d_out) {
+        const std::size_t n = append(from, in, to);
+        const FromInside value{d_in, d_out, 1.0f / (d_out - d_in)};
+        to.corner[n] = each(from.corner[in], from.corner[out], value);
+        to.is_new[n] = true;
+        for (std::size_t e = 0; e < from.extra_count; ++e)
+            to.extra[n][e] = value(from.extra[in][e], from.extra[out][e]);
+    };
+    for (int i = 0; i < from.count; ++i) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
+        const float da = distance_single(plane, from.corner[a]), db = distance_single(plane, from.corner[b]);
+        if (da >= 0.0f) append(from, a, to);
+        if (da >= 0.0f && db < 0.0f) cross(a, da, b, db);
+        if (da < 0.0f && db > 0.0f) cross(b, db, a, da);
+    }
+}
+
 void Clipper::clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept {
     ClipPolygon other;
     // The view volume has no plane of w: inside its planes of x no w is negative.
     for (int i = is_single_ ? 1 : 0; i < count_; ++i) {
         if ((planes >> i & 1u) == 0) continue;
         const Plane& plane = plane_[static_cast<std::size_t>(i)];
-        if (is_single_)
+        if (is_depth_first_)
+            cut_depth_first(plane, polygon, other);
+        else if (is_single_)
             cut_single(plane, polygon, other);
         else
             cut(plane, polygon, other);

@@ -5,7 +5,8 @@
 //          I to its outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64,
 //          each component rounded once to binary32. So two triangles that share a side share its new corners to the
 //          bit, and equal values stay equal. ClipVolume::view_volume: the planes x = w, -x = w, y = w, -y = w, near, far
-//          and the user's in binary32; the new corner starts from the end that is nearer to the plane.
+//          and the user's in binary32; the new corner starts from the end that is nearer to the plane. view_volume_depth_first: near,
+//          far, -x = w, x = w, y = w, -y = w and the user's; corner = (dO I - dI O) (1 / (dO - dI)), each operation rounded.
 // Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The w bound is ours [A]: 1 / w and u / w stay
 //          finite. Tests    tests/rasterizer/set_up/clip_test.cpp
 #pragma once
@@ -67,14 +68,16 @@ class Clipper {
     void add_near_and_far() noexcept;
     void add_guard_band(const RasterState& state, const RasterRules& rules) noexcept;
     void add_view_volume(bool clips_z) noexcept;
+    void add_view_volume_depth_first(bool clips_z) noexcept;
     void add(const Plane& plane) noexcept { plane_[static_cast<std::size_t>(count_++)] = plane; }
     static void cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
-    // The same by ClipVolume::view_volume.
+    // The same by ClipVolume::view_volume, and by view_volume_depth_first.
     static void cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
+    static void cut_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
 
     std::array<Plane, max_clip_planes> plane_{};
     int count_ = 0;
-    bool symmetric_, is_single_, holds_view_volume_;
+    bool symmetric_, is_single_, is_depth_first_, holds_view_volume_;
 };
 
 }  // namespace strata::rasterizer

@@ -46,7 +46,9 @@ namespace {
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
-    if (geometry.state.depth_order == DepthOrder::greater) return std::numeric_limits<double>::infinity();
+    // Planes from one corner of the triangle that was given may err by more than the corners of a piece tell.
+    if (geometry.state.depth_order == DepthOrder::greater || geometry.rules.plane_rule == PlaneRule::greatest_w)
+        return std::numeric_limits<double>::infinity();
     const auto larger = [](double a, double b) {
         return a > b ? a : b;
     };  // without a branch, as std::max of a list is not

@@ -98,6 +98,7 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
     geometry.triangles.resize(end.triangle);
     geometry.all_triangles.resize(end.triangle);
     if (geometry.state.polygon_offset.enabled) geometry.offset_z.resize(end.triangle);
+    if (geometry.rules.plane_corners == PlaneCorners::given) geometry.given.resize(end.triangle);
     parallel_for(chunks.size(), threads, [&](std::size_t c) {
         const SetupChunk chunk = std::move(chunks[c]);
         const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -108,6 +109,7 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
         for (auto t = triangles; !chunk.vertices.empty() && t != triangles + std::ssize(chunk.triangles); ++t)
             for (std::uint32_t& v : t->vertex) v += v < given ? 0 : moved;
         if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, start[c].triangle));
+        if (!chunk.given.empty()) std::ranges::copy(chunk.given, at(geometry.given, start[c].triangle));
         std::ranges::copy(chunk.vertices, at(geometry.vertices, start[c].vertex));
         std::ranges::copy(chunk.corners, at(geometry.corners, start[c].vertex));
         std::ranges::copy(chunk.extras, at(geometry.extras.values, start[c].vertex * geometry.extras.stride));
@@ -139,9 +141,23 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
     return t;
 }
 
-Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads,
+namespace {
+
+// Ties as memory's rows have them.
+RasterRules in_memory_rows(RasterRules rules, const RasterState& state) {
+    using enum TieRule;
+    if (rules.y_axis == YAxis::memory || state.y_direction != YDirection::up) return rules;
+    constexpr std::array turned{bottom_left, top_left, bottom_right, top_right};
+    rules.tie_rule = turned[static_cast<std::size_t>(rules.tie_rule)];
+    return rules;
+}
+
+}  // namespace
+
+Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& given_rules, int threads,
                 const VertexSource& source) {
     const FloatEnvironment ours;
+    const RasterRules rules = in_memory_rows(given_rules, state);
     check(state);
     check(soup);
     const bool settles = state.window_positions && rules.w_signs == WSigns::by_corner;

@@ -108,12 +108,18 @@ struct Geometry {
     VertexExtras extras;                            // of the same vertices
     UninitializedVector<TriangleRecord> triangles;  // in submission order
     std::vector<std::array<double, 3>> offset_z;    // of every triangle; empty without polygon offset
+    // Of every triangle: the vertices of the one that was given, of which this may be a piece; empty but for PlaneCorners::given.
+    std::vector<std::array<std::uint32_t, 3>> given;
     SetupCounters counters;
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
     std::vector<std::uint32_t> bin_start;              // tiles_x * tiles_y + 1 offsets into bin_triangles
     UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
     UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
 
+    // The vertices that planes go through.
+    [[nodiscard]] const std::array<std::uint32_t, 3>& plane_vertices(std::size_t i) const noexcept {
+        return given.empty() ? triangles[i].vertex : given[i];
+    }
     // The triangles that may touch a tile, ascending; `tile` counts row by row.
     [[nodiscard]] std::span<const std::uint32_t> bin(std::size_t tile) const {
         return std::span{bin_triangles}.subspan(bin_start[tile], bin_start[tile + 1] - bin_start[tile]);

@@ -3,7 +3,8 @@
 // Rule     o = m * factor + r * units, m = max(|dz/dx|, |dz/dy|) per pixel of the snapped triangle; no slope term if
 //          factor is 0 (0 * infinity). r: one code of a fixed-point format (OffsetUnit::two_codes: two), or 2^(e - 23) with e
 //          the exponent of the largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units
-//          (OffsetUnit::buffer). The chip's
+//          (OffsetUnit::buffer). OffsetUnit::differences: for D16 1.01 / 65535, else 2^(e - 23) with e that of the largest of |z0|,
+//          |z1 - z0 + n| and |z2 - z0 + n|, n being where the depth range maps 0. The chip's
 //          own sum is offset_value.h. z and o are in vertex z units; |o| <= 2^64,
 //          further out nothing changes.
 // Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
@@ -31,6 +32,14 @@ inline namespace strict {
 // r of the rule, in vertex z units.
 [[nodiscard]] constexpr double offset_unit(const std::array<float, 3>& z, const RasterState& state,
                                            const RasterRules& rules) noexcept {
+    if (rules.offset_unit == OffsetUnit::differences && state.depth_format == DepthFormat::d16)
+        return double{1.01f / 65535.0f} * z_units(state, rules);
+    if (rules.offset_unit == OffsetUnit::differences) {
+        const auto units = static_cast<float>(z_units(state, rules));
+        const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
+        const float n = (symmetric ? (state.depth_near + state.depth_far) * 0.5f : state.depth_near) * units;
+        return float_offset_unit({z[0], (z[1] - z[0]) + n, (z[2] - z[0]) + n});
+    }
     if (rules.offset_unit == OffsetUnit::buffer) return z_units(state, rules) / buffer_units(state.depth_format);
     if (rules.offset_unit == OffsetUnit::float_exponent || state.depth_format == DepthFormat::d32f)
         return float_offset_unit(z);

@@ -68,7 +68,8 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       window_{state, rules},
       plain_rules_{window_.plain_rules(state.clip_depth)},
       set_up_plain_{clipper_.holds_view_volume() && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
-      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions ? nullptr
+      goes_one_by_one_{rules.area_sign == AreaSign::single || rules.plane_corners == PlaneCorners::given},
+      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions || goes_one_by_one_ ? nullptr
                               : rules.coverage == CoverageRule::snapped_edges ? rasterizer::set_up_plain_triangles()
                                                                               : rasterizer::set_up_plain_spans()},
       vertices_{vertices},
@@ -90,7 +91,7 @@ VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, Ver
     if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
         return marks_window;
     if (!extras_finite(extras, w.inverse_w)) return marks_window;
-    corner = {window_.snapped(w), {w.x, w.y}, w.z, w.inverse_w};
+    corner = {window_.snapped(w), window_.position(w), w.z, w.inverse_w};
     return (products_finite(v.front, w.inverse_w) ? 0u : marks_front) |
            (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
 }
@@ -144,8 +145,15 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
                                              SetupChunk& out) const {
     const auto& [a, b, c] = piece.corner;
     if ((piece.marks & marks_window) != 0) return Fate::non_finite;
-    const PieceShape shape = shape_of({a, b, c}, rules_, state_.viewport);
-    const bool front = is_front(shape.area_sign, triangle.run->mirrored);
+    PieceShape shape = shape_of({a, b, c}, rules_, state_.viewport);
+    bool front = is_front(shape.area_sign, triangle.run->mirrored);
+    if (rules_.area_sign == AreaSign::single && rules_.coverage == CoverageRule::snapped_edges &&
+        !state_.window_positions) {
+        // A piece of another turn than its triangle's has its left sides on the right: it covers nothing.
+        const int turn = single_turn(triangle);
+        front = turn == 0 ? !triangle.run->mirrored : is_front(turn, triangle.run->mirrored);
+        if ((turn > 0) != (shape.area_sign > 0) || turn == 0) shape.area_sign = 0;
+    }
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
     if (shape.area_sign == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
@@ -166,7 +174,25 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
         return Fate::uncovered;
     }
     if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner));
+    if (rules_.plane_corners == PlaneCorners::given) out.given.push_back(triangle.vertex);
     return Fate::kept;
+}
+
+// The sign of the area of the given corners, as binary32 finds it, in memory's rows; odd numbers of negative w turn it round.
+int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
+    std::array<float, 3> x{}, y{};
+    bool is_negative = window_.is_turned();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ClipVertex& v = vertices_[triangle.vertex[i]];
+        const SubpixelPoint p = window_.from_first_centre(v);
+        x[i] = static_cast<float>(p.x);
+        y[i] = static_cast<float>(p.y);
+        is_negative ^= v.w < 0.0f;
+    }
+    const float first = (y[0] - y[2]) * x[1], second = (y[2] - y[1]) * x[0], third = (y[1] - y[0]) * x[2];
+    const float area = (first + second) + third;
+    const int turn = area < 0.0f ? 1 : area > 0.0f ? -1 : 0;
+    return is_negative ? -turn : turn;
 }
 
 // Window z of the corners and polygon offset: an exact sum, or the roundings of planes that are stepped (coverage.md 9.4).
@@ -300,8 +326,8 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     small_kernels().set_up_boxes({state_.viewport, rules_.subpixel_bits, rules_.tie_rule}, group);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k].vertex;
-        const bool is_plain =
-            (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled && !state_.window_positions;
+        const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled &&
+                              !state_.window_positions && !goes_one_by_one_;
         if (is_plain && group.small[k] != 0 && rules_.coverage == CoverageRule::snapped_edges)
             count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
         else

@@ -47,6 +47,7 @@ struct SourceTriangle {
 struct SetupChunk {
     UninitializedVector<TriangleRecord> triangles;
     std::vector<std::array<double, 3>> offset_z;
+    std::vector<std::array<std::uint32_t, 3>> given;  // as Geometry's
     std::vector<ClipVertex> vertices;
     std::vector<WindowCorner> corners;
     std::vector<float> extras;
@@ -102,6 +103,7 @@ class TriangleSetup {
     static void count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept;
     [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;
     [[nodiscard]] bool is_culled(bool front) const noexcept;
+    [[nodiscard]] int single_turn(const SourceTriangle& triangle) const noexcept;
     [[nodiscard]] std::array<double, 3> with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept;
     [[nodiscard]] std::uint8_t negative_w(const std::array<const WindowCorner*, 3>& corner) const noexcept;
     [[nodiscard]] bool is_out_of_range(const std::array<const WindowCorner*, 3>& corner) const noexcept;
@@ -112,6 +114,7 @@ class TriangleSetup {
     WindowTransform window_;
     std::optional<PlainVertexRules> plain_rules_;
     SetUpPlain set_up_plain_;
+    bool goes_one_by_one_;  // rules that kernels of many triangles do not know
     SetUpPlainTriangles set_up_plain_triangles_;
     std::span<const ClipVertex> vertices_;
     const VertexExtras& extras_;

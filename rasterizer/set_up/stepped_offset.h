@@ -51,7 +51,7 @@ struct SteppedOffset {
 // Whether an enabled offset is added to the values of fragments and not to the corners.
 [[nodiscard]] constexpr bool offsets_planes(const RasterState& state, const RasterRules& rules) noexcept {
     return state.polygon_offset.enabled && rules.plane_rule != PlaneRule::exact &&
-           rules.plane_rule != PlaneRule::least_corner;
+           rules.plane_rule != PlaneRule::least_corner;  // of greatest_w too, whose own offset is ordered_planes.h's
 }
 
 // The offset of one set-up piece, by its corners in the window.

@@ -2,7 +2,8 @@
 //
 // Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
 //          once (rules.viewport, which may ask whether clipping made the vertex); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
-//          of the y scale. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
+//          of the y scale; YAxis::clip with y up: y is measured upwards from the viewport's lower side, and turned round when it is
+//          snapped. half_pixel_first: offsets are half a pixel less, which snapped positions have again. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
 //          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
 // Source   GL 2.1 2.11.1; coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
 // Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "rasterizer/base/fused.h"
@@ -62,7 +64,17 @@ class WindowTransform {
         const Rect& v = state.viewport;
         x_ = {0.5f * static_cast<float>(v.width()), static_cast<float>(v.x0) + 0.5f * static_cast<float>(v.width())};
         y_ = {0.5f * static_cast<float>(v.height()), static_cast<float>(v.y0) + 0.5f * static_cast<float>(v.height())};
-        if (state.y_direction == YDirection::up) y_.scale = -y_.scale;
+        rows_ = v.y1;
+        is_turned_ = !is_done_ && rules.y_axis == YAxis::clip && state.y_direction == YDirection::up;
+        if (is_turned_)
+            y_.offset = 0.5f * static_cast<float>(v.height());
+        else if (state.y_direction == YDirection::up)
+            y_.scale = -y_.scale;
+        if (!is_done_ && rules.viewport == ViewportArithmetic::half_pixel_first) {
+            half_ = 1 << (rules.subpixel_bits - 1);
+            x_.offset -= 0.5f;
+            y_.offset -= 0.5f;
+        }
         const double n = state.depth_near, f = state.depth_far, units = z_units(state, rules);
         const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
         z_ = {static_cast<float>((symmetric ? (f - n) * 0.5 : f - n) * units),
@@ -77,18 +89,45 @@ class WindowTransform {
         const float inverse_w = 1.0f / v.w;
         if (is_done_) return {within_guard(v.x), within_guard(v.y), v.z, inverse_w};
         const auto divided = [&](float c) { return rules_.w_divide == WDivide::quotient ? c / v.w : c * inverse_w; };
-        const bool fuses = origin == VertexOrigin::given ? rules_.viewport != ViewportArithmetic::separate
-                                                         : rules_.viewport == ViewportArithmetic::fused;
+        const bool fuses = rules_.viewport == ViewportArithmetic::fused ||
+                           (rules_.viewport == ViewportArithmetic::fused_given && origin == VertexOrigin::given);
         return {within_guard(map(x_, divided(v.x), fuses)), within_guard(map(y_, divided(v.y), fuses)),
                 map(z_, divided(v.z), fuses), inverse_w};
     }
     [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
-        return {snap(v.x, rules_.subpixel_bits, rules_.snap), snap(v.y, rules_.subpixel_bits, rules_.snap)};
+        const std::int32_t x = snap(v.x, rules_.subpixel_bits, rules_.snap) + half_;
+        const std::int32_t y = snap(v.y, rules_.subpixel_bits, rules_.snap) + half_;
+        return {x, is_turned_ ? (rows_ << rules_.subpixel_bits) - y : y};
     }
+    // The window position as memory has it, in pixels.
+    [[nodiscard]] constexpr std::array<float, 2> position(const WindowVertex& v) const noexcept {
+        if (half_ == 0 && !is_turned_) return {v.x, v.y};
+        const float less = half_ != 0 ? 0.5f : 0.0f, y = v.y + less;
+        return {v.x + less, is_turned_ ? static_cast<float>(rows_) - y : y};
+    }
+
+    // A vertex that may lie anywhere, snapped, in subpixels from the centre of the first pixel, rows counted as rules.y_axis says:
+    // what is too large for 32 bits becomes the least number, and a w of 0 counts as 1.
+    [[nodiscard]] constexpr SubpixelPoint from_first_centre(const ClipVertex& v) const noexcept {
+        const float inverse_w = v.w == 0.0f ? 1.0f : 1.0f / v.w;
+        const auto place = [&](const Axis& axis, float c) {
+            const float divided = rules_.w_divide == WDivide::quotient && v.w != 0.0f ? c / v.w : c * inverse_w;
+            const float at = is_done_ ? c : map(axis, divided, rules_.viewport == ViewportArithmetic::fused);
+            const double scaled = double{at} * (1 << rules_.subpixel_bits);
+            if (!(scaled < 0x1p31 && scaled >= -0x1p31)) return std::numeric_limits<std::int32_t>::min();
+            return wrapped(snap(static_cast<float>(scaled), 0, rules_.snap), half_ - (1 << (rules_.subpixel_bits - 1)));
+        };
+        return {place(x_, v.x), place(y_, v.y)};
+    }
+    // Pixel row `y` of memory, counted so.
+    [[nodiscard]] constexpr int counted_row(int y) const noexcept { return is_turned_ ? rows_ - 1 - y : y; }
+    [[nodiscard]] constexpr bool is_turned() const noexcept { return is_turned_; }
 
     // For sixteen at a time, where no more is done than these rules say.
     [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
-        if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate) return {};
+        if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate ||
+            is_turned_)
+            return {};
         const auto reach = [this](const Axis& axis) {
             const auto size = [](float v) { return v < 0.0f ? -v : v; };
             const float half = 0.5f * (guard_ - size(axis.offset)) / size(axis.scale);
@@ -121,6 +160,10 @@ class WindowTransform {
         };
         return {within_guard(mapped(x_, v.x)), within_guard(mapped(y_, v.y)), mapped(z_, v.z), inverse_w};
     }
+    // The sum modulo 2^32.
+    [[nodiscard]] static constexpr std::int32_t wrapped(std::int32_t a, std::int32_t b) noexcept {
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+    }
     // Clipping left the vertex inside the guard band but for rounding. NaN stays: set-up counts it.
     [[nodiscard]] constexpr float within_guard(float c) const noexcept {
         return c > guard_ ? guard_ : (c < -guard_ ? -guard_ : c);
@@ -128,7 +171,9 @@ class WindowTransform {
 
     RasterRules rules_;
     float guard_;
-    bool is_done_;
+    bool is_done_, is_turned_ = false;
+    int rows_ = 0;           // of the viewport's lower side
+    std::int32_t half_ = 0;  // subpixels that the offsets lack
     Axis x_{}, y_{}, z_{};
 };
 

@@ -4,12 +4,14 @@
 //          difference of positions is multiplied by 1 / area before the slopes are made of it; the value at pixel (i, j)
 //          is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in the order of
 //          their y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from there + dx,
-//          then + dy. Positions are those of rules.plane_origin.
+//          then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0) dy), made by
+//          ordered_planes.h.
 // Source   mesa-rasterizers.md 2.4 and 3.3.
 // Numbers  Pixels are below 2^16, so they are exact. An area that rounds to 0 leaves no finite slope: NaN and infinities.
 // Tests    tests/rasterizer/values/float_planes_test.cpp
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "rasterizer/base/fused.h"
@@ -19,12 +21,30 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
+// A binary32 whose operations read and leave zeros, of their sign, instead of numbers below 2^-126.
+struct Flushed {
+    float v = 0.0f;
+
+    constexpr Flushed() noexcept = default;
+    constexpr explicit Flushed(float x) noexcept
+        : v{std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) &
+                                 ((std::bit_cast<std::uint32_t>(x) & 0x7f800000u) == 0 ? 0x80000000u : ~0u))} {}
+    friend constexpr Flushed operator+(Flushed a, Flushed b) noexcept { return Flushed{a.v + b.v}; }
+    friend constexpr Flushed operator-(Flushed a, Flushed b) noexcept { return Flushed{a.v - b.v}; }
+    friend constexpr Flushed operator*(Flushed a, Flushed b) noexcept { return Flushed{a.v * b.v}; }
+    friend constexpr Flushed operator/(Flushed a, Flushed b) noexcept { return Flushed{a.v / b.v}; }
+    friend constexpr Flushed operator-(Flushed a) noexcept { return Flushed{-a.v}; }
+};
+
 // The value at the corner of pixel (0, 0) plus half a pixel, and its change to the next pixel right and down.
 struct FloatPlane {
     float origin = 0.0f, dx = 0.0f, dy = 0.0f;
+    // Of greatest_w: where the origin lies, and how row y of memory is counted: row_base + row_step y.
+    float x0 = 0.0f, y0 = 0.0f, row_base = 0.0f, row_step = 1.0f;
 
     [[nodiscard]] constexpr float at(PlaneRule rule, int x, int y) const noexcept {
         if (rule == PlaneRule::least_corner) return stepped(x, y);
+        if (rule == PlaneRule::greatest_w) return from_own_corner(x, y);
         const auto i = static_cast<float>(x), j = static_cast<float>(y);
         if (rule == PlaneRule::reciprocal_area_fused)
             return fused_multiply_add(dy, j, fused_multiply_add(dx, i, origin));
@@ -34,6 +54,12 @@ struct FloatPlane {
     }
 
   private:
+    [[nodiscard]] constexpr float from_own_corner(int x, int y) const noexcept {
+        const float row = row_base + row_step * static_cast<float>(y);
+        const Flushed down = Flushed{row - y0} * Flushed{dy},
+                      across = Flushed{static_cast<float>(x) - x0} * Flushed{dx};
+        return (across + (Flushed{origin} + down)).v;
+    }
     [[nodiscard]] constexpr float stepped(int x, int y) const noexcept {
         const float across = dx * static_cast<float>(x & ~1), down = dy * static_cast<float>(y & ~1);
         float value = origin + across;

@@ -3,26 +3,44 @@
 #include "rasterizer/set_up/stepped_offset.h"
 #include "rasterizer/values/float_planes.h"
 #include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/ordered_planes.h"
 
 namespace strata::rasterizer {
 
 // The general way drops fragments, so attributes come after it.
 int FragmentValues::fill_float_values(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       WeightLanes& weights) const {
-    const FloatPlanes planes = float_planes(triangle.geometry, triangle.record);
     int fallbacks = 0;
     if (is_float_plain_) {
-        if (needs_float_z_) fill_float_z(planes, triangle, first, batch);
+        if (needs_float_z_) fill_float_z(triangle, first, batch);
         if (needs_.code) fill_float_codes(first, batch);
     } else {
         fallbacks = fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
     }
-    if (needs_attributes_) fill_float_attributes(planes, triangle, first, batch);
+    if (needs_attributes_) fill_float_attributes(triangle, first, batch);
     return fallbacks;
 }
 
-void FragmentValues::fill_float_z(const FloatPlanes& planes, const DrawnTriangle& triangle, int first,
-                                  FragmentBatch& batch) const noexcept {
+// By PlaneRule::greatest_w, whose depths have no other units than the depth range.
+void FragmentValues::fill_ordered_z(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept {
+    const Geometry& geometry = triangle.geometry;
+    const OrderedPlanes planes = ordered_planes(geometry, triangle.index);
+    const FloatPlane plane = planes.depth();
+    const auto f = static_cast<std::size_t>(first);
+    const int count = batch.count - first;
+    float* const out = &batch.shader_z[f];
+    kernels_.float_plane(rules_.plane_rule, plane, &batch.x[f], &batch.y[f], count, out);
+    if (!geometry.state.polygon_offset.enabled) return;
+    const auto& [a, b, c] = triangle.record.vertex;
+    const std::array z{geometry.corners[a].z, geometry.corners[b].z, geometry.corners[c].z};
+    const float offset =
+        planes.offset(plane, geometry.state.polygon_offset, ordered_offset_unit(planes, z, geometry.state, rules_));
+    for (int i = 0; i < count; ++i) out[i] = (Flushed{out[i]} + Flushed{offset}).v;
+}
+
+void FragmentValues::fill_float_z(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept {
+    if (rules_.plane_rule == PlaneRule::greatest_w) return fill_ordered_z(triangle, first, batch);
+    const FloatPlanes planes = float_planes(triangle.geometry, triangle.record);
     const Geometry& geometry = triangle.geometry;
     const auto& [a, b, c] = triangle.record.vertex;
     const std::array corner{&geometry.corners[a], &geometry.corners[b], &geometry.corners[c]};
@@ -40,15 +58,26 @@ void FragmentValues::fill_float_z(const FloatPlanes& planes, const DrawnTriangle
     for (int i = 0; i < count; ++i) out[i] = out[i] + offset;
 }
 
-void FragmentValues::fill_float_attributes(const FloatPlanes& planes, const DrawnTriangle& triangle, int first,
+void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int first,
                                            FragmentBatch& batch) const noexcept {
-    const Geometry& geometry = triangle.geometry;
-    std::array<const ClipVertex*, 3> v;
-    std::array<float, 3> w;
-    for (std::size_t i = 0; i < 3; ++i) {
-        v[i] = &geometry.vertices[triangle.record.vertex[i]];
-        w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
+    if (rules_.plane_rule == PlaneRule::greatest_w) {
+        const OrderedPlanes planes = ordered_planes(triangle.geometry, triangle.index);
+        return fill_attribute_planes(planes, {1, 1, 1}, triangle.geometry.plane_vertices(triangle.index), triangle,
+                                     first, batch);
     }
+    std::array<float, 3> w;
+    for (std::size_t i = 0; i < 3; ++i) w[i] = triangle.geometry.corners[triangle.record.vertex[i]].inverse_w;
+    fill_attribute_planes(float_planes(triangle.geometry, triangle.record), w, triangle.record.vertex, triangle, first,
+                          batch);
+}
+
+// Values are multiplied by `w` first, and `w` has a plane of its own.
+template <class Planes>
+void FragmentValues::fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w,
+                                           const std::array<std::uint32_t, 3>& vertex, const DrawnTriangle& triangle,
+                                           int first, FragmentBatch& batch) const noexcept {
+    std::array<const ClipVertex*, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = &triangle.geometry.vertices[vertex[i]];
     FloatAttributeLanes attributes{rules_.plane_rule, rules_.perspective, planes.plane(w)};
     const std::size_t begin = needs_.color ? 0 : color_channels;
     const std::size_t end = needs_.texcoord ? attribute_count : color_channels;

@@ -85,6 +85,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     // Keys of reversed depth are those of the range (depth.md 2.9); the formats without a sign have no other codes.
     to_code_.wraps = rules_.depth_limits == DepthLimits::wrap && depth.path == DepthPath::float32 && !is_reversed_ &&
                      !geometry.state.depth_clamp && (to_code_.is_fixed() || is_float);
+    if (rules_.depth_limits == DepthLimits::zero_to_one && depth.path == DepthPath::float32 && !is_reversed_ &&
+        !geometry.state.depth_clamp && !clips_fragments_ && (to_code_.is_fixed() || is_float))
+        to_code_ = depth_conversion(depth.format, rules_.depth_rounding, 1.0f);
     assert((!is_reversed_ || is_float) && "reversed depth has keys for codes of D32F alone");
     is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
                 !needs.exact_code && !needs.reference && !rejects_ &&
@@ -308,7 +311,7 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     const bool clips = clips_fragments_ && may_leave_depth_range(t);
     int fallbacks = 0;
     if (rules_.plane_rule != PlaneRule::exact)
-        fill_float_z(float_planes(triangle.geometry, triangle.record), triangle, first, batch);
+        fill_float_z(triangle, first, batch);
     else if (needs_float_z_ || clips)
         fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
     if (clips) {

@@ -115,10 +115,13 @@ class FragmentValues {
     // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp): all that a pass asks for where is_float_plain_.
     [[nodiscard]] int fill_float_values(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                         WeightLanes& weights) const;
-    void fill_float_z(const FloatPlanes& planes, const DrawnTriangle& triangle, int first,
-                      FragmentBatch& batch) const noexcept;
+    void fill_float_z(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
+    void fill_ordered_z(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
     void fill_float_codes(int first, FragmentBatch& batch) const noexcept;
-    void fill_float_attributes(const FloatPlanes& planes, const DrawnTriangle& triangle, int first,
+    void fill_float_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
+    template <class Planes>
+    void fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w,
+                               const std::array<std::uint32_t, 3>& vertex, const DrawnTriangle& triangle, int first,
                                FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;

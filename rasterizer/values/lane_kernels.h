@@ -207,13 +207,14 @@ inline void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint
 
 inline void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, const std::uint16_t* y,
                              int count) noexcept {
-    const bool multiplies = a.perspective == PerspectiveDivide::reciprocal;
+    const bool multiplies = a.perspective == PerspectiveDivide::reciprocal, flushes = a.rule == PlaneRule::greatest_w;
+    const auto kept = [flushes](float v) { return flushes ? Flushed{v}.v : v; };
     for (int i = 0; i < count; ++i) {
         const float inverse_w = a.inverse_w.at(a.rule, x[i], y[i]);
-        const float by = multiplies ? 1.0f / inverse_w : inverse_w;
+        const float by = multiplies ? kept(1.0f / inverse_w) : inverse_w;
         for (std::size_t k = 0; k < a.count; ++k) {
             const float value = a.plane[k].at(a.rule, x[i], y[i]);
-            a.out[k][i] = multiplies ? value * by : value / by;
+            a.out[k][i] = kept(multiplies ? value * by : value / by);
         }
     }
 }

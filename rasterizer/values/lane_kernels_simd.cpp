@@ -148,10 +148,17 @@ bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t*
 using Wide = hn::CappedTag<float, 16>;
 using WideVec = hn::Vec<Wide>;
 
+// Zeros of their sign instead of numbers below 2^-126.
+HWY_INLINE WideVec flushed(WideVec v) {
+    const Wide d;
+    return hn::IfThenElse(hn::Lt(hn::Abs(v), hn::Set(d, 0x1p-126f)), hn::And(v, hn::SignBit(d)), v);
+}
+
 struct WidePlane {
     WideVec origin, dx, dy;
+    const FloatPlane& plane;
     HWY_INLINE explicit WidePlane(const FloatPlane& p)
-        : origin{hn::Set(Wide{}, p.origin)}, dx{hn::Set(Wide{}, p.dx)}, dy{hn::Set(Wide{}, p.dy)} {}
+        : origin{hn::Set(Wide{}, p.origin)}, dx{hn::Set(Wide{}, p.dx)}, dy{hn::Set(Wide{}, p.dy)}, plane{p} {}
 
     template <PlaneRule rule>
     HWY_INLINE WideVec at(hn::Vec<hn::RebindToSigned<Wide>> x, hn::Vec<hn::RebindToSigned<Wide>> y) const {
@@ -160,6 +167,13 @@ struct WidePlane {
         // The set has a fused multiply-add of its own: rounded once, as the twin's.
         if constexpr (rule == PlaneRule::reciprocal_area_fused)
             return hn::MulAdd(dy, hn::ConvertTo(d, y), hn::MulAdd(dx, hn::ConvertTo(d, x), origin));
+        if constexpr (rule == PlaneRule::greatest_w) {
+            const WideVec counted = hn::Mul(hn::Set(d, plane.row_step), hn::ConvertTo(d, y));  // exact
+            const WideVec row = hn::Sub(hn::Add(hn::Set(d, plane.row_base), counted), hn::Set(d, plane.y0));
+            const WideVec column = hn::Sub(hn::ConvertTo(d, x), hn::Set(d, plane.x0));
+            const WideVec down = flushed(hn::Add(origin, flushed(hn::Mul(row, dy))));
+            return flushed(hn::Add(flushed(hn::Mul(column, dx)), down));
+        }
         if constexpr (rule == PlaneRule::reciprocal_area)
             return hn::Add(hn::Add(hn::Mul(dx, hn::ConvertTo(d, x)), origin), hn::Mul(dy, hn::ConvertTo(d, y)));
         const auto one = hn::Set(di, 1), odd_x = hn::And(x, one), odd_y = hn::And(y, one);
@@ -188,6 +202,7 @@ void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x
     switch (rule) {
         case PlaneRule::reciprocal_area: return float_plane_of<PlaneRule::reciprocal_area>(plane, x, y, count, out);
         case PlaneRule::least_corner: return float_plane_of<PlaneRule::least_corner>(plane, x, y, count, out);
+        case PlaneRule::greatest_w: return float_plane_of<PlaneRule::greatest_w>(plane, x, y, count, out);
         case PlaneRule::reciprocal_area_fused:
         case PlaneRule::exact: break;
     }
@@ -204,10 +219,13 @@ HWY_INLINE void float_attributes_of(const FloatAttributeLanes& a, const std::uin
         const auto column = hn::PromoteTo(di, hn::LoadU(narrow, x + i)),
                    row = hn::PromoteTo(di, hn::LoadU(narrow, y + i));
         const WideVec inverse_w = WidePlane{a.inverse_w}.at<rule>(column, row);
-        const WideVec by = multiplies ? hn::Div(hn::Set(Wide{}, 1.0f), inverse_w) : inverse_w;
+        constexpr bool flushes = rule == PlaneRule::greatest_w;
+        const WideVec reciprocal = hn::Div(hn::Set(Wide{}, 1.0f), inverse_w);
+        const WideVec by = !multiplies ? inverse_w : flushes ? flushed(reciprocal) : reciprocal;
         for (std::size_t k = 0; k < a.count; ++k) {
             const WideVec value = WidePlane{a.plane[k]}.at<rule>(column, row);
-            hn::StoreU(multiplies ? hn::Mul(value, by) : hn::Div(value, by), Wide{}, a.out[k] + i);
+            const WideVec divided = multiplies ? hn::Mul(value, by) : hn::Div(value, by);
+            hn::StoreU(flushes ? flushed(divided) : divided, Wide{}, a.out[k] + i);
         }
     }
 }
@@ -217,6 +235,7 @@ void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, cons
     switch (a.rule) {
         case PlaneRule::reciprocal_area: return float_attributes_of<PlaneRule::reciprocal_area>(a, x, y, count);
         case PlaneRule::least_corner: return float_attributes_of<PlaneRule::least_corner>(a, x, y, count);
+        case PlaneRule::greatest_w: return float_attributes_of<PlaneRule::greatest_w>(a, x, y, count);
         case PlaneRule::reciprocal_area_fused:
         case PlaneRule::exact: break;
     }

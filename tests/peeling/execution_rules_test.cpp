@@ -136,7 +136,7 @@ TEST_CASE(
     Random random{81};
     const std::array<Way, 2> chosen{ways[7], ways[10]};
     using namespace strata::pipeline;
-    for (const char* base : {"llvmpipe", "llvmpipe_sse", "softpipe", "geforce8_dx101"})
+    for (const char* base : {"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader", "geforce8_dx101"})
         for (const auto format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
             for (const char* algorithm : {"front_to_back", "dual"})
                 for (int trial = 0; trial < 3; ++trial) {
@@ -144,11 +144,11 @@ TEST_CASE(
                     scene.list.instances.push_back(scene.list.instances[0]);  // every depth twice
                     DeviceProfile profile = *find_profile(base);
                     if (trial > 0) {
-                        profile.blend_rounding = static_cast<BlendRounding>(random_int(random, 0, 2));
-                        profile.unorm_rounding = static_cast<UnormRounding>(random_int(random, 0, 1));
-                        profile.half_rounding = static_cast<HalfRounding>(random_int(random, 0, 1));
+                        profile.blend_rounding = static_cast<BlendRounding>(random_int(random, 0, 3));
+                        profile.unorm_rounding = static_cast<UnormRounding>(random_int(random, 0, 2));
+                        profile.half_rounding = static_cast<HalfRounding>(random_int(random, 0, 2));
                         profile.denormals = static_cast<DenormalRule>(random_int(random, 0, 1));
-                        profile.min_max_nan = static_cast<MinMaxNan>(random_int(random, 0, 1));
+                        profile.min_max_nan = static_cast<MinMaxNan>(random_int(random, 0, 2));
                         profile.blend_storage = static_cast<BlendStorage>(random_int(random, 0, 1));
                     }
                     RenderOptions options = small_frame();

@@ -32,10 +32,10 @@ std::string sentence(const Machine& machine) { return sentence(machine, options_
 
 const std::string no_float =
     "profile geforce3 has no float render targets that blend (ARB_color_buffer_float); "
-    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse or softpipe";
+    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader";
 const std::string no_programs =
     "profile geforce3 has no fragment programs that discard after a compare (ARB_fragment_program); "
-    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse or softpipe";
+    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader";
 
 }  // namespace
 
@@ -54,9 +54,9 @@ TEST_CASE("the table of algorithms and profiles is that of devices.md 10") {
             const auto is_in = [&](const std::vector<std::string>& list) {
                 return std::ranges::find(list, algorithm.name) != list.end();
             };
-            const bool is_mesa =
-                profile.name == "llvmpipe" || profile.name == "llvmpipe_sse" || profile.name == "softpipe";
-            const bool lacks_samples = is_mesa && algorithm.name == "stencil_routed_k_buffer";
+            const bool is_software = profile.name == "llvmpipe" || profile.name == "llvmpipe_sse" ||
+                                     profile.name == "softpipe" || profile.name == "swiftshader";
+            const bool lacks_samples = is_software && algorithm.name == "stencil_routed_k_buffer";
             const bool everything = profile.name != "geforce3" && profile.name != "geforce8";
             const bool expected =
                 (is_in(runs) || (everything && (profile.name == "ideal" || !is_in(ideal_alone)))) && !lacks_samples;
@@ -74,7 +74,7 @@ TEST_CASE("a refused algorithm names the first feature that is missing, its exte
         CHECK(sentence({profile, "dual_independent"}) ==
               "profile " + profile +
                   " has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal, llvmpipe, "
-                  "llvmpipe_sse or softpipe");
+                  "llvmpipe_sse, softpipe or swiftshader");
     CHECK(sentence({"geforce3", "coherent_stencil"}) == no_programs);
     CHECK(sentence({"geforce8", "coherent_ideal"}) ==
           "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
@@ -95,7 +95,8 @@ TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
         options.depth = format;
         return sentence(machine, options);
     };
-    const std::string d16 = " has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse or softpipe";
+    const std::string d16 =
+        " has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader";
     for (const std::string profile : {"geforce8", "geforce8_dx101"})
         for (const char* algorithm : {"unsorted", "front_to_back", "dual", "a_buffer"}) {
             CHECK(with_depth({profile, algorithm}, DepthFormat::d16) == "profile " + profile + d16);
@@ -108,7 +109,7 @@ TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
     }
     CHECK(with_depth({"geforce3", "unsorted"}, DepthFormat::d32f) ==
           "profile geforce3 has no float depth buffers (ARB_depth_buffer_float); use geforce8, geforce8_dx101, ideal, "
-          "llvmpipe, llvmpipe_sse or softpipe");
+          "llvmpipe, llvmpipe_sse, softpipe or swiftshader");
 }
 
 TEST_CASE("float colour on geforce3 is refused") {
@@ -190,7 +191,7 @@ TEST_CASE("a viewport beyond the device's limit is refused before anything of it
     CHECK(with_size({"geforce3", "unsorted"}, 4096, 1).empty());
     CHECK(with_size({"geforce3", "unsorted"}, 4097, 1) ==
           "profile geforce3 has no viewport of 4097 x 1 pixels; use geforce8, geforce8_dx101, ideal, llvmpipe, "
-          "llvmpipe_sse or softpipe");
+          "llvmpipe_sse, softpipe or swiftshader");
     CHECK(with_size({"geforce8", "dual"}, 1, 8192).empty());
     CHECK(with_size({"geforce8", "dual"}, 3, 8193) ==
           "profile geforce8 has no viewport of 3 x 8193 pixels; use ideal, llvmpipe, llvmpipe_sse or softpipe");

@@ -71,6 +71,29 @@ struct Binary {
     return high < 0 || (high == 0 && is_even);
 }
 
+// `half` is x rounded as where exponent 31 is an exponent like the others: what is beyond 131040 or infinite is the largest
+// code, NaN the negative one; below 2^-14 digits of x below 2^-37 are dropped, then it is rounded to the nearest multiple of 2^-24, the even one at a midpoint.
+[[nodiscard]] inline bool is_half_without_infinity(std::uint32_t bits, std::uint32_t half) {
+    const std::uint32_t x_bits = bits & 0x7fffffff, h = half & 0x7fff;
+    if (x_bits > 0x7f800000) return half == 0xffff;
+    if (bits >> 31 != half >> 15) return false;
+    if (x_bits == 0x7f800000) return h == 0x7fff;
+    Binary x = magnitude(x_bits);
+    if (order(x, 131040, 0) >= 0) return h == 0x7fff;
+    if (order(x, 1, -14) < 0) {
+        while (x.exponent < -37) x = {x.mantissa / 2, x.exponent + 1};
+    }
+    const bool is_even = (h & 1) == 0;
+    const std::int64_t here = half_units(h);
+    if (h > 0) {
+        const int low = order(x, half_units(h - 1) + here, -25);
+        if (low < 0 || (low == 0 && !is_even)) return false;
+    }
+    if (h == 0x7fff) return true;
+    const int high = order(x, here + half_units(h + 1), -25);
+    return high < 0 || (high == 0 && is_even);
+}
+
 // `half` is the largest half whose magnitude is not above that of x.
 [[nodiscard]] inline bool is_half_toward_zero(std::uint32_t bits, std::uint32_t half) {
     if (bits >> 31 != half >> 15) return false;

@@ -58,6 +58,15 @@ using Rational = boost::multiprecision::cpp_rational;
     return static_cast<float>(v < 0 ? -result : result);
 }
 
+// A binary32 whose operations are those of the rationals, rounded once.
+struct Rounded {
+    float v = 0;
+    friend Rounded operator+(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} + Rational{b.v})}; }
+    friend Rounded operator-(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} - Rational{b.v})}; }
+    friend Rounded operator*(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} * Rational{b.v})}; }
+    friend Rounded operator/(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} / Rational{b.v})}; }
+};
+
 // Twice the signed area of (a, b, c) in square subpixels.
 [[nodiscard]] inline Integer doubled_area(SubpixelPoint a, SubpixelPoint b, SubpixelPoint c) {
     const Integer abx = Integer{b.x} - a.x, aby = Integer{b.y} - a.y, acx = Integer{c.x} - a.x,

@@ -22,10 +22,11 @@ using pipeline::UnormRounding;
 // Every rule that a colour is stored and blended by.
 inline std::vector<pipeline::ColorRules> all_color_rules() {
     std::vector<pipeline::ColorRules> rules;
-    for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product})
-        for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
+    for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product,
+                          BlendRounding::unrounded_source})
+        for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even, UnormRounding::product_even_wide})
             rules.push_back({ChannelType::unorm8, {HalfRounding::nearest_even, unorm}, by, true});
-    for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
+    for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even, UnormRounding::product_even_wide})
         rules.push_back({ChannelType::unorm8,
                          {HalfRounding::nearest_even, unorm},
                          BlendRounding::nearest,
@@ -33,7 +34,7 @@ inline std::vector<pipeline::ColorRules> all_color_rules() {
                          BlendStorage::cached_tiles});
     for (const bool flushes : {false, true}) {
         rules.push_back({ChannelType::single, HalfRounding::nearest_even, BlendRounding::nearest, flushes});
-        for (const auto half : {HalfRounding::nearest_even, HalfRounding::toward_zero})
+        for (const auto half : {HalfRounding::nearest_even, HalfRounding::toward_zero, HalfRounding::no_infinity})
             rules.push_back({ChannelType::half, half, BlendRounding::nearest, flushes});
     }
     return rules;
@@ -45,12 +46,16 @@ inline float sum(float a, float b) { return rounded(double{a} + b); }
 
 // The half nearest to x, or the next one toward zero: units of 2^(exponent - 10), of 2^-24 for small ones.
 inline float model_half(float x, HalfRounding rounding) {
+    const bool has_infinity = rounding != HalfRounding::no_infinity;
+    if (!has_infinity && !(std::fabs(x) < 131040)) return std::isnan(x) ? -131008.0f : std::copysign(131008.0f, x);
     if (!std::isfinite(x) || x == 0) return x;
     const int unit = std::max(std::ilogb(x), -14) - 10;
-    const double units = std::ldexp(double{x}, -unit);
-    const double whole = rounding == HalfRounding::nearest_even ? std::nearbyint(units) : std::trunc(units);
+    double units = std::ldexp(double{x}, -unit);
+    if (!has_infinity)
+        units = std::ldexp(std::trunc(std::ldexp(units, 13)), -13);  // 24 bits from the first digit of a normal one
+    const double whole = rounding == HalfRounding::toward_zero ? std::trunc(units) : std::nearbyint(units);
     const double half = std::copysign(std::ldexp(whole, unit), x);
-    if (std::fabs(half) < 65536) return rounded(half);
+    if (std::fabs(half) < 65536 || !has_infinity) return rounded(half);
     return std::copysign(rounding == HalfRounding::nearest_even ? std::numeric_limits<float>::infinity() : 65504.0f, x);
 }
 
@@ -60,19 +65,32 @@ struct ColorMachine {
 
     [[nodiscard]] bool is_unorm8() const { return rules.type == ChannelType::unorm8; }
     // Codes are blended as numbers, and not as the values that they stand for.
-    [[nodiscard]] bool blends_codes() const { return is_unorm8() && rules.storage == BlendStorage::target; }
+    [[nodiscard]] bool blends_codes() const {
+        return is_unorm8() && rules.storage == BlendStorage::target && rules.blend != BlendRounding::unrounded_source;
+    }
     [[nodiscard]] float flushed(float x) const {
         return rules.flushes && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x;
     }
     [[nodiscard]] float read(std::uint32_t code) const {
         if (rules.type == ChannelType::single) return std::bit_cast<float>(code);
+        const bool is_beyond = rules.rounding.half == HalfRounding::no_infinity && (code & 0x7c00) == 0x7c00;
+        if (rules.type == ChannelType::half && is_beyond)
+            return ((code & 0x8000) != 0 ? -64.0f : 64.0f) * static_cast<float>(1024 + (code & 0x3ff));
         if (rules.type == ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
         if (rules.rounding.unorm == UnormRounding::half_up) return rounded(code / 255.0);
+        if (rules.rounding.unorm == UnormRounding::product_even_wide)
+            return product(static_cast<float>(257 * code), rounded(1.0 / 65535.0));
         return product(static_cast<float>(code), rounded(1.0 / 255.0));
     }
     [[nodiscard]] std::uint32_t write(float x) const {
         if (rules.type == ChannelType::single) return std::bit_cast<std::uint32_t>(x);
-        if (rules.type == ChannelType::half && std::isnan(x)) return pipeline::to_half<HalfRounding::nearest_even>(x);
+        const bool has_infinity = rules.rounding.half != HalfRounding::no_infinity;
+        if (rules.type == ChannelType::half && std::isnan(x) && has_infinity)
+            return pipeline::to_half<HalfRounding::nearest_even>(x);
+        if (const float half = model_half(x, rules.rounding.half);
+            rules.type == ChannelType::half && !(std::fabs(half) < 65536) && !has_infinity)
+            return (std::signbit(half) ? 0xfc00u : 0x7c00u) + static_cast<std::uint32_t>(std::fabs(half) / 64.0f) -
+                   1024u;
         if (rules.type == ChannelType::half)
             return pipeline::to_half<HalfRounding::toward_zero>(model_half(x, rules.rounding.half));  // a half already
         const float clamped = std::isnan(x) ? 0.0f : std::clamp(x, 0.0f, 1.0f);

@@ -39,7 +39,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "you mean 'dual'?)"},
         {{"render", "teapot", "--profile", "geforce4"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-         "softpipe, or a JSON file, found "
+         "softpipe, swiftshader, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
          "strata: teapt: scene: expected a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of "
@@ -155,7 +155,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"invariance", "teapot", "-o", ""}, "strata: -o needs a folder"},
         {{"profiles", "ideel"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-         "softpipe, or a JSON file, found "
+         "softpipe, swiftshader, or a JSON file, found "
          "'ideel' "
          "(did you mean 'ideal'?)"},
     }));

@@ -171,8 +171,8 @@ TEST_CASE("a list prints one JSON document with --json") {
 }
 
 TEST_CASE("the JSON that strata profiles prints is a profile that --profile takes, with the same bits") {
-    const auto name =
-        GENERATE(as<std::string>{}, "geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe", "softpipe");
+    const auto name = GENERATE(as<std::string>{}, "geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
+                               "softpipe", "swiftshader");
     const Folder folder;
     CHECK(shell(folder, "strata profiles --json " + name + " > own.json").status == 0);
     const std::vector<std::string> words{"render",   "volume-beam:slices=4", "--size", "24x16", "--algorithm", "all",

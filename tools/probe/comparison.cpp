@@ -54,6 +54,17 @@ bool is_covered(const Answer& answer, std::size_t pixel) {
     return std::any_of(first, first + channels, [](std::uint32_t code) { return code != 0; });
 }
 
+// Depths that are kept as binary32, where what was read back may be codes as well.
+std::optional<Image> as_read(std::optional<Image> drawn, const std::optional<Image>& answer) {
+    if (!drawn || drawn->format == answer->format || drawn->format != pipeline::Format::d32f) return drawn;
+    const pipeline::DepthFormat format = pipeline::depth_format(answer->format);
+    Image codes{answer->format, drawn->width, drawn->height};
+    for (std::size_t i = 0; i < codes.codes.size(); ++i)
+        codes.codes[i] = rasterizer::to_depth_code(std::bit_cast<float>(drawn->codes[i]), format,
+                                                   rasterizer::DepthRounding::nearest);
+    return codes;
+}
+
 std::size_t place_count(const Answer& answer) {
     const auto area = [](const Image& image) {
         return image.codes.size() / static_cast<std::size_t>(image.channels());
@@ -115,7 +126,9 @@ std::vector<std::size_t> Comparison::items_of(const std::vector<std::string_view
 }
 
 Reply Comparison::drawn(const DeviceProfile& profile, std::size_t number) const {
-    return draw_item(profile, *items_[number].item, y_);
+    Reply reply = draw_item(profile, *items_[number].item, y_);
+    if (reply.answer) reply.answer->depth = as_read(std::move(reply.answer->depth), items_[number].answer->depth);
+    return reply;
 }
 
 std::vector<bool> Comparison::equal(const Reply& drawn, std::size_t number) const {

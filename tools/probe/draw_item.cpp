@@ -16,9 +16,11 @@ using pipeline::DeviceProfile;
 using rasterizer::DepthPath;
 
 // Without a depth buffer nothing asks for a depth: any format that paths know will do.
-DepthFormat format_of(const Item& item) { return item.depth.value_or(DepthFormat::d24); }
+DepthFormat format_of(const DeviceProfile& profile, const Item& item) {
+    return profile.stored(item.depth.value_or(DepthFormat::d24));
+}
 
-rasterizer::RasterState raster_state(const Item& item, const Draw& draw, YDirection y) {
+rasterizer::RasterState raster_state(const DeviceProfile& profile, const Item& item, const Draw& draw, YDirection y) {
     rasterizer::RasterState state;
     state.viewport = {0, 0, item.width, item.height};
     state.y_direction = y;
@@ -26,12 +28,12 @@ rasterizer::RasterState raster_state(const Item& item, const Draw& draw, YDirect
     state.depth_far = item.depth_far;
     state.cull = rasterizer::CullFace::none;
     state.polygon_offset = draw.offset;
-    state.depth_format = format_of(item);
+    state.depth_format = format_of(profile, item);
     return state;
 }
 
 pipeline::PreparedDraw prepared(const DeviceProfile& profile, const Item& item, const Draw& draw, YDirection y) {
-    const rasterizer::RasterState state = raster_state(item, draw, y);
+    const rasterizer::RasterState state = raster_state(profile, item, draw, y);
     rasterizer::TriangleSoup soup;
     soup.vertices.assign(draw.corners.begin(), draw.corners.end());
     soup.indices.resize(draw.corners.size());
@@ -77,7 +79,7 @@ Answer drawn(const DeviceProfile& profile, const Item& item, YDirection y) {
     pipeline::Frame frame;
     frame.profile = &profile;
     frame.transparent = &list;
-    frame.depth = {profile.raster.depth_path, format_of(item)};
+    frame.depth = {profile.raster.depth_path, format_of(profile, item)};
     frame.color_format = item.color;
     pipeline::RegionBooks books;
     pipeline::Region region{frame, {frame.rect()}, books};

@@ -43,6 +43,7 @@ struct Dependence {
 constexpr Dependence dependences[]{
     {"raster.tie_rule", [](const RasterRules& r) { return r.coverage == CoverageRule::snapped_edges; }},
     {"raster.guard_band_px", [](const RasterRules& r) { return r.clip == ClipVolume::guard_band; }},
+    {"raster.plane_corners", [](const RasterRules& r) { return r.plane_rule == PlaneRule::greatest_w; }},
     {"raster.perspective", [](const RasterRules& r) { return r.plane_rule != PlaneRule::exact; }},
     {"raster.offset_rule", [](const RasterRules& r) { return r.depth_path == DepthPath::window_z; }},
     {"raster.window_z_rule", has_window_z},
@@ -59,6 +60,7 @@ constexpr Dependence dependences[]{
 };
 
 constexpr Unprobed unprobed[]{
+    {"raster.area_sign", "of slivers that no scene has"},
     {"raster.w_signs", "of window positions, which no client of the kit can give"},
     {"raster.w_slope", "of a w buffer, which OpenGL has not"},
     {"raster.quantize_reference", "of a program's comparison, which no scene makes"},
@@ -93,7 +95,7 @@ bool can_change(std::string_view key, const Item& item) {
     };
     // Polygon offset may leave the depth range.
     const bool has_offset = any_draw([](const Draw& draw) { return draw.offset.enabled; });
-    if (is_one_of({"raster.clip", "raster.guard_band_px", "raster.z_clip", "raster.w_clip"}))
+    if (is_one_of({"raster.clip", "raster.plane_corners", "raster.guard_band_px", "raster.z_clip", "raster.w_clip"}))
         return any_corner([](const ClipVertex& v) {
                    return !(std::abs(v.x) <= v.w && std::abs(v.y) <= v.w && std::abs(v.z) <= v.w && v.w > 0);
                }) ||
@@ -102,6 +104,7 @@ bool can_change(std::string_view key, const Item& item) {
                    "raster.window_z_rule", "raster.plane_anchor", "raster.sum_bits", "raster.interpolant_bits",
                    "raster.divide"}))
         return item.depth.has_value();
+    if (key == "depth24") return item.depth == DepthFormat::d24;
     if (is_one_of({"raster.offset_unit", "raster.offset_rule"})) return item.depth && has_offset;
     if (key == "alpha_test") return any_draw([](const Draw& draw) { return draw.alpha_above.has_value(); });
     const bool blends = any_draw([](const Draw& draw) { return draw.blend.has_value(); });
@@ -153,19 +156,19 @@ const std::vector<FieldGroup>& field_groups() {
          Part::coverage,
          {"coverage."},
          {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"}},
-        {"positions", Part::coverage, {"positions.edges"}, {"raster.w_divide", "raster.viewport"}},
+        {"positions", Part::coverage, {"positions.edges"}, {"raster.w_divide", "raster.viewport", "raster.y_axis"}},
         {"depth",
          Part::depth,
          {"depth."},
          {"raster.depth_path", "raster.window_z_rule", "raster.plane_rule", "raster.plane_origin", "raster.window_z",
           "raster.depth_rounding", "raster.plane_anchor"},
          {"raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.sum_bits",
-          "raster.interpolant_bits", "raster.divide"}},
+          "raster.interpolant_bits", "raster.divide", "depth24", "raster.y_axis", "raster.tie_rule"}},
         // Float depths show the last bit of a position, once it is known how they are made; and the other way round.
         {"positions in depth",
          Part::depth,
          {"positions.", "depth."},
-         {"raster.w_divide", "raster.viewport"},
+         {"raster.w_divide", "raster.viewport", "raster.y_axis"},
          {"raster.subpixel_bits", "raster.snap", "raster.plane_rule", "raster.plane_origin", "raster.depth_rounding",
           "raster.interpolant_bits", "raster.divide"}},
         {"colours",
@@ -178,7 +181,8 @@ const std::vector<FieldGroup>& field_groups() {
         {"clip",
          Part::both,
          {"clip.guard-band", "clip.", "positions."},
-         {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport", "raster.depth_limits"},
+         {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport", "raster.depth_limits",
+          "raster.plane_corners"},
          {"raster.window_z_rule", "raster.weights", "raster.sum_bits", "raster.reciprocal_bits",
           "raster.reciprocal_deficit"}},
         {"offset", Part::depth, {"offset."}, {"raster.offset_unit", "raster.offset_rule"}},

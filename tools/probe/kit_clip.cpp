@@ -6,8 +6,8 @@ namespace strata::probe {
 
 namespace {
 
-const std::vector<std::string> clip_fields{"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport",
-                                           "raster.window_z_rule"};
+const std::vector<std::string> clip_fields{"raster.clip",     "raster.z_clip",        "raster.w_clip",
+                                           "raster.viewport", "raster.window_z_rule", "raster.plane_corners"};
 
 Item plain_item(const std::string& name, const std::vector<std::string>& decides) {
     return {.name = name, .decides = decides, .width = 61, .height = 47};

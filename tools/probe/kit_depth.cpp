@@ -7,11 +7,13 @@ namespace strata::probe {
 
 namespace {
 
-const std::vector<std::string> depth_fields{
-    "raster.depth_path",      "raster.plane_rule",         "raster.plane_origin", "raster.window_z",
-    "raster.depth_rounding",  "raster.window_z_rule",      "raster.plane_anchor", "raster.weights",
-    "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.sum_bits",     "raster.interpolant_bits",
-    "raster.divide"};
+const std::vector<std::string> depth_fields{"raster.depth_path",      "raster.plane_rule",
+                                            "raster.plane_origin",    "raster.window_z",
+                                            "raster.depth_rounding",  "raster.window_z_rule",
+                                            "raster.plane_anchor",    "raster.weights",
+                                            "raster.reciprocal_bits", "raster.reciprocal_deficit",
+                                            "raster.sum_bits",        "raster.interpolant_bits",
+                                            "raster.divide",          "depth24"};
 
 void add_slopes(const Item& item, Draw& draw, Dice& dice, int count) {
     for (int i = 0; i < count; ++i) {
@@ -62,7 +64,7 @@ Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
 
 // Flat depths that lie a hair from the middle between two codes, and from a code.
 Item codes_item(DepthFormat format, const std::string& name) {
-    Item item{.name = name, .decides = {"raster.depth_rounding", "raster.depth_path", "raster.window_z"}};
+    Item item{.name = name, .decides = {"raster.depth_rounding", "raster.depth_path", "raster.window_z", "depth24"}};
     item.depth = format;
     Draw draw;
     Dice dice{22};

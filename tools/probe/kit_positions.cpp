@@ -20,7 +20,7 @@ using rasterizer::ViewportArithmetic;
 using rasterizer::WDivide;
 using rasterizer::WindowTransform;
 
-const std::vector<std::string> position_fields{"raster.w_divide", "raster.viewport"};
+const std::vector<std::string> position_fields{"raster.w_divide", "raster.viewport", "raster.y_axis"};
 
 struct Way {
     WDivide divide;

@@ -32,15 +32,20 @@ std::string file_name(YDirection y, const Item& item, std::string_view target) {
     return fmt::format("probe/{}/{}/{}.npy", name(y), item.name, target);
 }
 
-// Codes of a depth that a shader read: the nearest to the float, whose own rounding is far less than half a code.
+// Codes of a depth that a shader read: the nearest to the float, whose own rounding is far less than half a code. Floats of 24 bits
+// that are farther from every code than two roundings of binary32 are what the buffer holds (Depth24::binary32).
 Image from_texels(const NumberArray& array, pipeline::Format format, int width, int height) {
-    Image image{format, width, height};
+    Image codes{format, width, height}, floats{pipeline::Format::d32f, width, height};
     const double greatest = rasterizer::buffer_units(pipeline::depth_format(format));
-    for (std::size_t i = 0; i < image.codes.size(); ++i) {
-        const double depth = double{std::bit_cast<float>(array.word(i))};
-        image.codes[i] = static_cast<std::uint32_t>(std::clamp(std::floor(depth * greatest + 0.5), 0.0, greatest));
+    bool holds_codes = true;
+    for (std::size_t i = 0; i < codes.codes.size(); ++i) {
+        floats.codes[i] = array.word(i);
+        const double scaled = double{std::bit_cast<float>(array.word(i))} * greatest;
+        const double code = std::clamp(std::floor(scaled + 0.5), 0.0, greatest);
+        codes.codes[i] = static_cast<std::uint32_t>(code);
+        holds_codes &= std::abs(scaled - code) <= scaled * 0x1p-23;
     }
-    return image;
+    return holds_codes || format != pipeline::Format::d24 ? codes : floats;
 }
 
 Image read_image(const std::string& bytes, const std::string& file, const Item& item, pipeline::Format format) {

@@ -18,11 +18,14 @@ struct Candidate {
 
 using Keys = std::vector<std::string_view>;
 
-// Coverage is searched before depth and colours: a start whose weights do not go with spans must not keep them out.
-DeviceProfile without_weights_of_spans(DeviceProfile profile) {
+// Coverage is searched before depth and colours: a start whose rules do not go with spans must not keep them out.
+DeviceProfile with_rules_of_spans(DeviceProfile profile) {
     rasterizer::RasterRules& rules = profile.raster;
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return profile;
     rules.color = rasterizer::ColorInterpolation::exact_plane;
+    rules.y_axis = rasterizer::YAxis::memory;
+    if (rules.viewport == rasterizer::ViewportArithmetic::half_pixel_first)
+        rules.viewport = rasterizer::ViewportArithmetic::separate;
     if (rules.depth_path == rasterizer::DepthPath::window_z) rules.depth_path = rasterizer::DepthPath::float32;
     if (rules.hypothesis.window_z == rasterizer::WindowZRule::chip)
         rules.hypothesis.window_z = rasterizer::WindowZRule::exact;
@@ -33,7 +36,7 @@ DeviceProfile without_weights_of_spans(DeviceProfile profile) {
 // matters because of an earlier one is searched after it.
 void combine(const Keys& keys, std::size_t next, DeviceProfile profile, std::vector<DeviceProfile>& to) {
     if (next == keys.size()) {
-        profile = without_weights_of_spans(std::move(profile));
+        profile = with_rules_of_spans(std::move(profile));
         if (is_valid(profile)) to.push_back(std::move(profile));
         return;
     }

@@ -83,7 +83,7 @@ int wrong_pixels(Random& random, Format format, UnormRounding rounding) {
     for (std::size_t pass = 0; pass < passes; ++pass)
         for (int s = 0; s < pass_samples; ++s)
             planes.push_back({sample_depths[pass].depth(s), sample_colors[pass].texels(s)});
-    SampleColumns columns{planes, no_sample, rounding};
+    SampleColumns columns{planes, no_sample, {strata::pipeline::HalfRounding::nearest_even, rounding}};
     int wrong = 0;
     for (std::uint32_t p = 0; p < plane_pixels; ++p) {
         std::vector<PlainSample> samples;

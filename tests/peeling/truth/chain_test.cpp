@@ -68,7 +68,7 @@ TEST_CASE("a chain without an exact link has the picture of sequential depth uni
 
 TEST_CASE("a chain refuses a device whose planes are stepped or whose spans are floats") {
     const DrawList list = random_chain_list(0, parts_of(0));
-    for (const char* profile : {"llvmpipe", "llvmpipe_sse", "softpipe"})
+    for (const char* profile : {"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader"})
         CHECK_THROWS_WITH(
             render_chain({list, chain_view, *find_profile(profile), chain_options()}, machine_chain),
             Catch::Contains("expected exact planes, snapped edges and a guard band") && Catch::Contains(profile));

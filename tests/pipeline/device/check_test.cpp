@@ -33,7 +33,7 @@ TEST_CASE("independent blending is refused with the feature, the extension and t
     CHECK(checked_targets("geforce8", unequal) ==
           "profile geforce8 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal, "
           "llvmpipe, "
-          "llvmpipe_sse or softpipe");
+          "llvmpipe_sse, softpipe or swiftshader");
     CHECK(checked_targets("geforce8_dx101", unequal).empty());
     CHECK(checked_targets("ideal", unequal).empty());
 }
@@ -50,7 +50,7 @@ TEST_CASE("targets that share a blend equation may differ in enable and write ma
 TEST_CASE("a blend of its own for alpha is refused where there is one function for all channels") {
     CHECK(checked("geforce3", blend_mode::under) ==
           "profile geforce3 has no separate blend functions for alpha (EXT_blend_func_separate); use geforce8, "
-          "geforce8_dx101, ideal, llvmpipe, llvmpipe_sse or softpipe");
+          "geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader");
     CHECK(checked("geforce3", blend_mode::over).empty());
     CHECK(checked("geforce8", blend_mode::under).empty());
     Blend off = blend_mode::under;
@@ -61,7 +61,7 @@ TEST_CASE("a blend of its own for alpha is refused where there is one function f
 TEST_CASE("more render targets than the device has are refused") {
     CHECK(checked_targets("geforce3", {Blend{}, Blend{}}) ==
           "profile geforce3 has no 2 render targets in one pass (ARB_draw_buffers); use geforce8, geforce8_dx101, "
-          "ideal, llvmpipe, llvmpipe_sse or softpipe");
+          "ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader");
     CHECK(checked_targets("geforce8", std::vector<Blend>(8)).empty());
     CHECK(checked_targets("ideal", std::vector<Blend>(9)) ==
           "profile ideal has no 9 render targets in one pass (ARB_draw_buffers)");
@@ -72,9 +72,10 @@ TEST_CASE("each device takes its own depth formats") {
     CHECK(checked("geforce3", Format::d24s8).empty());
     CHECK(checked("geforce3", Format::d32f) ==
           "profile geforce3 has no float depth buffers (ARB_depth_buffer_float); use geforce8, geforce8_dx101, ideal, "
-          "llvmpipe, llvmpipe_sse or softpipe");
+          "llvmpipe, llvmpipe_sse, softpipe or swiftshader");
     CHECK(checked("geforce8", Format::d16) ==
-          "profile geforce8 has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse or softpipe");
+          "profile geforce8 has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe or "
+          "swiftshader");
     CHECK(checked("geforce8", Format::d32f).empty());
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         CHECK(checked("ideal", format).empty());
@@ -93,7 +94,7 @@ TEST_CASE("two-sided stencil and unclamped depth clears are refused where they a
     CHECK(checked("geforce3", StencilTest{true, true, {}, {}}) ==
           "profile geforce3 has no two-sided stencil (EXT_stencil_two_side); use geforce8, geforce8_dx101, ideal, "
           "llvmpipe, "
-          "llvmpipe_sse or softpipe");
+          "llvmpipe_sse, softpipe or swiftshader");
     CHECK(checked("geforce3", StencilTest{true, false, {}, {}}).empty());
     CHECK(checked("geforce3", StencilTest{false, true, {}, {}}).empty());
     DeviceProfile clamping = device("geforce8");
@@ -107,7 +108,7 @@ TEST_CASE("two-sided stencil and unclamped depth clears are refused where they a
 TEST_CASE("sizes, samples and texture units beyond the device's are refused with the number") {
     CHECK(sentence("geforce3", check_size(device("geforce3"), 4097, 10)) ==
           "profile geforce3 has no viewport of 4097 x 10 pixels; use geforce8, geforce8_dx101, ideal, llvmpipe, "
-          "llvmpipe_sse or softpipe");
+          "llvmpipe_sse, softpipe or swiftshader");
     CHECK_FALSE(check_size(device("geforce3"), 4096, 4096));
     CHECK(check_size(device("geforce8"), 10, 8193)->way_out == "use ideal, llvmpipe, llvmpipe_sse or softpipe");
     CHECK(check_samples(device("geforce3"), 8));

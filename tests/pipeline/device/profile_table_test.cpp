@@ -1,5 +1,5 @@
 // The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe,
-// llvmpipe_sse, softpipe.
+// llvmpipe_sse, softpipe, swiftshader.
 #include <catch2/catch.hpp>
 #include <string>
 #include <string_view>
@@ -14,94 +14,115 @@ using namespace strata::pipeline;
 
 struct FieldOfDevices {
     std::string_view key;
-    std::array<std::string_view, 7> value;
+    std::array<std::string_view, 8> value;
 };
 
 constexpr FieldOfDevices device_table[] = {
-    {"raster.subpixel_bits", {"4", "8", "8", "8", "8", "8", "8"}},
+    {"raster.subpixel_bits", {"4", "8", "8", "8", "8", "8", "8", "4"}},
     {"raster.snap",
-     {"toward_zero", "nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even"}},
+     {"toward_zero", "nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even",
+      "nearest_even"}},
     {"raster.coverage",
      {"snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges",
-      "float_spans"}},
-    {"raster.tie_rule", {"top_left", "top_left", "top_left", "top_left", "bottom_left", "bottom_left", "top_left"}},
-    {"raster.guard_band_px", {"524288", "32768", "32768", "32768", "32768", "32768", "32768"}},
+      "float_spans", "snapped_edges"}},
+    {"raster.tie_rule",
+     {"top_left", "top_left", "top_left", "top_left", "bottom_left", "bottom_left", "top_left", "top_left"}},
+    {"raster.guard_band_px", {"524288", "32768", "32768", "32768", "32768", "32768", "32768", "524288"}},
     {"raster.clip",
-     {"guard_band", "guard_band", "guard_band", "guard_band", "view_volume", "view_volume", "view_volume"}},
+     {"guard_band", "guard_band", "guard_band", "guard_band", "view_volume", "view_volume", "view_volume",
+      "view_volume_depth_first"}},
     {"raster.z_clip",
      {"per_fragment", "per_primitive", "per_primitive", "per_primitive", "per_primitive", "per_primitive",
-      "per_primitive"}},
-    {"raster.w_clip", {"clip", "clip", "clip", "clip", "clip", "clip", "clip"}},
-    {"raster.w_signs", {"by_corner", "ignored", "ignored", "ignored", "ignored", "ignored", "ignored"}},
-    {"raster.w_divide", {"reciprocal", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "reciprocal"}},
-    {"raster.viewport", {"separate", "separate", "separate", "separate", "fused_given", "separate", "separate"}},
-    {"raster.plane_origin", {"snapped", "snapped", "snapped", "snapped", "unsnapped", "unsnapped", "unsnapped"}},
+      "per_primitive", "per_primitive"}},
+    {"raster.w_clip", {"clip", "clip", "clip", "clip", "clip", "clip", "clip", "clip"}},
+    {"raster.w_signs", {"by_corner", "ignored", "ignored", "ignored", "ignored", "ignored", "ignored", "ignored"}},
+    {"raster.w_divide",
+     {"reciprocal", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "reciprocal", "reciprocal"}},
+    {"raster.viewport",
+     {"separate", "separate", "separate", "separate", "fused_given", "separate", "separate", "half_pixel_first"}},
+    {"raster.y_axis", {"memory", "memory", "memory", "memory", "memory", "memory", "memory", "clip"}},
+    {"raster.area_sign", {"exact", "exact", "exact", "exact", "exact", "exact", "exact", "single"}},
+    {"raster.plane_origin",
+     {"snapped", "snapped", "snapped", "snapped", "unsnapped", "unsnapped", "unsnapped", "snapped"}},
     {"raster.plane_rule",
-     {"exact", "exact", "exact", "exact", "reciprocal_area_fused", "reciprocal_area", "least_corner"}},
-    {"raster.perspective", {"quotient", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "quotient"}},
+     {"exact", "exact", "exact", "exact", "reciprocal_area_fused", "reciprocal_area", "least_corner", "greatest_w"}},
+    {"raster.plane_corners", {"clipped", "clipped", "clipped", "clipped", "clipped", "clipped", "clipped", "given"}},
+    {"raster.perspective",
+     {"quotient", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "quotient", "reciprocal"}},
     {"raster.window_z",
      {"buffer_units", "unit_interval", "unit_interval", "unit_interval", "unit_interval", "unit_interval",
-      "unit_interval"}},
-    {"raster.depth_path", {"window_z", "float32", "float32", "exact", "float32", "float32", "float32"}},
+      "unit_interval", "unit_interval"}},
+    {"raster.depth_path", {"window_z", "float32", "float32", "exact", "float32", "float32", "float32", "float32"}},
     {"raster.depth_rounding",
-     {"floor", "nearest", "nearest", "nearest", "product_even", "product_even", "product_floor"}},
-    {"raster.depth_limits", {"clamp", "clamp", "clamp", "clamp", "clamp", "clamp", "wrap"}},
-    {"raster.offset_unit", {"buffer", "format", "format", "format", "two_codes", "two_codes", "two_codes"}},
-    {"raster.offset_rule", {"fragments", "corners", "corners", "corners", "corners", "corners", "corners"}},
+     {"floor", "nearest", "nearest", "nearest", "product_even", "product_even", "product_floor", "product_even"}},
+    {"raster.depth_limits", {"clamp", "clamp", "clamp", "clamp", "clamp", "clamp", "wrap", "zero_to_one"}},
+    {"raster.offset_unit",
+     {"buffer", "format", "format", "format", "two_codes", "two_codes", "two_codes", "differences"}},
+    {"raster.offset_rule", {"fragments", "corners", "corners", "corners", "corners", "corners", "corners", "corners"}},
     {"raster.color",
-     {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
-    {"raster.interpolant_bits", {"24", "24", "24", "24", "24", "24", "24"}},
-    {"raster.divide", {"exact", "exact", "exact", "exact", "exact", "exact", "exact"}},
-    {"raster.window_z_rule", {"chip", "chip", "chip", "chip", "chip", "chip", "chip"}},
-    {"raster.weights", {"cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges"}},
-    {"raster.reciprocal_bits", {"29", "29", "29", "29", "29", "29", "29"}},
-    {"raster.reciprocal_deficit", {"2", "2", "2", "2", "2", "2", "2"}},
-    {"raster.sum_bits", {"29", "29", "29", "29", "29", "29", "29"}},
-    {"raster.quantize_reference", {"true", "true", "true", "true", "true", "true", "true"}},
+     {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane",
+      "exact_plane"}},
+    {"raster.interpolant_bits", {"24", "24", "24", "24", "24", "24", "24", "24"}},
+    {"raster.divide", {"exact", "exact", "exact", "exact", "exact", "exact", "exact", "exact"}},
+    {"raster.window_z_rule", {"chip", "chip", "chip", "chip", "chip", "chip", "chip", "chip"}},
+    {"raster.weights",
+     {"cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges", "cut_edges"}},
+    {"raster.reciprocal_bits", {"29", "29", "29", "29", "29", "29", "29", "29"}},
+    {"raster.reciprocal_deficit", {"2", "2", "2", "2", "2", "2", "2", "2"}},
+    {"raster.sum_bits", {"29", "29", "29", "29", "29", "29", "29", "29"}},
+    {"raster.quantize_reference", {"true", "true", "true", "true", "true", "true", "true", "true"}},
     {"raster.w_slope",
-     {"first_quad", "first_quad", "first_quad", "first_quad", "first_quad", "first_quad", "first_quad"}},
+     {"first_quad", "first_quad", "first_quad", "first_quad", "first_quad", "first_quad", "first_quad", "first_quad"}},
     {"raster.plane_anchor",
-     {"first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex"}},
-    {"raster.vertex_color_bits", {"14", "24", "24", "24", "24", "24", "24"}},
+     {"first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex",
+      "first_vertex"}},
+    {"raster.vertex_color_bits", {"14", "24", "24", "24", "24", "24", "24", "24"}},
     {"raster.perspective_color",
      {"cut_products", "edge_products", "edge_products", "edge_products", "edge_products", "edge_products",
-      "edge_products"}},
+      "edge_products", "edge_products"}},
     {"raster.texture_coordinates",
-     {"cut_weights", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
+     {"cut_weights", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane",
+      "exact_plane"}},
     {"raster.perspective_coordinates",
-     {"cut_products", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
-    {"alpha_test", {"unorm8", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target"}},
-    {"blend_rounding", {"nearest", "nearest", "nearest", "nearest", "each_product", "each_product", "nearest"}},
-    {"blend_storage", {"target", "target", "target", "target", "target", "target", "cached_tiles"}},
+     {"cut_products", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane",
+      "exact_plane"}},
+    {"alpha_test",
+     {"unorm8", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target"}},
+    {"blend_rounding",
+     {"nearest", "nearest", "nearest", "nearest", "each_product", "each_product", "nearest", "unrounded_source"}},
+    {"blend_storage", {"target", "target", "target", "target", "target", "target", "cached_tiles", "target"}},
     {"half_rounding",
-     {"nearest_even", "nearest_even", "nearest_even", "nearest_even", "toward_zero", "toward_zero", "toward_zero"}},
-    {"unorm_rounding", {"half_up", "half_up", "half_up", "half_up", "product_even", "product_even", "product_even"}},
+     {"nearest_even", "nearest_even", "nearest_even", "nearest_even", "toward_zero", "toward_zero", "toward_zero",
+      "no_infinity"}},
+    {"unorm_rounding",
+     {"half_up", "half_up", "half_up", "half_up", "product_even", "product_even", "product_even", "product_even_wide"}},
     {"min_max_nan",
-     {"other_operand", "other_operand", "other_operand", "other_operand", "other_operand", "other_operand",
-      "propagate"}},
-    {"denormals", {"flush", "flush", "flush", "keep", "flush", "flush", "flush"}},
-    {"texture_filter", {"unorm8", "single", "single", "single", "single", "single", "single"}},
-    {"has_d16", {"true", "false", "false", "true", "true", "true", "true"}},
-    {"has_d24", {"true", "true", "true", "true", "true", "true", "true"}},
-    {"has_d32f", {"false", "true", "true", "true", "true", "true", "true"}},
-    {"has_d16f", {"true", "false", "false", "false", "false", "false", "false"}},
-    {"has_d24f", {"true", "false", "false", "false", "false", "false", "false"}},
-    {"has_narrow_surfaces", {"true", "false", "false", "false", "false", "false", "false"}},
-    {"has_float_targets", {"false", "true", "true", "true", "true", "true", "true"}},
-    {"has_unclamped_depth_clear", {"false", "true", "true", "true", "true", "true", "true"}},
-    {"has_fragment_programs", {"false", "true", "true", "true", "true", "true", "true"}},
-    {"has_separate_alpha_blend", {"false", "true", "true", "true", "true", "true", "true"}},
-    {"has_independent_blend", {"false", "false", "true", "true", "true", "true", "true"}},
-    {"has_two_sided_stencil", {"false", "true", "true", "true", "true", "true", "true"}},
-    {"has_depth_clamp", {"true", "true", "true", "true", "true", "true", "true"}},
-    {"has_depth_replace", {"true", "false", "false", "true", "false", "false", "false"}},
-    {"has_sequential_depth_units", {"true", "true", "true", "true", "true", "true", "true"}},
-    {"has_ordered_rmw", {"false", "false", "false", "true", "false", "false", "false"}},
-    {"has_signed_blend", {"true", "false", "false", "false", "false", "false", "false"}},
-    {"max_render_targets", {"1", "8", "8", "8", "8", "8", "8"}},
-    {"max_texture_units", {"4", "16", "16", "16", "32", "32", "32"}},
-    {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384", "16384", "16384"}},
-    {"max_samples", {"4", "8", "8", "8", "4", "4", "1"}},
+     {"other_operand", "other_operand", "other_operand", "other_operand", "other_operand", "other_operand", "propagate",
+      "destination"}},
+    {"denormals", {"flush", "flush", "flush", "keep", "flush", "flush", "flush", "flush"}},
+    {"texture_filter", {"unorm8", "single", "single", "single", "single", "single", "single", "single"}},
+    {"depth24", {"codes", "codes", "codes", "codes", "codes", "codes", "codes", "binary32"}},
+    {"has_d16", {"true", "false", "false", "true", "true", "true", "true", "true"}},
+    {"has_d24", {"true", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_d32f", {"false", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_d16f", {"true", "false", "false", "false", "false", "false", "false", "false"}},
+    {"has_d24f", {"true", "false", "false", "false", "false", "false", "false", "false"}},
+    {"has_narrow_surfaces", {"true", "false", "false", "false", "false", "false", "false", "false"}},
+    {"has_float_targets", {"false", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_unclamped_depth_clear", {"false", "true", "true", "true", "true", "true", "true", "false"}},
+    {"has_fragment_programs", {"false", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_separate_alpha_blend", {"false", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_independent_blend", {"false", "false", "true", "true", "true", "true", "true", "true"}},
+    {"has_two_sided_stencil", {"false", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_depth_clamp", {"true", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_depth_replace", {"true", "false", "false", "true", "false", "false", "false", "false"}},
+    {"has_sequential_depth_units", {"true", "true", "true", "true", "true", "true", "true", "true"}},
+    {"has_ordered_rmw", {"false", "false", "false", "true", "false", "false", "false", "false"}},
+    {"has_signed_blend", {"true", "false", "false", "false", "false", "false", "false", "false"}},
+    {"max_render_targets", {"1", "8", "8", "8", "8", "8", "8", "8"}},
+    {"max_texture_units", {"4", "16", "16", "16", "32", "32", "32", "32"}},
+    {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384", "16384", "16384", "8192"}},
+    {"max_samples", {"4", "8", "8", "8", "4", "4", "1", "4"}},
 };
 
 struct NamesOfField {
@@ -114,21 +135,24 @@ const std::vector<NamesOfField> choice_names{
     {"raster.snap", {"toward_zero", "nearest_even"}},
     {"raster.coverage", {"snapped_edges", "float_spans"}},
     {"raster.tie_rule", {"top_left", "bottom_left", "top_right", "bottom_right"}},
-    {"raster.clip", {"guard_band", "view_volume"}},
+    {"raster.clip", {"guard_band", "view_volume", "view_volume_depth_first"}},
     {"raster.z_clip", {"per_primitive", "per_fragment"}},
     {"raster.w_clip", {"clip", "drop"}},
     {"raster.w_signs", {"ignored", "by_corner"}},
     {"raster.w_divide", {"quotient", "reciprocal", "nv20"}},
-    {"raster.viewport", {"separate", "fused", "fused_given"}},
+    {"raster.viewport", {"separate", "fused", "fused_given", "half_pixel_first"}},
+    {"raster.y_axis", {"memory", "clip"}},
+    {"raster.area_sign", {"exact", "single"}},
     {"raster.plane_origin", {"snapped", "unsnapped"}},
-    {"raster.plane_rule", {"exact", "reciprocal_area", "reciprocal_area_fused", "least_corner"}},
+    {"raster.plane_rule", {"exact", "reciprocal_area", "reciprocal_area_fused", "least_corner", "greatest_w"}},
+    {"raster.plane_corners", {"clipped", "given"}},
     {"raster.perspective", {"quotient", "reciprocal"}},
     {"raster.window_z", {"unit_interval", "buffer_units"}},
     {"raster.depth_path",
      {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer"}},
     {"raster.depth_rounding", {"floor", "nearest", "product_even", "product_floor"}},
-    {"raster.depth_limits", {"clamp", "wrap"}},
-    {"raster.offset_unit", {"format", "float_exponent", "buffer", "two_codes"}},
+    {"raster.depth_limits", {"clamp", "wrap", "zero_to_one"}},
+    {"raster.offset_unit", {"format", "float_exponent", "buffer", "two_codes", "differences"}},
     {"raster.offset_rule", {"corners", "fragments"}},
     {"raster.color", {"exact_plane", "weights_8bit"}},
     {"raster.interpolant_bits", {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"}},
@@ -141,13 +165,14 @@ const std::vector<NamesOfField> choice_names{
     {"raster.texture_coordinates", {"exact_plane", "cut_weights"}},
     {"raster.perspective_coordinates", {"exact_plane", "cut_products"}},
     {"alpha_test", {"unorm8", "by_target"}},
-    {"blend_rounding", {"nearest", "truncate", "each_product"}},
+    {"blend_rounding", {"nearest", "truncate", "each_product", "unrounded_source"}},
     {"blend_storage", {"target", "cached_tiles"}},
-    {"half_rounding", {"nearest_even", "toward_zero"}},
-    {"unorm_rounding", {"half_up", "product_even"}},
-    {"min_max_nan", {"other_operand", "propagate"}},
+    {"half_rounding", {"nearest_even", "toward_zero", "no_infinity"}},
+    {"unorm_rounding", {"half_up", "product_even", "product_even_wide"}},
+    {"min_max_nan", {"other_operand", "propagate", "destination"}},
     {"denormals", {"flush", "keep"}},
     {"texture_filter", {"unorm8", "single"}},
+    {"depth24", {"codes", "binary32"}},
 };
 
 [[nodiscard]] const ProfileField* field_named(std::string_view key) {
@@ -159,13 +184,13 @@ const std::vector<NamesOfField> choice_names{
 }  // namespace
 
 TEST_CASE("every field of every built-in device has the value of the devices' tables") {
-    REQUIRE(builtin_profiles().size() == 7);
+    REQUIRE(builtin_profiles().size() == 8);
     REQUIRE(std::size(device_table) == profile_fields().size());
     std::size_t at = 0;
     for (const FieldOfDevices& expected : device_table) {
         const ProfileField& field = profile_fields()[at++];
         CHECK(field.key == expected.key);
-        for (std::size_t device = 0; device < 7; ++device) {
+        for (std::size_t device = 0; device < 8; ++device) {
             INFO(expected.key << " of " << builtin_profiles()[device].name);
             CHECK(text_of(field, builtin_profiles()[device]) == expected.value[device]);
         }
@@ -206,6 +231,14 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
     CHECK((set("raster.coverage", "float_spans") && p.raster.coverage == CoverageRule::float_spans));
     CHECK((set("raster.clip", "view_volume") && p.raster.clip == ClipVolume::view_volume));
     CHECK((set("raster.plane_rule", "least_corner") && p.raster.plane_rule == PlaneRule::least_corner));
+    CHECK((set("raster.clip", "view_volume_depth_first") && p.raster.clip == ClipVolume::view_volume_depth_first));
+    CHECK((set("raster.viewport", "half_pixel_first") && p.raster.viewport == ViewportArithmetic::half_pixel_first));
+    CHECK((set("raster.y_axis", "clip") && p.raster.y_axis == YAxis::clip));
+    CHECK((set("raster.area_sign", "single") && p.raster.area_sign == AreaSign::single));
+    CHECK((set("raster.plane_rule", "greatest_w") && p.raster.plane_rule == PlaneRule::greatest_w));
+    CHECK((set("raster.plane_corners", "given") && p.raster.plane_corners == PlaneCorners::given));
+    CHECK((set("raster.offset_unit", "differences") && p.raster.offset_unit == OffsetUnit::differences));
+    CHECK((set("depth24", "binary32") && p.depth24 == Depth24::binary32));
     CHECK((set("raster.perspective", "reciprocal") && p.raster.perspective == PerspectiveDivide::reciprocal));
     CHECK((set("unorm_rounding", "product_even") && p.unorm_rounding == UnormRounding::product_even));
     CHECK((set("raster.z_clip", "per_fragment") && p.raster.z_clip == ZClip::per_fragment));
@@ -264,6 +297,8 @@ TEST_CASE("a device says for every number where it is from, in its own column of
     CHECK(source("geforce8", limit).find("D3D 11.3") != std::string::npos);
     CHECK(source("geforce8_dx101", limit) == source("geforce8", limit));
     CHECK(source("llvmpipe", limit).find("GL_MAX_DRAW_BUFFERS") != std::string::npos);
+    CHECK(source("swiftshader", limit).find("Chromium") != std::string::npos);
+    CHECK(source("swiftshader", "raster.plane_anchor") == "[A] as geforce8_dx101");
     CHECK(source("ideal", limit) == "ideal: no device");
     DeviceProfile own = *find_profile("geforce8");
     own.name = "mine";  // a file's profile of another name vouches for all of it

@@ -8,11 +8,11 @@
 using namespace strata::pipeline;
 using namespace strata::rasterizer;
 
-TEST_CASE("the built-in profiles are three GeForces, ideal and three rasterizers of Mesa") {
+TEST_CASE("the built-in profiles are three GeForces, ideal, three rasterizers of Mesa and SwiftShader") {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles()) names.push_back(profile.name);
     CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
-                                            "llvmpipe_sse", "softpipe"});
+                                            "llvmpipe_sse", "softpipe", "swiftshader"});
     CHECK(find_profile("geforce4") == nullptr);
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("the rows of the table make the whole profile") {
         CHECK(copy == original);
     }
     CHECK(profile_fields().size() ==
-          64);  // 21 rules of rasterization, 14 of its hypotheses, 29 fields of DeviceProfile
+          68);  // 24 rules of rasterization, 14 of its hypotheses, 30 fields of DeviceProfile
 }
 
 TEST_CASE("a description names each value's source, and a number that a user changed is the user's") {

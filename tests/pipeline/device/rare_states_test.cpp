@@ -132,10 +132,17 @@ TEST_CASE("a profile has the depth formats that it says, and rounds codes once b
     }
     DeviceProfile profile;
     profile.unorm_rounding = UnormRounding::half_up;
-    for (const BlendRounding rounding :
-         {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product}) {
+    for (const BlendRounding rounding : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product,
+                                         BlendRounding::unrounded_source}) {
         profile.blend_rounding = rounding;
-        CHECK(profile.rounds_codes_once() == (rounding != BlendRounding::each_product));
+        const bool is_once = rounding == BlendRounding::nearest || rounding == BlendRounding::truncate;
+        CHECK(profile.rounds_codes_once() == is_once);
+    }
+    profile.blend_rounding = BlendRounding::nearest;
+    for (const HalfRounding rounding :
+         {HalfRounding::nearest_even, HalfRounding::toward_zero, HalfRounding::no_infinity}) {
+        profile.half_rounding = rounding;
+        CHECK(profile.rounds_codes_once() == (rounding != HalfRounding::no_infinity));
     }
 }
 
@@ -151,6 +158,16 @@ TEST_CASE("float spans stand beside no rule of the chip, and a field below its r
         CHECK(conflict->expected == std::string{"snapped_edges with raster.depth_path "} + word);
     }
     spans.raster.depth_path = DepthPath::float32;
+    CHECK_FALSE(conflict_of(spans));
+    spans.raster.y_axis = strata::rasterizer::YAxis::clip;
+    CHECK(conflict_of(spans)->expected == "snapped_edges with raster.y_axis clip");
+    spans.raster.viewport = strata::rasterizer::ViewportArithmetic::half_pixel_first;
+    CHECK(conflict_of(spans)->expected == "snapped_edges with raster.viewport half_pixel_first");
+    spans.raster.coverage = strata::rasterizer::CoverageRule::snapped_edges;
+    CHECK_FALSE(conflict_of(spans));
+    spans.blend_rounding = BlendRounding::unrounded_source;
+    CHECK(conflict_of(spans)->key == "blend_rounding");
+    spans.has_signed_blend = false;
     CHECK_FALSE(conflict_of(spans));
     DeviceProfile small = *find_profile("geforce8");
     small.max_samples = -1;

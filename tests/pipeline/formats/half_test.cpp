@@ -76,6 +76,34 @@ TEST_CASE("toward zero a float becomes the largest half not above its magnitude,
     CHECK(tally.wrong() == 0);
 }
 
+TEST_CASE("without infinity a float becomes the nearest of one binade more, and what is beyond it the largest code") {
+    const auto without = [](std::uint32_t bits) { return to_half<HalfRounding::no_infinity>(float_of(bits)); };
+    Tally tally;
+    for_many_floats([&](std::uint32_t bits) {
+        tally.expect(model::is_half_without_infinity(bits, without(bits)),
+                     [&] { return fmt::format("{:08x} -> {:04x}", bits, without(bits)); });
+    });
+    INFO("first wrong: " << tally.first());
+    CHECK(tally.wrong() == 0);
+    CHECK(without(bits_of(65520.0f)) == 0x7c00);
+    CHECK(without(bits_of(-131039.99f)) == 0xffff);
+    CHECK(without(0x7f800000) == 0x7fff);
+    CHECK(without(0xffc00000) == 0xffff);
+    CHECK(without(0x7fffffff) == 0xffff);
+    // The lowest digits of 2^-25 (1 + 2^-23) are lost before it is rounded: a midpoint.
+    CHECK(without(bits_of(0x1.000002p-25f)) == 0);
+    CHECK(nearest(bits_of(0x1.000002p-25f)) == 1);
+    int wrong = 0;
+    for (std::uint32_t half = 0; half < 0x10000; ++half) {
+        const double size = static_cast<double>(model::half_units(half & 0x7fff)) * 0x1p-24;
+        const double value = (half & 0x8000) != 0 ? -size : size;
+        const auto found = half_value<HalfRounding::no_infinity>(static_cast<std::uint16_t>(half));
+        wrong += double{found} == value && std::signbit(found) == std::signbit(value) ? 0 : 1;
+        wrong += without(bits_of(found)) == half ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("nearest overflows to infinity from 65520 on") {
     CHECK(nearest(bits_of(65519.996f)) == 0x7bff);
     CHECK(nearest(bits_of(65520.0f)) == 0x7c00);

@@ -23,6 +23,10 @@ struct FloatModel {
     [[nodiscard]] float sum(float a, float b) const { return flush(static_cast<float>(double{a} + double{b})); }
     [[nodiscard]] float extreme(float a, float b, bool wants_larger) const {
         const float nan = float_of(0x7fffffff);
+        if (nan_rule == MinMaxNan::destination) {
+            const float chosen = (wants_larger ? a > b : a < b) ? a : b;
+            return std::isnan(chosen) ? nan : chosen;
+        }
         if (std::isnan(a) || std::isnan(b)) {
             if (nan_rule == MinMaxNan::propagate || (std::isnan(a) && std::isnan(b))) return nan;
             return std::isnan(a) ? b : a;
@@ -44,15 +48,17 @@ struct FloatModel {
     }
 };
 
-[[nodiscard]] float half_value(std::uint32_t half) {
+[[nodiscard]] float value_of_half(std::uint32_t half, HalfRounding rounding) {
     const auto m = static_cast<int>(half & 0x3ff), e = static_cast<int>(half >> 10 & 0x1f);
-    if (e == 31) return float_of((half & 0x8000) << 16 | 0x7f800000u | (half & 0x3ff) << 13);
+    if (e == 31 && rounding != HalfRounding::no_infinity)
+        return float_of((half & 0x8000) << 16 | 0x7f800000u | (half & 0x3ff) << 13);
     const double magnitude = e == 0 ? std::ldexp(m, -24) : std::ldexp(1024 + m, e - 25);
     return static_cast<float>((half & 0x8000) != 0 ? -magnitude : magnitude);
 }
 
 [[nodiscard]] bool is_stored(ChannelType type, HalfRounding rounding, float value, std::uint32_t code) {
     if (type == ChannelType::single) return bits_of(value) == code;
+    if (rounding == HalfRounding::no_infinity) return model::is_half_without_infinity(bits_of(value), code);
     return rounding == HalfRounding::nearest_even ? model::is_nearest_half(bits_of(value), code)
                                                   : model::is_half_toward_zero(bits_of(value), code);
 }
@@ -81,8 +87,8 @@ TEST_CASE("float targets follow binary32 operation by operation, for random stat
         const Blend state = any_blend(random);
         DeviceProfile profile;
         profile.denormals = any_of(random, DenormalRule::keep);
-        profile.min_max_nan = any_of(random, MinMaxNan::propagate);
-        profile.half_rounding = any_of(random, HalfRounding::toward_zero);
+        profile.min_max_nan = any_of(random, MinMaxNan::destination);
+        profile.half_rounding = any_of(random, HalfRounding::no_infinity);
         const ChannelType type = one_in(random, 2) ? ChannelType::half : ChannelType::single;
         const int channels = std::array{1, 2, 4}[below(random, 3)];
         const int count = one_in(random, 16) ? 256 : static_cast<int>(below(random, 20));
@@ -101,7 +107,8 @@ TEST_CASE("float targets follow binary32 operation by operation, for random stat
             for (std::size_t c = 0; c < 4; ++c) {
                 f.source[c] = machine.flush(src[c][i]);
                 f.stored[c] =
-                    machine.flush(type == ChannelType::half ? half_value(before[c][i]) : float_of(before[c][i]));
+                    machine.flush(type == ChannelType::half ? value_of_half(before[c][i], profile.half_rounding)
+                                                            : float_of(before[c][i]));
                 f.constant[c] = machine.flush(state.constant[c]);
             }
             if (channels < 4) f.stored[3] = 1.0f;

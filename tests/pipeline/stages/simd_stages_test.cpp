@@ -173,7 +173,8 @@ TEST_CASE("conversions give the same bits on every instruction set, for all halv
                 scalar::decode(type, codes.data(), wanted.data(), static_cast<std::size_t>(count));
                 decode(type, codes, got, count);
                 bool same = same_lanes(wanted, got, count);
-                for (const HalfRounding rounding : {HalfRounding::nearest_even, HalfRounding::toward_zero}) {
+                for (const HalfRounding rounding :
+                     {HalfRounding::nearest_even, HalfRounding::toward_zero, HalfRounding::no_infinity}) {
                     for (float& value : wanted) value = any_float(random);
                     for (std::size_t i = 0; i < hard_bits.size(); ++i) wanted[i] = float_of(hard_bits[i]);
                     scalar::encode(type, rounding, wanted.data(), wanted_codes.data(), static_cast<std::size_t>(count));
@@ -196,9 +197,10 @@ TEST_CASE("blending gives the same codes on every instruction set, in every form
             constexpr std::array named{blend_mode::over, blend_mode::under, blend_mode::sum, blend_mode::max};
             if (one_in(random, 2)) state = named[below(random, named.size())];
             DeviceProfile profile;
-            profile.blend_rounding = any_of(random, BlendRounding::truncate);
-            profile.half_rounding = any_of(random, HalfRounding::toward_zero);
-            profile.min_max_nan = any_of(random, MinMaxNan::propagate);
+            profile.blend_rounding = any_of(random, BlendRounding::unrounded_source);
+            profile.unorm_rounding = any_of(random, UnormRounding::product_even_wide);
+            profile.half_rounding = any_of(random, HalfRounding::no_infinity);
+            profile.min_max_nan = any_of(random, MinMaxNan::destination);
             profile.denormals = any_of(random, DenormalRule::keep);
             const auto type = any_of(random, ChannelType::single);
             const int channels = one_in(random, 4) ? static_cast<int>(below(random, 4)) + 1 : 4;

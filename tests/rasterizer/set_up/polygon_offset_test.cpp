@@ -77,6 +77,26 @@ TEST_CASE("a unit is one code of a fixed-point format and 2^(e - 23) of a float 
     CHECK(only_offset(state, {.offset_unit = OffsetUnit::float_exponent}, {0, .5f, .25f}) == 3 * 0x1p-24);
 }
 
+TEST_CASE("a unit of differences is 1.01 / 65535 of D16, else of the first depth and of two differences from it") {
+    const RasterRules rules{.offset_unit = OffsetUnit::differences};
+    RasterState state;
+    state.polygon_offset = {true, 0.0f, 3.0f};
+    state.depth_format = DepthFormat::d16;
+    CHECK(only_offset(state, rules, {0, .5f, 1}) == 3 * double{1.01f / 65535.0f});
+    for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f}) {
+        state.depth_format = format;
+        CHECK(only_offset(state, rules, {.75f, .75f, .5f}) == 3 * 0x1p-24);  // 0.5 and 0.25 of the middle, and 0.75
+        state.clip_depth = ClipDepth::zero_to_one;
+        CHECK(only_offset(state, rules, {.25f, .9f, .9f}) == 3 * 0x1p-24);  // 0.65
+        CHECK(only_offset(state, rules, {.25f, .625f, .6f}) == 3 * 0x1p-25);
+        CHECK(only_offset(state, rules, {.625f, .25f, .6f}) == 3 * 0x1p-24);
+        state.depth_near = .875f;
+        CHECK(only_offset(state, rules, {.25f, .9f, .9f}) == 3 * 0x1p-23);  // 1.525
+        state.depth_near = 0.0f;
+        state.clip_depth = ClipDepth::minus_one_to_one;
+    }
+}
+
 TEST_CASE("a zero factor leaves out a slope that is not finite") {
     RasterState state;
     state.depth_format = DepthFormat::d24;

@@ -107,6 +107,81 @@ TEST_CASE("the view volume cuts a triangle into the corners of the rule, in its 
     CHECK(on_plane > 100);
 }
 
+namespace {
+
+// swiftshader-rasterizer.md 1.2: near, far, left, right, top, bottom.
+[[nodiscard]] float distance_depth_first(int plane, const VertexValues& v) {
+    const Rational w{v[3]};
+    constexpr std::array<std::size_t, 6> axis{2, 2, 0, 0, 1, 1};
+    constexpr std::array sign{1, -1, 1, -1, -1, 1};
+    const auto p = static_cast<std::size_t>(plane);
+    return nearest(w + Rational{sign[p]} * Rational{v[axis[p]]});
+}
+
+[[nodiscard]] VertexValues between(const VertexValues& in, float d_in, const VertexValues& out, float d_out) {
+    const Rounded i{d_in}, o{d_out}, reciprocal = Rounded{1} / (o - i);
+    VertexValues corner;
+    for (std::size_t k = 0; k < corner.size(); ++k)
+        corner[k] = ((o * Rounded{in[k]} - i * Rounded{out[k]}) * reciprocal).v;
+    return corner;
+}
+
+[[nodiscard]] std::vector<VertexValues> cut_depth_first(const std::vector<VertexValues>& given) {
+    std::vector<VertexValues> polygon = given;
+    for (int plane = 0; plane < 6; ++plane) {
+        const auto is_out = [&](const VertexValues& v) { return distance_depth_first(plane, v) < 0; };
+        if (std::ranges::none_of(given, is_out)) continue;
+        std::vector<VertexValues> kept;
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const VertexValues &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+            const float da = distance_depth_first(plane, a), db = distance_depth_first(plane, b);
+            if (da >= 0) kept.push_back(a);
+            if (da >= 0 && db < 0) kept.push_back(between(a, da, b, db));
+            if (da < 0 && db > 0) kept.push_back(between(b, db, a, da));
+        }
+        polygon = kept;
+        if (polygon.size() < 3) return {};
+    }
+    return polygon;
+}
+
+}  // namespace
+
+TEST_CASE("depth first, the view volume cuts by near and far before its sides, new corners weighed by both distances",
+          "[slow]") {
+    const Clipper clipper{scene_state(64, 48), {.clip = ClipVolume::view_volume_depth_first}};
+    Random random{513};
+    std::uint64_t wrong = 0, cut = 0, gone = 0, unlike = 0;
+    for (int n = 0; n < 3000; ++n) {
+        ClipPolygon polygon{};
+        polygon.count = 3;
+        std::vector<VertexValues> given;
+        std::uint32_t any = 0, all = ~0u;
+        for (std::size_t i = 0; i < 3; ++i) {
+            polygon.corner[i] = random_vertex(random, SoupKind::needs_clipping);
+            if (n % 5 == 0 && i == 0) polygon.corner[i].z = polygon.corner[i].w;
+            given.push_back(std::bit_cast<VertexValues>(polygon.corner[i]));
+            any |= clipper.outside(polygon.corner[i]);
+            all &= clipper.outside(polygon.corner[i]);
+        }
+        if (all != 0) continue;
+        clipper.clip(polygon, any);
+        const std::vector<VertexValues> expected = cut_depth_first(given);
+        std::vector<VertexValues> found;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(polygon.count); ++i)
+            found.push_back(std::bit_cast<VertexValues>(polygon.corner[i]));
+        if (found.size() < 3) found.clear();
+        wrong += found == expected ? 0 : 1;
+        unlike += expected == model_of(given) ? 0 : 1;
+        cut += expected.size() > 3 ? 1 : 0;
+        gone += expected.empty() ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(cut > 300);
+    CHECK(gone > 10);
+    CHECK(unlike > 300);
+}
+
 TEST_CASE("the fan of a triangle cut by the view volume names its common corner last") {
     TriangleSoup soup;
     for (const auto& [x, y] : {std::array{-0.5f, -0.5f}, {2.0f, -0.5f}, {-0.5f, 0.5f}}) {

@@ -51,6 +51,105 @@ TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, tie
     CHECK(wrong == 0);
 }
 
+namespace {
+
+// swiftshader-rasterizer.md 1.1, to the nearest even subpixel from the centre of the first pixel of the lowest row.
+[[nodiscard]] Integer from_lowest_centre(float c, float w, int start, int size, int bits) {
+    const Rounded divided = Rounded{c} * (Rounded{1} / Rounded{w});
+    const Rounded scale{static_cast<float>(size) / 2}, middle{static_cast<float>(start) + static_cast<float>(size) / 2};
+    const Rational scaled = Rational{(scale * divided + (middle - Rounded{0.5f})).v} * power(bits);
+    Integer below = floor(scaled);
+    const Rational rest = scaled - Rational{below};
+    if (rest > Rational{1, 2} || (rest == Rational{1, 2} && below % 2 != 0)) ++below;
+    return below;
+}
+
+}  // namespace
+
+TEST_CASE("half a pixel is taken off before the rounding, and y is measured from below where the axis is clip space's",
+          "[slow]") {
+    Random random{33};
+    const Rect viewport{17, 5, 17 + 333, 5 + 257};
+    std::uint64_t wrong = 0, turned = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const int bits = n % 2 == 0 ? 4 : 8;
+        const bool is_up = n % 3 != 0;
+        RasterState state = state_of(viewport);
+        state.y_direction = is_up ? YDirection::up : YDirection::down;
+        ClipVertex v;
+        v.w = random_float(random, 0.3f, 40);
+        v.x = random_float(random, -1, 1) * v.w;
+        v.y = random_float(random, -1, 1) * v.w;
+        RasterRules rules{.subpixel_bits = bits,
+                          .w_divide = WDivide::reciprocal,
+                          .viewport = ViewportArithmetic::half_pixel_first,
+                          .y_axis = YAxis::clip};
+        const WindowTransform window{state, rules};
+        const Integer x = from_lowest_centre(v.x, v.w, 17, 333, bits);
+        const Integer y = from_lowest_centre(v.y, v.w, is_up ? 0 : 5, 257, bits);
+        const Integer half = 1 << (bits - 1), rows = Integer{5 + 257} << bits;
+        const SubpixelPoint found = window.snapped(window.project(v)), counted = window.from_first_centre(v);
+        wrong += found.x == x + half && found.y == (is_up ? Integer{rows - y - half} : Integer{y + half}) ? 0 : 1;
+        wrong += counted.x == x && counted.y == y && window.is_turned() == is_up ? 0 : 1;
+        wrong += window.counted_row(9) == (is_up ? 252 : 9) ? 0 : 1;
+        const auto position = window.position(window.project(v));
+        wrong += std::abs(position[0] * static_cast<float>(1 << bits) - static_cast<float>(found.x)) <= 0.51f ? 0 : 1;
+        wrong += std::abs(position[1] * static_cast<float>(1 << bits) - static_cast<float>(found.y)) <= 0.51f ? 0 : 1;
+        rules.viewport = ViewportArithmetic::separate;
+        const WindowTransform whole{state, rules};
+        rules.y_axis = YAxis::memory;
+        const WindowTransform memory{state, rules};
+        turned += memory.snapped(memory.project(v)) == whole.snapped(whole.project(v)) ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+    CHECK(turned > 0);
+}
+
+TEST_CASE("half a pixel taken off first decides a position that rounds to the middle of two subpixels after it only") {
+    // Above 1024 the unit in the last place is 2^-13: 1024 + 3/32 - 2^-14 rounds up to a tie of sixteenths. Below it there is room.
+    const RasterState state = state_of({960, 0, 1088, 64});
+    const auto snapped = [&](float x, ViewportArithmetic arithmetic) {
+        const WindowTransform window{state, {.subpixel_bits = 4, .viewport = arithmetic}};
+        ClipVertex v;
+        v.x = x / 64;
+        return window.snapped(window.project(v)).x;
+    };
+    using enum ViewportArithmetic;
+    CHECK(snapped(3.0f / 32 - 0x1p-14f, separate) == 1024 * 16 + 2);
+    CHECK(snapped(3.0f / 32 - 0x1p-14f, half_pixel_first) == 1024 * 16 + 1);
+    CHECK(snapped(3.0f / 32, half_pixel_first) == 1024 * 16 + 2);
+}
+
+TEST_CASE("a vertex that may lie anywhere counts as the least number beyond 32 bits, and its w of 0 as 1") {
+    const WindowTransform window{state_of({0, 0, 64, 64}), {.subpixel_bits = 4, .w_divide = WDivide::reciprocal}};
+    const auto at = [&](float x, float w) {
+        ClipVertex v;
+        v.x = x;
+        v.w = w;
+        return window.from_first_centre(v).x;
+    };
+    constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
+    CHECK(at(0.5f, 0.0f) == 48 * 16 - 8);
+    CHECK(at(0.5f, 1.0f) == 48 * 16 - 8);
+    CHECK(at(0.5f, -1.0f) == 16 * 16 - 8);
+    CHECK(at(1e9f, 1.0f) == least);
+    CHECK(at(-1e9f, 1.0f) == least);
+    CHECK(at(std::numeric_limits<float>::quiet_NaN(), 1.0f) == least);
+}
+
+TEST_CASE("window positions that are given have neither half a pixel taken off nor another axis") {
+    RasterState state = state_of({0, 0, 64, 64});
+    state.window_positions = true;
+    const WindowTransform window{
+        state, {.subpixel_bits = 4, .viewport = ViewportArithmetic::half_pixel_first, .y_axis = YAxis::clip}};
+    ClipVertex v;
+    v.x = 10.25f;
+    v.y = 3.5f;
+    CHECK(window.snapped(window.project(v)) == SubpixelPoint{164, 56});
+    CHECK(window.from_first_centre(v) == SubpixelPoint{156, 48});
+    CHECK_FALSE(window.is_turned());
+}
+
 TEST_CASE("window positions are the rounded operations of the rule, for every divide and viewport arithmetic",
           "[slow]") {
     constexpr std::uint64_t seed = 32;

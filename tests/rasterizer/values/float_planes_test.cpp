@@ -14,14 +14,6 @@ namespace {
 
 using namespace strata::rasterizer;
 
-// A binary32 whose operations are those of the rationals, rounded once.
-struct Rounded {
-    float v = 0;
-    friend Rounded operator+(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} + Rational{b.v})}; }
-    friend Rounded operator-(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} - Rational{b.v})}; }
-    friend Rounded operator*(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} * Rational{b.v})}; }
-    friend Rounded operator/(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} / Rational{b.v})}; }
-};
 [[nodiscard]] Rounded fused(Rounded a, Rounded b, Rounded c) {
     return {nearest_float(Rational{a.v} * Rational{b.v} + Rational{c.v})};
 }

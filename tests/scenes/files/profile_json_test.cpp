@@ -41,6 +41,7 @@ TEST_CASE("a profile with every field at its other end reads back from its JSON 
         for (const ProfileField& field : profile_fields()) field.set(profile, highest ? field.highest : field.lowest);
         // Spans exclude the chip's weights, which the highest colours are made of.
         if (highest) profile.raster.coverage = strata::rasterizer::CoverageRule::snapped_edges;
+        if (highest) profile.has_signed_blend = false;  // equations of codes
         CHECK(parse_profile(to_json(profile), "x.json") == profile);
     }
 }
@@ -66,7 +67,7 @@ TEST_CASE("an unknown key or name suggests the nearest") {
           "my.json: /denormals: expected one of flush, keep, found 'flsh' (did you mean 'flush'?)");
     CHECK(error_of(R"({"name": "mine", "base": "geforce9"})") ==
           "my.json: /base: expected one of geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-          "softpipe, found 'geforce9' (did "
+          "softpipe, swiftshader, found 'geforce9' (did "
           "you mean "
           "'geforce3'?)");
 }
@@ -126,7 +127,7 @@ TEST_CASE("a profile is loaded by name or from a file, and a name that is neithe
     std::filesystem::remove(path);
     CHECK_THROWS_WITH(load_profile("gefroce8"),
                       "--profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-                      "softpipe, or a JSON file, "
+                      "softpipe, swiftshader, or a JSON file, "
                       "found 'gefroce8' (did you mean 'geforce8'?)");
     CHECK_THROWS_WITH(load_profile("missing.json"), Catch::Contains("missing.json"));
 }

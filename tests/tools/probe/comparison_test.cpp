@@ -91,7 +91,7 @@ TEST_CASE("a value that explains fewer pixels, but more of which are covered, is
     const auto clip = std::ranges::find(found.fields, "raster.clip", &FieldFinding::key);
     REQUIRE(clip != found.fields.end());
     INFO(clip->value << ": " << clip->reason << ", moved " << moved);
-    CHECK(clip->value == "view_volume");
+    CHECK(clip->value.starts_with("view_volume"));  // whichever comes first: both cover alike
     CHECK(clip->state == FieldState::broken);
     CHECK(clip->reason.starts_with("guard_band explains more pixels, but which are covered in "));
 }

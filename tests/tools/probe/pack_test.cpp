@@ -1,6 +1,7 @@
 // Model: a tar archive written block by block from POSIX's table; files changed by hand.
 #include "tools/probe/pack.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include "scenes/packs/npy.h"
 #include "tests/support/own_folder.h"
 #include "tools/probe/archive.h"
+#include "tools/probe/comparison.h"
 #include "tools/probe/kit.h"
 
 using namespace strata;
@@ -63,6 +65,42 @@ TEST_CASE("a pack that is written and read again has the same answers, refusals 
             CHECK(other.answer == reply.answer);
             CHECK(other.refusal == reply.refusal);
         }
+}
+
+TEST_CASE("texels of a 24-bit depth buffer are codes where all lie beside one, and else binary32") {
+    const strata::test::OwnFolder folder;
+    const std::vector<Item> items = some_items();
+    for (const bool holds_floats : {false, true}) {
+        pipeline::DeviceProfile device = *pipeline::find_profile("swiftshader");
+        device.depth24 = holds_floats ? pipeline::Depth24::binary32 : pipeline::Depth24::codes;
+        ProbePack pack = answer(device, items, {YDirection::down});
+        const ProbePack drawn = pack;
+        // As a page reads a buffer back: the float that a shader finds, whatever the buffer holds.
+        pipeline::Image& depth = *pack.answers[YDirection::down]["depth.d24"].answer->depth;
+        pipeline::Image texels{pipeline::Format::d32f, depth.width, depth.height};
+        for (std::size_t i = 0; i < depth.codes.size(); ++i) {
+            const float value = static_cast<float>(depth.codes[i] / 16777215.0);
+            texels.codes[i] = holds_floats ? depth.codes[i] : std::bit_cast<std::uint32_t>(value);
+        }
+        depth = texels;
+        const std::string path = folder.path() + (holds_floats ? "/floats" : "/codes");
+        write_pack(pack, items, path);
+        const ProbePack read = read_pack(path, items);
+        for (const auto& [name, reply] : drawn.answers.at(YDirection::down)) {
+            INFO(name);
+            CHECK(read.answers.at(YDirection::down).at(name).answer == reply.answer);
+        }
+        // A profile whose buffers hold floats explains codes where these are the nearest to its floats.
+        const Comparison held{read, items, YDirection::down};
+        pipeline::DeviceProfile floats = device;
+        floats.depth24 = pipeline::Depth24::binary32;
+        for (const std::size_t i : held.items_of({"depth.d24"})) {
+            const Reply again = held.drawn(floats, i);
+            CHECK(again.answer->depth->format == (holds_floats ? pipeline::Format::d32f : pipeline::Format::d24));
+            const std::uint64_t differ = difference(held.answer(i), *again.answer).depth;
+            CHECK((!holds_floats || differ == 0));
+        }
+    }
 }
 
 TEST_CASE("an archive of a pack is read as the folder is, with its first folder and without") {

@@ -58,7 +58,7 @@ TEST_CASE("where a device draws comes before what it draws there: the clip that 
         }
     }
     const DeviceProfile found = covered_first({pack, items, YDirection::down}, device);
-    CHECK(found.raster.clip == rasterizer::ClipVolume::view_volume);
+    CHECK(found.raster.clip != rasterizer::ClipVolume::guard_band);
     Difference sum;
     for (const Item& item : items)
         sum += difference(*pack.answers[YDirection::down][item.name].answer,

@@ -9,9 +9,7 @@ namespace {
 using pipeline::DepthFormat;
 using pipeline::Format;
 
-DepthFormat depth_of(const Experiment& e) {
-    return e.options.depth.value_or(e.profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
-}
+DepthFormat depth_of(const Experiment& e) { return e.profile.depth_buffer(e.options.depth); }
 
 bool takes_depth(Experiment& e, DepthFormat format) {
     if (depth_of(e) == format) return false;
@@ -33,7 +31,8 @@ bool takes_color(Experiment& e, Format format) {
 bool moves(Experiment& e, double right_px, double up_px) {
     const auto x = static_cast<float>(2 * right_px / e.options.width);
     const auto y = static_cast<float>(2 * up_px / e.options.height);
-    const bool fuses = e.profile.raster.viewport != rasterizer::ViewportArithmetic::separate;
+    using enum rasterizer::ViewportArithmetic;
+    const bool fuses = e.profile.raster.viewport == fused || e.profile.raster.viewport == fused_given;
     const auto moved = [fuses](float c, float by, float w) {
         if (fuses) return rasterizer::fused_multiply_add(by, w, c);
         const float distance = by * w;

@@ -32,8 +32,7 @@ NumberArray rows(Element element, std::size_t columns, const Items& items, Fill 
 peeling::PreparedLists lists_of(const RunInput& input) {
     rasterizer::RasterState raster = input.options.raster;
     raster.viewport = {0, 0, input.options.width, input.options.height};
-    raster.depth_format =
-        input.options.depth.value_or(input.profile.has_d32f ? pipeline::DepthFormat::d32f : pipeline::DepthFormat::d24);
+    raster.depth_format = input.profile.depth_buffer(input.options.depth);
     pipeline::View view = input.view;
     view.vertex_path = input.options.vertex_paths.first.value_or(view.vertex_path);
     const rasterizer::DepthRequest depth{input.options.depth_path.value_or(input.profile.raster.depth_path),

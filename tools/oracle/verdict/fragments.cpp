@@ -143,9 +143,7 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
     // Tiles come as threads finish them.
     std::ranges::sort(kept_, {}, [](const TileLists& t) { return std::pair{t.rect.y0, t.rect.x0}; });
     blank_ = rest_of_frame(behind_.width, behind_.height, rects);
-    rasterizer::DepthFormat format = input.options.depth.value_or(
-        input.profile.has_d32f ? rasterizer::DepthFormat::d32f : rasterizer::DepthFormat::d24);
-    far_code_ = rasterizer::max_code(format);
+    far_code_ = rasterizer::max_code(input.profile.depth_buffer(input.options.depth));
 }
 
 // Blank tiles do not run one by one: the first stands for the others, and what it takes is no tile of its own twice.
