@@ -19,7 +19,7 @@ peeling::RenderResult run(const FrameCase& frame, const Way& way) {
     options.effects = way.effects;
     options.simd = has_simd(way.simd) ? way.simd : Simd::best;
     options.fragment_memory = way.fragment_memory;
-    peeling::Renderer renderer{frame.list, frame.view, *pipeline::find_profile(frame.profile), options};
+    peeling::Renderer renderer{frame.list, frame.view, frame.profile, options};
     if (frame.algorithm == "depth_pass") return renderer.depth_pass({}, {.trust_idle = way.trust_idle});
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(frame.algorithm);
     // Programs run twice then, and what they note is noted twice: only a broken promise is asked for.
@@ -109,7 +109,8 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
         [](FrameCase& f) { for_all_materials(f, [](auto& m) {
                                m.front = m.back = {1, 1, 1, 0.5f};
                            }); },
-        [](FrameCase& f) { f.profile = "ideal"; },
+        [](FrameCase& f) { f.profile = *pipeline::find_profile(f.profile.name); },
+        [](FrameCase& f) { f.profile = *pipeline::find_profile("ideal"); },
         [](FrameCase& f) {
             for (Way& w : f.ways) w.tile_size = 32;
         },

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "peeling/registry.h"
+#include "pipeline/device/profile_fields.h"
 #include "tests/fuzz/scene_of_bytes.h"
 
 namespace strata::fuzz {
@@ -23,12 +24,25 @@ constexpr Running rasterizing{Execution::replay, 0}, replaying{Execution::replay
 constexpr std::array runnings{replaying, rasterizing, literal};
 
 // A profile that can run the algorithm; now and then any.
-std::string profile_for(ByteSource& bytes, const peeling::Algorithm* algorithm) {
-    std::vector<std::string> names;
+DeviceProfile profile_for(ByteSource& bytes, const peeling::Algorithm* algorithm) {
+    std::vector<DeviceProfile> profiles;
     const bool any = bytes.one_in(16);
     for (const DeviceProfile& p : builtin_profiles())
-        if (any || algorithm == nullptr || !refusal(*algorithm, p)) names.push_back(p.name);
-    return names[static_cast<std::size_t>(bytes.below(static_cast<int>(names.size())))];
+        if (any || algorithm == nullptr || !refusal(*algorithm, p)) profiles.push_back(p);
+    return profiles[static_cast<std::size_t>(bytes.below(static_cast<int>(profiles.size())))];
+}
+
+// Other values of up to four rules, one after the other, unless others rule them out.
+void vary_rules(ByteSource& bytes, DeviceProfile& profile) {
+    std::vector<const ProfileField*> rules;
+    for (const ProfileField& field : profile_fields())
+        if (field.kind == FieldKind::choice && field.key != "raster.depth_path") rules.push_back(&field);
+    for (int left = bytes.one_in(2) ? bytes.below(5) : 0; left > 0; --left) {
+        const ProfileField& rule = *rules[static_cast<std::size_t>(bytes.below(static_cast<int>(rules.size())))];
+        DeviceProfile other = profile;
+        rule.set(other, bytes.below(rule.highest + 1));
+        if (!conflict_of(other)) profile = other;
+    }
 }
 
 void choose_formats(ByteSource& bytes, const DeviceProfile& profile, peeling::RenderOptions& o) {
@@ -164,9 +178,10 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
     FrameCase frame;
     frame.algorithm = algorithm != nullptr ? algorithm->name : "depth_pass";
     frame.profile = profile_for(bytes, algorithm);
-    frame.options = options(bytes, *find_profile(frame.profile), algorithm);
+    frame.options = options(bytes, frame.profile, algorithm);
     frame.ways = ways(bytes);
     frame.view = view_of(bytes);
+    vary_rules(bytes, frame.profile);
     frame.list = list_of(bytes, frame.view, frame.options.width, frame.options.height);
     return frame;
 }

@@ -24,7 +24,8 @@ struct Way {
 };
 
 struct FrameCase {
-    std::string profile, algorithm;  // "depth_pass" is Renderer::depth_pass
+    std::string algorithm;            // "depth_pass" is Renderer::depth_pass
+    pipeline::DeviceProfile profile;  // a built-in one, some of whose rules may have other values
     peeling::RenderOptions options;
     pipeline::DrawList list;
     pipeline::View view;

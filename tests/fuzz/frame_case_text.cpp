@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <ostream>
 
+#include "pipeline/device/profile_fields.h"
 #include "tests/fuzz/frame_case.h"
 
 namespace strata::fuzz {
@@ -90,7 +91,11 @@ void print(std::ostream& out, const Way& w) {
 }
 
 void print(std::ostream& out, const FrameCase& f) {
-    out << std::setprecision(9) << f.algorithm << " on " << f.profile << ", ";
+    out << std::setprecision(9) << f.algorithm << " on " << f.profile.name << ", ";
+    const pipeline::DeviceProfile& built_in = *pipeline::find_profile(f.profile.name);
+    for (const pipeline::ProfileField& field : pipeline::profile_fields())
+        if (field.value(f.profile) != field.value(built_in))
+            out << field.key << ' ' << text_of(field, f.profile) << ", ";
     print_options(out, f.options);
     for (const Way& way : f.ways) {
         out << "way: ";

@@ -76,9 +76,7 @@ void try_calls(Bytes data) {
     frame.options.execution = way.execution;
     frame.options.tile_size = way.tile_size;
     frame.options.fragment_memory = way.fragment_memory;
-    const auto made = [&] {
-        return peeling::Renderer{frame.list, frame.view, *pipeline::find_profile(frame.profile), frame.options};
-    };
+    const auto made = [&] { return peeling::Renderer{frame.list, frame.view, frame.profile, frame.options}; };
     peeling::Renderer one = made();
     for (const Asked& asked : calls) {
         peeling::Renderer own = made();

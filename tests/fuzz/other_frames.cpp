@@ -47,7 +47,7 @@ bool compares_what_it_stores(const peeling::RenderOptions& o) {
 bool has_ties(const FrameCase& frame, const peeling::Algorithm& algorithm) {
     peeling::RenderOptions options = frame.options;
     options.keep_layers = false;
-    peeling::Renderer renderer{frame.list, frame.view, *pipeline::find_profile(frame.profile), options};
+    peeling::Renderer renderer{frame.list, frame.view, frame.profile, options};
     std::set<std::pair<std::uint32_t, std::uint32_t>> codes, exact;
     for (const auto& fragment : renderer.fragments(algorithm).all)
         if (!codes.emplace(fragment.pixel, fragment.code).second ||
@@ -73,7 +73,7 @@ void add_idle_state(FrameCase& frame) {
 }
 
 bool can_move(const FrameCase& frame) {
-    const rasterizer::RasterRules& rules = pipeline::find_profile(frame.profile)->raster;
+    const rasterizer::RasterRules& rules = frame.profile.raster;
     return rules.plane_rule == rasterizer::PlaneRule::exact &&
            rules.coverage == rasterizer::CoverageRule::snapped_edges;
 }
@@ -85,13 +85,13 @@ bool has_order_by_depth(const FrameCase& frame) {
     if (std::find(by_depth.begin(), by_depth.end(), frame.algorithm) == by_depth.end()) return false;
     if (frame.algorithm == "depth_pass") return true;
     // A run is blended in one pass, and how a list falls into runs is a matter of its order: where a pass rounds once, so are colours.
-    const bool rounds_passes = pipeline::find_profile(frame.profile)->blend_storage != pipeline::BlendStorage::target;
+    const bool rounds_passes = frame.profile.blend_storage != pipeline::BlendStorage::target;
     if (rounds_passes && frame.algorithm.starts_with("coherent_")) return false;
     if (o.termination.rule != pipeline::TerminationRule::exact || o.max_passes != 0 ||
         o.formulation != pipeline::Formulation::resolved || !compares_what_it_stores(o))
         return false;
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(frame.algorithm);
-    return !peeling::refusal(algorithm, *pipeline::find_profile(frame.profile)) && !has_ties(frame, algorithm);
+    return !peeling::refusal(algorithm, frame.profile) && !has_ties(frame, algorithm);
 }
 
 void permute_triangles(FrameCase& frame) {
