@@ -10,8 +10,6 @@ import os
 import subprocess
 import tempfile
 
-import swiftshader
-
 DRIVERS = ["llvmpipe", "llvmpipe_sse", "softpipe"]
 UNSEEN = 20
 
@@ -96,13 +94,6 @@ def operations(devices):
     return lines
 
 
-def planes(folder):
-    """What the model of SwiftShader's planes explains of a browser's answers."""
-    rows = swiftshader.model(os.path.join(folder, "kit", "kit.json"), os.path.join(folder, "kit", "answers.tar"))
-    return ["", "## SwiftShader's planes", "", "Covered pixels that the model of [swiftshader.py](swiftshader.py) has to the bit.", "",
-            "| scene | pixels |", "|---|---|", *(f"| {name} | {equal:,} of {covered:,} |" for name, equal, covered in rows)]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build")
@@ -135,7 +126,7 @@ def main():
     with open(options.output, "w", encoding="utf-8") as file:
         file.write(head + "\n## Devices\n\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 unseen scenes | coverage differs | depth differs | colour differs |\n"
                    "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n## Operations\n\nA hypothesis with the number of words that it explains, all of them; in bold the count of the best where none does "
-                   "([README.md](README.md)).\n\n" + "\n".join(operations(operated) + (planes(options.browser) if options.browser else [])) + "\n\n## Field by field\n\n" + "\n".join(pages))
+                   "([README.md](README.md)).\n\n" + "\n".join(operations(operated)) + "\n\n## Field by field\n\n" + "\n".join(pages))
 
 
 if __name__ == "__main__":
