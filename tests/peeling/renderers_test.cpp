@@ -42,23 +42,26 @@ RenderResult alone(const TriangleScene& scene, const RenderOptions& options, con
 
 TEST_CASE("frames in sequence are those of a renderer each, whatever order, tile size and depth the one before had") {
     const TriangleScene scene = random_triangles(801, 40);
-    const RenderOptions options = options_sized(150, 100);
-    std::vector<const Algorithm*> sequence = all_algorithms();
-    std::vector<RenderResult> expected;
-    for (const Algorithm* algorithm : sequence) expected.push_back(alone(scene, options, *algorithm));
-    Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options};
-    std::string wrong;
-    std::set<int> tile_sizes;
-    // Forward and back, so that each has another one before it.
-    for (std::size_t turn = 0; turn < 2 * sequence.size(); ++turn) {
-        const std::size_t i = turn < sequence.size() ? turn : 2 * sequence.size() - 1 - turn;
-        const RenderResult found = renderer.render(*sequence[i]);
-        if (const std::string what = difference(found, expected[i]); !what.empty())
-            wrong += sequence[i]->name + " after " + std::to_string(turn) + " others: " + what + "; ";
-        tile_sizes.insert(found.frame.work.tile_size);
+    RenderOptions plain = options_sized(150, 100), two_lists = plain;
+    two_lists.vertex_paths.second = pipeline::VertexPath::toward_zero;
+    const std::vector<const Algorithm*> sequence = all_algorithms();
+    for (const RenderOptions& options : {plain, two_lists}) {
+        std::vector<RenderResult> expected;
+        for (const Algorithm* algorithm : sequence) expected.push_back(alone(scene, options, *algorithm));
+        Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options};
+        std::string wrong;
+        std::set<int> tile_sizes;
+        // Forward and back, so that each has another one before it.
+        for (std::size_t turn = 0; turn < 2 * sequence.size(); ++turn) {
+            const std::size_t i = turn < sequence.size() ? turn : 2 * sequence.size() - 1 - turn;
+            const RenderResult found = renderer.render(*sequence[i]);
+            if (const std::string what = difference(found, expected[i]); !what.empty())
+                wrong += sequence[i]->name + " after " + std::to_string(turn) + " others: " + what + "; ";
+            tile_sizes.insert(found.frame.work.tile_size);
+        }
+        CHECK(wrong == "");
+        CHECK(tile_sizes.size() >= 3);  // 0 for a whole frame, and two of tiles
     }
-    CHECK(wrong == "");
-    CHECK(tile_sizes.size() >= 3);  // 0 for a whole frame, and two of tiles
 }
 
 TEST_CASE("two renderers of different scenes and sizes that draw in turns do not disturb each other") {
