@@ -9,7 +9,7 @@ namespace strata::scenes {
 NewFolder::NewFolder(const std::string& path) : path_{path} {
     std::error_code error;
     if (std::filesystem::exists(path_, error) && !std::filesystem::is_empty(path_, error))
-        throw InputError(path, "folder", "one that does not exist or is empty", "something");
+        throw InputError(path, "is not empty; it has to be a new folder or an empty one");
     // An absolute path: the name stays the same folder's.
     slot_ = enter_unfinished_folder(std::filesystem::absolute(path_).string());
     try {

@@ -85,5 +85,5 @@ TEST_CASE("options of a scene fit no picture as the reference") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"compare", "a.png", "b.png", "--profile", "llvmpipe"});
     CHECK(ended.status == 2);
-    CHECK(ended.err == "strata: --profile: expected a scene for it, found a picture as the reference\n");
+    CHECK(ended.err == "strata: --profile goes with a scene as the reference, not with a picture\n");
 }

@@ -77,8 +77,7 @@ TEST_CASE("diagnose takes a folder of packs, and says who made the pictures of a
     CHECK(document["scenes"].size() == 2);
     CHECK(document["findings"][0]["fits"] == nlohmann::json({true, true}));
     CHECK(run_strata(folder, {"diagnose", "set", "set/room"}).err ==
-          "strata: set/room: files: expected a picture or a folder with the name of a pack, such as left_out, found "
-          "none\n");
+          "strata: set/room: has no picture or folder with the name of a pack, such as left_out\n");
 }
 
 TEST_CASE("diagnose of a picture that was made by another command says in what the commands differ") {

@@ -67,7 +67,8 @@ TEST_CASE("golden says what it cannot do, and which byte of a pack has changed")
           "strata: dual: profile geforce3");
     CHECK(folder.files().empty());
     REQUIRE(run_strata(folder, {"golden", "planes:count=1,cells=1", "--size", "8x8", "-o", "p"}).status == 0);
-    fails({"golden", "planes:count=1,cells=1", "-o", "p"}, "p: folder: expected one that does not exist or is empty");
+    fails({"golden", "planes:count=1,cells=1", "-o", "p"},
+          "p: is not empty; it has to be a new folder or an empty one");
     REQUIRE(shell(folder, "printf '\\007' | dd of=p/expected/dual/picture.npy bs=1 seek=200 conv=notrunc").status == 0);
     const Ended check = run_strata(folder, {"golden", "--check", "p"});
     CHECK(check.status == 1);

@@ -60,7 +60,7 @@ TEST_CASE("a suite holds the packs of its commands, says which mistake shows whe
     CHECK_THAT(
         spoiled.out,
         Contains(scene + "/expected/front_to_back/picture.npy: byte 200, row 0, column 18, channel 0: expected "));
-    CHECK_THAT(spoiled.out, Contains("suite.json: line 7: expected what is derived again, found something else\n"));
+    CHECK_THAT(spoiled.out, Contains("suite.json: line 7: is not what the scenes give now\n"));
 }
 
 TEST_CASE("a suite takes no options of other packs, and lists scenes that there are") {
@@ -71,7 +71,7 @@ TEST_CASE("a suite takes no options of other packs, and lists scenes that there 
         CHECK(ended.err == "strata: " + sentence + "\n");
     };
     fails({"golden", "--suite", "-o", "set", "--algorithm", "dual"},
-          "--suite: expected a folder for it alone, found --algorithm");
+          "--suite excludes --algorithm: its scenes bring their own options");
     fails({"golden", "teapot", "--suite", "-o", "set"},
           "SCENE: expected a scene of the suite (strata diagnose --list --suite shows them), found 'teapot'");
     fails({"golden", "--suite"}, "-o is missing: the folder for the pack");

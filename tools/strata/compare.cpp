@@ -85,12 +85,12 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
 int compare_folders(const CompareOptions& options) {
     if (!options.background.empty())
         throw CLI::ValidationError(
-            "--background", "expected a picture as the candidate, found a folder; compare its picture.npy alone");
+            "--background goes with a picture as the candidate; of a folder compare its picture.npy");
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
     if (std::ranges::none_of(found, &oracle::PackComparison::is_there))
-        throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
+        throw InputError(options.candidate, "has pictures of none of the pack's algorithms");
     draw_folders(options, reference, candidate, found);
     if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
     if (!options.report.empty()) write_page(options.report, page_of(paths_of(options), reference, candidate, found));
@@ -106,8 +106,7 @@ oracle::Picture reference_of(const CompareOptions& options) {
                              oracle::read_picture(options.candidate, options.layout));
     auto all = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     if (all.size() != 1)
-        throw CLI::ValidationError("--algorithm",
-                                   "expected one of the pack's, for a picture to compare with it, found none");
+        throw CLI::ValidationError("the pack has several algorithms: --algorithm says which one the picture is of");
     return std::move(all[0].picture);
 }
 
@@ -153,7 +152,7 @@ void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pi
     for (const CLI::Option* option : app.get_options())
         if (option->count() > 0 && option->get_name() != "--background" &&
             std::ranges::find(of_pictures, option) == of_pictures.end())
-            throw CLI::ValidationError(option->get_name(), "expected a scene for it, found a picture as the reference");
+            throw CLI::ValidationError(option->get_name() + " goes with a scene as the reference, not with a picture");
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ void check_alone(const CLI::App& app) {
         if (const std::string name = option->get_name(); option->count() > 0 && !is_message_option(*option) &&
                                                          name != "--suite" && name != "--exr" && name != "--output" &&
                                                          name != "SCENE")
-            throw CLI::ValidationError("--suite", "expected a folder for it alone, found " + name);
+            throw CLI::ValidationError("--suite excludes " + name + ": its scenes bring their own options");
 }
 
 int golden(GoldenOptions& options) {

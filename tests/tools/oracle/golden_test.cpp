@@ -93,7 +93,7 @@ TEST_CASE("a check finds files that are missing or too many, a changed manifest,
     const std::string picture = pack + "/expected/front_to_back/picture.npy", whole = bytes_of_file(picture);
     files::remove(picture);
     REQUIRE(check_pack(pack).size() == 1);
-    CHECK(check_pack(pack)[0].sentence == "expected a file, found none");
+    CHECK(check_pack(pack)[0].sentence == "no such file");
     put_bytes(picture, whole.substr(0, whole.size() - 1));
     CHECK_THAT(check_pack(pack).at(0).sentence, Contains("more than one place"));
     put_bytes(picture, whole);
@@ -122,7 +122,7 @@ TEST_CASE("a check finds files that are missing or too many, a changed manifest,
     put_bytes(manifest, text);
     CHECK(check_pack(pack).empty());
     CHECK_THROWS_WITH(write_pack(small_golden("planes:count=1,cells=1", {"dual"}), pack),
-                      Contains("folder: expected one that does not exist or is empty"));
+                      Contains("is not empty; it has to be a new folder or an empty one"));
     CHECK(check_pack(pack).empty());
     // A refused algorithm leaves no folder.
     CHECK_THROWS_AS(write_pack(small_golden("planes:count=1", {"dual"}, "geforce3"), folder.path() + "/none"),

@@ -99,7 +99,7 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
 std::string first_difference(const std::string& found, const std::string& expected) {
     const auto at = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
     const auto line = 1 + std::count(found.begin(), at.first, '\n');
-    return "line " + std::to_string(line) + ": expected what is derived again, found something else";
+    return "line " + std::to_string(line) + ": is not what the scenes give now";
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ std::string difference(const std::string& found, const std::string& expected, co
 std::string manifest_difference(const std::string& found, const std::string& expected) {
     const json patch = json::diff(json::parse(found), json::parse(expected));
     if (patch.empty()) return difference(found, expected, "manifest.json");
-    return fmt::format("{}: expected what is derived again, found something else", patch[0]["path"].get<std::string>());
+    return fmt::format("{}: is not what the scene gives now", patch[0]["path"].get<std::string>());
 }
 
 std::uint64_t sum_at(const ManifestValue& listed, std::size_t i) {
@@ -87,7 +87,7 @@ std::string listed_difference(const std::string& bytes, const std::string& name,
     const std::string_view hashed = array ? std::string_view{array->bytes} : std::string_view{bytes};
     if (scenes::digest_of_bytes(hashed) == listed.text("digest") && scenes::sums_of(bytes) == sums) return "";
     const auto changed = scenes::changed_byte(bytes, sums);
-    if (!changed) return "expected the bytes that its digest is of, found others, at more than one place";
+    if (!changed) return "its bytes are not those of the digest, at more than one place";
     return fmt::format("{}: expected {}, found {}", place_in_file(bytes, name, changed->position), changed->was,
                        changed->is);
 }
@@ -112,7 +112,7 @@ class Check {
             if (is_exr_copy(name))
                 copies_.push_back(name);
             else if (name != "manifest.json" && !listed.value().contains(name))
-                note(name, "expected no such file, found one");
+                note(name, "is not in the manifest");
         }
         std::ranges::sort(copies_);
     }
@@ -139,7 +139,7 @@ class Check {
         try {
             return scenes::read_text_file(folder_ + "/" + name, most_bytes);
         } catch (const InputError&) {
-            note(name, "expected a file, found none");
+            note(name, "no such file");
             return std::nullopt;
         }
     }

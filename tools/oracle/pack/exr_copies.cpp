@@ -60,8 +60,8 @@ std::string difference(const Picture& expected, const Picture& copy, bool is_pas
     for (const Target& target : expected.targets) {
         const std::string name = target.part.empty() ? target.name : target.part + "." + target.name;
         const Target* found = find_copy(copy, target, is_pass);
-        if (found == nullptr) return fmt::format("{}: expected a part of it, found none", name);
-        if (found->codes != target.codes) return fmt::format("{}: expected the codes of its array, found others", name);
+        if (found == nullptr) return fmt::format("has no part {}", name);
+        if (found->codes != target.codes) return fmt::format("{}: its codes are not those of the array", name);
     }
     return "";
 }
@@ -81,11 +81,11 @@ std::string fault_of(const std::vector<PackPictures>& all, const std::string& fo
     const std::string name = file.substr(slash + 1);
     const auto expected = std::ranges::find(all, algorithm, &PackPictures::algorithm);
     const Picture* original = expected == all.end() ? nullptr : original_of(*expected, name);
-    if (original == nullptr) return "expected no such file, found one";
+    if (original == nullptr) return "is a copy of no array";
     try {
         return difference(*original, read_picture(folder + "/" + file), name.starts_with("pass."));
     } catch (const InputError& error) {
-        return std::string{"expected an image, found a damaged one: "} + error.what();
+        return std::string{"is damaged: "} + error.what();
     }
 }
 

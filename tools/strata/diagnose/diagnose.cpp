@@ -97,8 +97,7 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::
     DiagnoseOptions& options = opened->options;
     choose_algorithm(options.run);
     complete(options.run);
-    if (options.run.algorithms.size() != 1)
-        throw CLI::ValidationError("--algorithm", "expected one algorithm, found several");
+    if (options.run.algorithms.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
     const peeling::Algorithm& algorithm = *options.run.algorithms[0];
     opened->candidate = read_candidate(options, algorithm.name);
     opened->passes = read_passes(options, algorithm.name);
@@ -243,8 +242,7 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
         bar.show(0.5 * static_cast<double>(opened.size()) / static_cast<double>(packs.size()));
     }
     if (scenes.empty())
-        throw InputError(options.candidate, "files",
-                         "a picture or a folder with the name of a pack, such as " + packs[0], "none");
+        throw InputError(options.candidate, "has no picture or folder with the name of a pack, such as " + packs[0]);
     const oracle::ScenesDiagnosis found =
         oracle::diagnose_scenes(scenes, options.tolerances, [&](double share) { bar.show(0.5 + 0.5 * share); });
     if (found.verdict != oracle::Verdict::right)
@@ -260,7 +258,7 @@ void check_several(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options())
         if (option->count() > 0 && std::ranges::find(fitting, option->get_name()) == fitting.end() &&
             !is_message_option(*option))
-            throw CLI::ValidationError(option->get_name(), "expected one scene for it, found a folder of packs");
+            throw CLI::ValidationError(option->get_name() + " goes with one scene, not with a folder of packs");
 }
 
 int diagnose(const CLI::App& app, const DiagnoseOptions& options) {

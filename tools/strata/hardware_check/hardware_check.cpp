@@ -47,8 +47,7 @@ std::vector<std::string> sorted_names(const fs::path& folder, auto&& is_wanted) 
 
 // Every capture in the folder, suite by suite; unknown suites too.
 std::vector<Capture> find_captures(const Options& options) {
-    if (!fs::is_directory(options.folder))
-        throw InputError{options.folder, "captures", "a folder with one folder a suite", "none"};
+    if (!fs::is_directory(options.folder)) throw InputError{options.folder, "no such folder of captures"};
     std::vector<std::string> known;
     for (const hc::Suite& suite : hc::suites()) known.emplace_back(suite.name);
     if (!options.suite.empty() && hc::find_suite(options.suite) == nullptr)

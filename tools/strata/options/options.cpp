@@ -247,7 +247,7 @@ void take_scene(RunOptions& options, const std::string& scene) {
 
 const peeling::Algorithm* to_algorithm(const std::string& name) {
     const auto chosen = to_algorithms(name);
-    if (chosen.size() != 1) throw CLI::ValidationError("--algorithm", "expected one algorithm, found several");
+    if (chosen.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
     return chosen[0];
 }
 

@@ -105,8 +105,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
 int layers(LayersOptions& options) {
     check_outputs({{"-o", options.run.output, {".exr", ".png"}, Piped::possibly}, {"--deep", options.deep, {".exr"}}});
     if (options.run.output.empty() && options.deep.empty()) {
-        throw CLI::ValidationError("-o",
-                                   "expected a file for the layers, or --deep one for the fragments, found neither");
+        throw CLI::ValidationError("-o is missing: the file for the layers; or --deep FILE, for the fragments");
     }
     options.run.render.keep_layers = true;
     return run_algorithms(options.run, [&](const Finished& finished) { write_layers(options, finished); });

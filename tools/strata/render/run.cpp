@@ -232,9 +232,7 @@ void check_output(const Output& output) {
     if (output.is_piped()) {
         if (isatty(STDOUT_FILENO) == 1)
             throw CLI::ValidationError(
-                output.option,
-                "expected standard output to be a pipe or a file, found a terminal, which cannot "
-                "show a picture's bytes");
+                output.option, "a terminal cannot show a picture's bytes: name a file, or send standard output to one");
         return;
     }
     const auto fits = [&](const std::string& ending) { return output.path.ends_with(ending); };
