@@ -4,6 +4,7 @@
 #include "pipeline/region/check_pass.h"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
 namespace strata::pipeline {
@@ -41,6 +42,10 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
         if (t.exists()) agrees(t);
     for (const Target t : state.color)
         if (t.exists()) agrees(t);
+    for (const DepthUnit& unit : std::span{state.depth_units}.first(static_cast<std::size_t>(state.depth_unit_count))) {
+        require(unit.depth.exists() && is_depth(format(unit.depth)), "a depth unit needs a depth target");
+        agrees(unit.depth);
+    }
     // A texture lookup may reach any pixel, so order among the fragments of one pixel cannot make a loop safe.
     for (const Target t : state.textures) {
         require(!t.exists() || is_depth(format(t)), "texture units sample depth targets");

@@ -244,7 +244,7 @@ class Region {
                                          Lanes<std::uint32_t>& alive);  // answers how many pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                Lanes<std::uint32_t>& alive);
-    void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void test_depth_units(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
     void idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
     void idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
     void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,

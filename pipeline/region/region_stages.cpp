@@ -214,7 +214,7 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
                            Drawn& drawn) {
     Lanes<std::uint32_t>& alive = scratch_->alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
-    if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
+    if (state.depth_unit_count > 0) test_depth_units(state, batch, sample, alive);
     show(Stage::depth_units, state, batch, out, alive, sample);
     idle_tests(state, batch, alive);
     const bool is_tested = state.depth.enabled || state.stencil.enabled;
@@ -239,11 +239,12 @@ void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const 
 }
 
 // The units test one after the other, without a write; a fragment stops at the first that fails (fragment-stages.md 4).
-void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
+void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, int sample,
+                              Lanes<std::uint32_t>& alive) {
     for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
         TargetStorage& target = at(state.depth_units[unit].depth);
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
-        const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
+        const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(sample),
                                               lanes_of(batch), batch.code.data(), alive.data());
         count(of_depth_test(pixel_bytes(target), result.arriving, result.passed, false));
     }

@@ -127,6 +127,30 @@ TEST_CASE("depth and stencil are tested for each sample on its own") {
     CHECK(m.region.storage(depth).depth(1)[0] == std::bit_cast<std::uint32_t>(0.5f));
 }
 
+TEST_CASE("a depth unit tests each sample on its own, and has as many samples as the pass") {
+    Machine m{stacks({1}), "ideal"};
+    const Target unit = m.region.make(Format::d32f, 2), color = m.region.make(Format::rgba32f, 2);
+    m.region.clear(unit, {.depth = 0.25f}, 0b01);
+    m.region.clear(unit, {.depth = 0.75f}, 0b10);
+    m.region.clear(color, {.color = {9, 9, 9, 9}});
+    PassState state;
+    state.color[0] = color;
+    state.depth_unit_count = 1;
+    for (const auto& [func, kept] : {std::pair{CompareFunc::less, 1}, {CompareFunc::greater, 0}}) {
+        m.region.clear(color, {.color = {9, 9, 9, 9}});
+        state.depth_units[0] = {.depth = unit, .func = func};
+        static_cast<void>(m.region.draw(state, pass_color));
+        for (int s = 0; s < 2; ++s)
+            CHECK(std::bit_cast<float>(m.region.storage(color).code(0, 0, s)) == (s == kept ? 0.0f : 9.0f));
+    }
+    state.depth_units[0].depth = m.region.make(Format::d32f, 1);
+    CHECK_THROWS_AS(m.region.draw(state, pass_color), std::logic_error);
+    state.depth_units[0].depth = color;
+    CHECK_THROWS_AS(m.region.draw(state, pass_color), std::logic_error);
+    state.depth_units[0].depth = Target{};
+    CHECK_THROWS_AS(m.region.draw(state, pass_color), std::logic_error);
+}
+
 TEST_CASE("a target that is read and written at once is a broken program, and runs with ordered_rmw alone") {
     Machine device{stacks({4}), "geforce8"}, ideal{stacks({0, 4, 2}), "ideal"};
     const auto add_red = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
