@@ -1,5 +1,6 @@
 // tools/oracle/verdict/color_rules.cpp - rules that change layers' colours, add them up, or change what lies behind them.
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/verdict/structure.h"
@@ -26,8 +27,26 @@ Rgba with_each(const Rgba& color, float (*change)(float)) {
 
 }  // namespace
 
+// All layers become one that hides the background's own share, or is composited as a whole.
+void StackMaker::combine_with_background(const Rule& rule) {
+    if (items_.empty()) return;
+    if (rule.kind == RuleKind::composed_twice) {
+        Rgba sum{0, 0, 0, 1};  // alpha: what is let through
+        for (const Item& item : items_) {
+            const Rgba& color = item.layer.color;
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += sum[3] * color[3] * color[c];
+            sum[3] *= 1 - color[3];
+        }
+        sum[3] = 1 - sum[3];
+        // It was rounded on the way, perhaps to codes.
+        items_[0].layer = {.color = sum, .slack = 1.0f / 255};
+        return keep(0, 1);
+    }
+}
+
 // All layers, or those behind the nearest n, become one.
 void StackMaker::combine(const Rule& rule) {
+    combine_with_background(rule);
     const bool averages = rule.kind == RuleKind::averaged || rule.kind == RuleKind::rest_averaged;
     if (!averages && rule.kind != RuleKind::added && rule.kind != RuleKind::weighted_sum) return;
     const std::size_t from = rule.kind == RuleKind::rest_averaged ? rule.n : 0;
@@ -73,6 +92,12 @@ void StackMaker::recolor(const Rule& rule) {
                 break;
             case RuleKind::not_premultiplied: item.layer.is_premultiplied = true; break;
             case RuleKind::red_for_blue: std::swap(color[0], color[2]); break;
+            case RuleKind::alpha_root: color[3] = std::sqrt(color[3]); break;
+            case RuleKind::channel_lost: color[static_cast<int>(rule.n)] = 0; break;
+            case RuleKind::through_late:
+                for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3] * (1 - color[3]);
+                item.layer.is_premultiplied = true;
+                break;
             case RuleKind::decoded:
             case RuleKind::blended_linear: color = with_each(color, scenes::decode_srgb); break;
             case RuleKind::encoded: color = with_each(color, scenes::encode_srgb); break;
@@ -90,6 +115,37 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             if (!pixel.has_opaque) stack_.background = nothing;
             break;
         case RuleKind::surface_lost: stack_.background = nothing; break;
+        case RuleKind::background_other:
+            if (!pixel.has_opaque && setting_->seen_background) stack_.background = *setting_->seen_background;
+            break;
+        case RuleKind::multiplied:
+        case RuleKind::greatest:
+        case RuleKind::least: {
+            Rgba result = stack_.background;
+            for (const Layer& layer : stack_.layers)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const float color = layer.color[c];
+                    result[c] = rule.kind == RuleKind::multiplied ? result[c] * color
+                                : rule.kind == RuleKind::greatest ? std::max(result[c], color)
+                                                                  : std::min(result[c], color);
+                }
+            stack_.background = result;
+            stack_.layers.clear();
+            stack_.near = stack_.near_without_middle = 0;
+            break;
+        }
+        case RuleKind::background_added: {
+            Rgba again = stack_.background;
+            again[3] = 0;
+            if (stack_.layers.empty()) break;
+            stack_.layers.insert(stack_.layers.begin(), Layer{again, true});
+            stack_.background = nothing;
+            ++stack_.near;
+            ++stack_.near_without_middle;
+            break;
+        }
+        case RuleKind::picture_encoded: stack_.finish = Finish::encoded; break;
+        case RuleKind::picture_decoded: stack_.finish = Finish::decoded; break;
         case RuleKind::background_twice: {
             Rgba again = pixel.behind;
             again[3] = 0;

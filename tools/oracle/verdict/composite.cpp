@@ -243,8 +243,11 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     Channels back = is_apart ? Channels{} : behind;
     over(back_, near_to_far.subspan(near), stack.is_linear, back);
     const auto published = [&](std::size_t c, Interval exact, double magnitude) {
+        if (c < 3 && stack.finish == Finish::encoded) return result_.kept(encoded(clamped(exact)), magnitude);
+        if (c < 3 && stack.finish == Finish::decoded) return result_.kept(decoded(clamped(exact)), magnitude);
         return result_.kept(stack.is_linear && c < 3 ? encoded(exact) : exact, magnitude);
     };
+    const bool converts = converts_ || stack.finish != Finish::as_is;
     Reach reach;
     if (is_apart) {
         const Interval through = clamped(rest_of(back[3]));
@@ -258,7 +261,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     if (!has_front(order)) {
         for (std::size_t c = 0; c < 4; ++c) {
             const bool is_encoded = stack.is_linear && c < 3;
-            reach[c] = converts_ ? published(c, back[c], back[c].magnitude()) : is_encoded ? encoded(back[c]) : back[c];
+            reach[c] = converts ? published(c, back[c], back[c].magnitude()) : is_encoded ? encoded(back[c]) : back[c];
         }
         return reach;
     }

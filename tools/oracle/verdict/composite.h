@@ -25,6 +25,9 @@ struct Layer {
     friend bool operator==(const Layer&, const Layer&) = default;
 };
 
+// What becomes of a finished picture's colours before they are stored.
+enum class Finish : std::uint8_t { as_is, encoded, decoded };
+
 // A pixel's layers, near to far, over its background.
 struct Stack {
     std::vector<Layer> layers{};
@@ -32,6 +35,7 @@ struct Stack {
     // Of peels from both ends: how many layers the near half of the depths has, with the middle depth and without it.
     std::size_t near = 0, near_without_middle = 0;
     bool is_linear = false;  // colours are in linear light, and what is kept is encoded to sRGB
+    Finish finish = Finish::as_is;
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 

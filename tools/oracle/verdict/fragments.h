@@ -60,6 +60,8 @@ class SceneFragments {
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] std::size_t most_visible() const noexcept { return most_visible_; }
 
+    // What the candidate has where nothing is drawn.
+    void set_seen_background(const Rgba& color) { setting_.seen_background = color; }
     // Finds out what else may cover pixels at edges, from now on; nothing for scenes that are too large for it.
     void find_coverages();
 

@@ -1,9 +1,20 @@
 // tools/oracle/verdict/layer_rules.cpp - rules that choose, order, double, lose and merge a pixel's layers.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "tools/oracle/verdict/structure.h"
 
 namespace strata::oracle::verdict {
+
+namespace {
+
+// A depth as a buffer of so many bits has it.
+std::int64_t in_bits(const Fragment& f, std::uint32_t bits) {
+    return static_cast<std::int64_t>(std::floor(double{f.shader_z} * std::exp2(bits)));
+}
+
+}  // namespace
 
 void StackMaker::keep(std::size_t first, std::size_t last) {
     last = std::min(last, items_.size());
@@ -55,6 +66,13 @@ void StackMaker::choose_by_number(const Rule& rule) {
             return;
         case RuleKind::first_submitted: return by_submission([&](std::size_t at) { return at < n; });
         case RuleKind::last_submitted: return by_submission([&](std::size_t at) { return at >= rest; });
+        case RuleKind::middle_lost:
+            if (all % 2 == 1) items_.erase(items_.begin() + static_cast<std::ptrdiff_t>(all / 2));
+            return;
+        case RuleKind::middle_doubled:
+            if (all % 2 == 1)
+                items_.insert(items_.begin() + static_cast<std::ptrdiff_t>(all / 2), Item{items_[all / 2]});
+            return;
         case RuleKind::odd_lost: return every_second(1);
         case RuleKind::even_lost: return every_second(0);
         case RuleKind::ended_early: {
@@ -92,6 +110,15 @@ void StackMaker::choose_by_nature(const Rule& rule, const PixelList& pixel) {
         case RuleKind::alpha_below_kept: return lose([&](const Fragment& f) { return !(f.color[3] < rule.value); });
         case RuleKind::behind_drawn: return test([](std::uint32_t own, std::uint32_t kept) { return own < kept; });
         case RuleKind::before_drawn: return test([](std::uint32_t own, std::uint32_t kept) { return own > kept; });
+        case RuleKind::lost_in_bits: {
+            std::optional<std::int64_t> last;
+            return lose([&](const Fragment& f) {
+                const std::int64_t depth = in_bits(f, rule.n);
+                const bool is_there = last == depth;
+                last = depth;
+                return is_there;
+            });
+        }
         case RuleKind::near_opaque_lost:
             return lose([&](const Fragment& f) { return pixel.has_opaque && pixel.opaque - f.code <= rule.n; });
         case RuleKind::opaque_in_front:
@@ -116,6 +143,22 @@ void StackMaker::order(const Rule& rule) {
     };
     switch (rule.kind) {
         case RuleKind::reversed: std::ranges::reverse(items_); return;
+        case RuleKind::ordered_in_bits:
+            return by([&](const Fragment& f) { return std::pair{in_bits(f, rule.n), f.primitive}; });
+        case RuleKind::sorted_once:
+            by([](const Fragment& f) { return f.primitive; });
+            for (std::size_t i = 0; i + 1 < items_.size(); ++i)
+                if (items_[i].fragment->code > items_[i + 1].fragment->code) std::swap(items_[i], items_[i + 1]);
+            return;
+        case RuleKind::nearest_behind:
+            if (!items_.empty()) std::rotate(items_.begin(), items_.begin() + 1, items_.end());
+            return;
+        case RuleKind::farthest_before:
+            if (!items_.empty()) std::rotate(items_.begin(), items_.end() - 1, items_.end());
+            return;
+        case RuleKind::pairs_swapped:
+            for (std::size_t i = 0; i + 1 < items_.size(); i += 2) std::swap(items_[i], items_[i + 1]);
+            return;
         case RuleKind::as_submitted: return by([&](const Fragment& f) { return ~drawn(f, rule.n); });
         case RuleKind::as_submitted_reversed: return by([&](const Fragment& f) { return drawn(f, rule.n); });
         case RuleKind::by_instance:
@@ -179,6 +222,16 @@ void StackMaker::edit_one(const Rule& rule) {
             for (std::size_t c = 0; c < 3; ++c) items_[n].layer.color[c] = items_[from].layer.color[c];
             return;
         }
+        case RuleKind::colors_shifted:
+        case RuleKind::alphas_shifted:
+            for (std::size_t i = 0; i + 1 < all; ++i)
+                for (std::size_t c = 0; c < 4; ++c)
+                    if ((c == 3) == (rule.kind == RuleKind::alphas_shifted))
+                        items_[i].layer.color[c] = items_[i + 1].layer.color[c];
+            return;
+        case RuleKind::nearest_repeated:
+            for (Item& item : items_) item.layer = items_[0].layer;
+            return;
         case RuleKind::all_doubled:
         case RuleKind::some_doubled: return doubles();
         default: return;

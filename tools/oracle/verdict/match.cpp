@@ -118,6 +118,7 @@ std::string key_of(const StackedPixel& pixel) {
         add(stack.near);
         add(stack.near_without_middle);
         add(stack.is_linear);
+        add(stack.finish);
     }
     return key;
 }

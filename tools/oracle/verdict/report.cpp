@@ -63,6 +63,7 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
         if (v.explanations.size() > 1) add(sentence(c.account.rules, v.facts, list));
         add((v.explanations.size() > 1 ? "  " : "") + reach_of(c, v));
     }
+    if (!v.telling.empty()) add("this tells them apart: " + v.telling);
     const Checked& account = v.explanations.empty() ? v.right : v.explanations[0];
     add((v.is_right || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
@@ -76,7 +77,10 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     }
     for (const Lead& lead : v.leads) add("lead: " + lead_of(lead, v, list));
     if (v.is_right && !v.alike.empty())
-        add(fmt::format("on this scene {} of {} mistakes of structure would look the same", v.alike.size(), v.kinds));
+        add(
+            fmt::format("on this scene {} of {} mistakes of structure would look the same: strata diagnose --list "
+                        "--suite has scenes that show more",
+                        v.alike.size(), v.kinds));
     return text;
 }
 
@@ -126,6 +130,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
     document["alike"] = ordered_json::array();
     for (const Rule& rule : v.alike) document["alike"].push_back(name(rule.kind));
     document["kinds"] = v.kinds;
+    if (!v.telling.empty()) document["telling"] = v.telling;
     document["first_wrong"] = ordered_json::array();
     constexpr std::size_t most = 16;
     const auto width = static_cast<std::uint32_t>(v.width);

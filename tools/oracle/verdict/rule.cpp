@@ -70,6 +70,32 @@ std::string_view name(RuleKind kind) noexcept {
         case RuleKind::decoded: return "decoded";
         case RuleKind::encoded: return "encoded";
         case RuleKind::blended_linear: return "blended_linear";
+        case RuleKind::middle_lost: return "middle_lost";
+        case RuleKind::middle_doubled: return "middle_doubled";
+        case RuleKind::colors_shifted: return "colors_shifted";
+        case RuleKind::alphas_shifted: return "alphas_shifted";
+        case RuleKind::nearest_repeated: return "nearest_repeated";
+        case RuleKind::nearest_behind: return "nearest_behind";
+        case RuleKind::farthest_before: return "farthest_before";
+        case RuleKind::pairs_swapped: return "pairs_swapped";
+        case RuleKind::ordered_in_bits: return "ordered_in_bits";
+        case RuleKind::lost_in_bits: return "lost_in_bits";
+        case RuleKind::sorted_once: return "sorted_once";
+        case RuleKind::through_late: return "through_late";
+        case RuleKind::multiplied: return "multiplied";
+        case RuleKind::greatest: return "greatest";
+        case RuleKind::least: return "least";
+        case RuleKind::composed_twice: return "composed_twice";
+        case RuleKind::hidden_alone: return "hidden_alone";
+        case RuleKind::background_added: return "background_added";
+        case RuleKind::background_other: return "background_other";
+        case RuleKind::alpha_root: return "alpha_root";
+        case RuleKind::channel_lost: return "channel_lost";
+        case RuleKind::picture_encoded: return "picture_encoded";
+        case RuleKind::picture_decoded: return "picture_decoded";
+        case RuleKind::rows_reversed: return "rows_reversed";
+        case RuleKind::columns_reversed: return "columns_reversed";
+        case RuleKind::turned: return "turned";
     }
     return "";  // unreachable: the enum is closed
 }

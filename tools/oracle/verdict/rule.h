@@ -25,7 +25,9 @@ enum class RuleKind : std::uint8_t {
     last_submitted,          // the last n submitted, sorted
     odd_lost,                // the second, the fourth ...
     even_lost,               // the nearest, the third ...
-    ended_early,             // none behind those that let less than `value` through
+    middle_lost,             // of an odd number
+    middle_doubled,
+    ended_early,  // none behind those that let less than `value` through
     // One layer: n is its number
     lost,
     lost_from_far,
@@ -38,6 +40,15 @@ enum class RuleKind : std::uint8_t {
     color_of_next,     // it has the colour of the one behind it
     color_of_previous,
     // All layers
+    colors_shifted,    // each has the colour of the one behind it
+    alphas_shifted,    // each has the alpha of the one behind it
+    nearest_repeated,  // each is the nearest
+    nearest_behind,    // the nearest comes behind all others
+    farthest_before,   // the farthest comes before all others
+    pairs_swapped,     // each second one comes before the one that is nearer
+    ordered_in_bits,   // by depths of n bits, equal ones as submitted
+    lost_in_bits,      // all but the first of one depth of n bits
+    sorted_once,       // as submitted, near to far, and neighbours exchanged in one walk
     all_doubled,
     reversed,
     as_submitted,           // the last drawn in front; n: the drawing order (setting.h)
@@ -47,6 +58,11 @@ enum class RuleKind : std::uint8_t {
     averaged,               // one layer, of a weighted average; n: which weights and which alpha (structure.cpp)
     added,                  // colours times alpha added to the background
     weighted_sum,           // colours times alpha, and the background times 1 less all alphas
+    through_late,           // what a layer lets through counts for its own colour, too
+    multiplied,             // the background times all colours
+    greatest,               // MAX of all colours and the background
+    least,                  // MIN
+    composed_twice,         // over nothing, and the result over the background by its alpha again
     nearest_of_instance,
     // Some layers, by what they are; `scope` says which, n its number
     some_lost,
@@ -65,6 +81,7 @@ enum class RuleKind : std::uint8_t {
     edges_never,  // neither is
     // The opaque surface and the background
     hidden_shown,      // those behind the opaque surface over it
+    hidden_alone,      // those behind the opaque surface, and none before it
     at_opaque_shown,   // those within n codes behind the opaque surface, and at it, too: LEQUAL for LESS
     near_opaque_lost,  // those within n codes before it
     opaque_lost,       // the background behind what is visible
@@ -72,20 +89,30 @@ enum class RuleKind : std::uint8_t {
     opaque_in_front,   // nothing blended over it
     background_lost,   // black behind all
     background_twice,  // added once more
+    background_added,  // added to the layers, as if they let all of it through
+    background_other,  // another colour, which the candidate has where nothing is
     surface_lost,      // black behind all, in place of the opaque surface, too
     // Colours, of what `scope` says
     alpha_squared,
     alpha_inverted,
     alpha_ignored,  // 1
     alpha_times,    // `value`
+    alpha_root,     // the square root
     premultiplied_twice,
     not_premultiplied,
     red_for_blue,
-    decoded,        // from sRGB to linear light
-    encoded,        // from linear light to sRGB
-    blended_linear  // decoded, blended, encoded
+    channel_lost,    // n: 0 red, 1 green, 2 blue
+    decoded,         // from sRGB to linear light
+    encoded,         // from linear light to sRGB
+    blended_linear,  // decoded, blended, encoded
+    // The finished picture
+    picture_encoded,  // from linear light to sRGB
+    picture_decoded,
+    rows_reversed,
+    columns_reversed,
+    turned  // by half a turn
 };
-inline constexpr std::size_t rule_kind_count = static_cast<std::size_t>(RuleKind::blended_linear) + 1;
+inline constexpr std::size_t rule_kind_count = static_cast<std::size_t>(RuleKind::turned) + 1;
 
 // Which layers a rule changes.
 enum class Scope : std::uint8_t { all, instance, material, back_faces, front_faces };

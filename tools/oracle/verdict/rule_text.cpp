@@ -124,6 +124,27 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
                                describe({static_cast<InstanceOrder>(n), FaceOrder::listed}));
         case RuleKind::faces_apart: return "all back faces are composited behind all front faces";
         case RuleKind::averaged: return fmt::format("layers are averaged, {}: nothing is sorted", weights(n));
+        case RuleKind::middle_lost: return "of an odd number of layers the middle one is missing";
+        case RuleKind::middle_doubled: return "of an odd number of layers the middle one is composited twice";
+        case RuleKind::colors_shifted: return "each layer has the colour of the one behind it";
+        case RuleKind::alphas_shifted: return "each layer has the alpha of the one behind it";
+        case RuleKind::nearest_repeated: return "the nearest layer is composited in place of every other one";
+        case RuleKind::nearest_behind: return "the nearest layer is composited behind all others";
+        case RuleKind::farthest_before: return "the farthest layer is composited before all others";
+        case RuleKind::pairs_swapped:
+            return "layers are exchanged by twos: the second comes before the nearest, the fourth before the third ...";
+        case RuleKind::ordered_in_bits:
+            return fmt::format("layers are ordered by depths of {} bits, equal ones as submitted", n);
+        case RuleKind::lost_in_bits:
+            return fmt::format("of layers at one depth of {} bits the nearest alone is composited", n);
+        case RuleKind::sorted_once: return "layers are sorted by one walk that exchanges neighbours";
+        case RuleKind::through_late:
+            return "a layer's colour is weighted by what it lets through itself: that is multiplied too early";
+        case RuleKind::multiplied: return "the background is multiplied by the layers' colours";
+        case RuleKind::greatest: return "the greatest of all colours is taken, channel by channel: MAX";
+        case RuleKind::least: return "the least of all colours is taken, channel by channel: MIN";
+        case RuleKind::composed_twice:
+            return "layers are composited over nothing, and the result over the background by its alpha once more";
         case RuleKind::added: return "layers are added to the background";
         case RuleKind::weighted_sum:
             return "layers are added up, and the background weighted by what all alphas leave: weighted sum";
@@ -154,6 +175,8 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::edges_twice: return "a centre on an edge is drawn by both triangles beside it";
         case RuleKind::edges_never: return "a centre on an edge is drawn by neither triangle beside it";
         case RuleKind::hidden_shown: return "layers behind opaque surfaces are composited: they are not hidden";
+        case RuleKind::hidden_alone:
+            return "layers behind opaque surfaces are composited, and those before them are missing";
         case RuleKind::at_opaque_shown:
             return n == 0 ? "layers at the depth of an opaque surface are composited: LEQUAL for LESS"
                           : fmt::format("layers within {} behind an opaque surface are composited", codes(n));
@@ -164,16 +187,29 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::opaque_in_front: return "opaque surfaces cover the layers before them";
         case RuleKind::background_lost: return "the background is missing: black behind the layers";
         case RuleKind::background_twice: return "what lies behind the layers is added twice";
+        case RuleKind::background_added:
+            return "what lies behind the layers is added to them as if they let all of it through";
+        case RuleKind::background_other:
+            return fmt::format("the background is {:.0f}, {:.0f}, {:.0f} of 255", facts.background[0] * 255,
+                               facts.background[1] * 255, facts.background[2] * 255);
         case RuleKind::surface_lost: return "the background and opaque surfaces are missing: black behind the layers";
         case RuleKind::alpha_squared: return "alpha is multiplied by itself";
         case RuleKind::alpha_inverted: return "1 - alpha is taken for alpha";
         case RuleKind::alpha_ignored: return "alpha is taken for 1: nothing is blended";
         case RuleKind::alpha_times: return fmt::format("alpha is multiplied by {:.3g}", rule.value);
+        case RuleKind::alpha_root: return "the square root of alpha is taken for alpha";
+        case RuleKind::channel_lost:
+            return fmt::format("{} is missing in the layers", n == 0 ? "red" : n == 1 ? "green" : "blue");
         case RuleKind::premultiplied_twice: return "colours are multiplied by alpha twice";
         case RuleKind::not_premultiplied: return "colours are not multiplied by alpha";
         case RuleKind::red_for_blue: return "red and blue are exchanged in the layers";
         case RuleKind::decoded: return "colours are decoded from sRGB before they are blended";
         case RuleKind::encoded: return "colours are encoded to sRGB before they are blended";
+        case RuleKind::picture_encoded: return "the finished picture is encoded to sRGB once more";
+        case RuleKind::picture_decoded: return "the finished picture is decoded from sRGB once more";
+        case RuleKind::rows_reversed: return "the picture is upside down";
+        case RuleKind::columns_reversed: return "left and right are exchanged";
+        case RuleKind::turned: return "the picture is turned by half a turn";
         case RuleKind::blended_linear:
             return "colours are decoded from sRGB, blended in linear light and encoded again";
     }

@@ -22,6 +22,8 @@ std::vector<T> few(const std::set<T>& all) {
 
 SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
     SceneFacts facts{.most_layers = scene.most_visible()};
+    facts.has_other_background = scene.setting().seen_background.has_value();
+    facts.background = scene.setting().seen_background.value_or(Rgba{});
     std::set<std::uint32_t> instances, materials;
     std::set<float> alphas;
     std::set<bool> facings;
@@ -63,7 +65,7 @@ void add_counts(Rules& all, std::uint32_t most) {
                  {farthest_alone, nearest_lost, farthest_lost, rest_averaged, rest_as_submitted, first_submitted,
                   last_submitted},
                  1, most);
-    if (most > 2) add(all, {odd_lost, even_lost});
+    if (most > 2) add(all, {odd_lost, even_lost, middle_lost, middle_doubled});
     for (const float through : {1.0f / 255, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.25f, 0.5f})
         all.push_back({.kind = ended_early, .value = through});
 }
@@ -71,6 +73,11 @@ void add_counts(Rules& all, std::uint32_t most) {
 void add_orders(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
     add(all, {reversed, as_submitted_reversed});
+    if (facts.most_layers > 1) {
+        add(all, {nearest_behind, farthest_before, pairs_swapped, sorted_once, nearest_repeated, colors_shifted,
+                  alphas_shifted});
+        add_numbered(all, {ordered_in_bits, lost_in_bits}, 6, 24);
+    }
     const std::uint32_t orders = facts.instances.size() > 1 ? instance_order_count : 1;
     const std::uint32_t faces = facts.has_two_facings ? face_order_count : 1;
     for (const RuleKind kind : {as_submitted, behind_drawn})
@@ -98,13 +105,15 @@ std::vector<Rule> scopes_of(const SceneFacts& facts) {
 
 void add_scoped(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
-    constexpr RuleKind colors[] = {alpha_squared,     alpha_inverted, alpha_ignored, premultiplied_twice,
-                                   not_premultiplied, red_for_blue,   decoded,       encoded};
+    constexpr RuleKind colors[] = {alpha_squared, alpha_inverted, alpha_ignored, premultiplied_twice, not_premultiplied,
+                                   red_for_blue,  decoded,        encoded,       alpha_root};
     constexpr float factors[] = {0.25f, 0.5f, 0.75f, 0.8f, 0.9f, 1.25f, 1.5f, 2.0f};
     const auto add_colors = [&](const Rule& scope) {
         for (const RuleKind kind : colors) all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
         for (const float factor : factors)
             all.push_back({.kind = alpha_times, .value = factor, .scope = scope.scope, .of = scope.of});
+        for (std::uint32_t channel = 0; channel < 3; ++channel)
+            all.push_back({.kind = channel_lost, .n = channel, .scope = scope.scope, .of = scope.of});
     };
     add_colors({});
     add(all, {blended_linear});
@@ -139,9 +148,11 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     add_counts(all, most);
     add_orders(all, facts);
     add_numbered(all, {averaged}, 0, 5);
-    add(all, {added, weighted_sum, all_doubled, background_lost, background_twice, surface_lost});
+    add(all, {added, weighted_sum, through_late, multiplied, greatest, least, composed_twice, all_doubled,
+              background_lost, background_twice, background_added, surface_lost, picture_encoded, picture_decoded});
+    if (facts.has_other_background) add(all, {background_other});
     if (facts.has_centres_on_edges) add(all, {edges_twice, edges_never});
-    if (facts.has_hidden) add(all, {hidden_shown});
+    if (facts.has_hidden) add(all, {hidden_shown, hidden_alone});
     if (facts.has_opaque) add(all, {opaque_lost, opaque_ignored, opaque_in_front});
     add_depths(all, facts);
     add_scoped(all, facts);
@@ -173,7 +184,12 @@ std::vector<Rule> one_of_each_kind(const SceneFacts& facts) {
         of(kind).value = facts.alphas.size() > 1 ? facts.alphas[1] : 0.5f;
     of(RuleKind::alpha_times).value = 0.9f;
     of(RuleKind::ended_early).value = 1.0f / 255;
-    all.erase(all.begin());  // RuleKind::right
+    for (const RuleKind kind : {RuleKind::ordered_in_bits, RuleKind::lost_in_bits}) of(kind).n = 16;
+    // Of what the picture alone says, and of what does not change the structure.
+    std::erase_if(all, [](const Rule& rule) {
+        return rule.kind == RuleKind::right || rule.kind == RuleKind::background_other ||
+               rule.kind >= RuleKind::picture_encoded;
+    });
     return all;
 }
 
@@ -184,6 +200,9 @@ int stage_of(RuleKind kind) noexcept {
         case edges_twice:
         case edges_never:
         case hidden_shown:
+        case hidden_alone:
+        case background_added:
+        case background_other:
         case at_opaque_shown:
         case near_opaque_lost:
         case opaque_lost:
@@ -196,6 +215,8 @@ int stage_of(RuleKind kind) noexcept {
         case alpha_inverted:
         case alpha_ignored:
         case alpha_times:
+        case alpha_root:
+        case channel_lost:
         case premultiplied_twice:
         case red_for_blue:
         case decoded:
@@ -220,6 +241,9 @@ int stage_of(RuleKind kind) noexcept {
         case last_submitted:
         case odd_lost:
         case even_lost:
+        case middle_lost:
+        case middle_doubled:
+        case lost_in_bits:
         case ended_early:
         case nearest_of_instance: return 3;
         case lost:
@@ -232,10 +256,18 @@ int stage_of(RuleKind kind) noexcept {
         case mixed:
         case color_of_next:
         case color_of_previous:
+        case colors_shifted:
+        case alphas_shifted:
+        case nearest_repeated:
+        case nearest_behind:
+        case farthest_before:
+        case pairs_swapped:
         case all_doubled: return 4;
         case rest_as_submitted:
         case ends_rest_as_submitted:
         case reversed:
+        case ordered_in_bits:
+        case sorted_once:
         case as_submitted:
         case as_submitted_reversed:
         case by_instance:
@@ -245,7 +277,17 @@ int stage_of(RuleKind kind) noexcept {
         case added:
         case weighted_sum:
         case not_premultiplied:
+        case through_late:
+        case multiplied:
+        case greatest:
+        case least:
+        case composed_twice:
         case blended_linear: return 6;
+        case picture_encoded:
+        case picture_decoded:
+        case rows_reversed:
+        case columns_reversed:
+        case turned: return 7;
     }
     return 0;  // unreachable: the enum is closed
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rasterizer/base/vector.h"
 #include "tools/oracle/verdict/rule.h"
 
 namespace strata::pipeline {
@@ -20,8 +21,10 @@ class SceneFragments;
 struct SceneFacts {
     std::size_t most_layers = 0;  // visible fragments of a pixel
     std::vector<std::uint32_t> instances{}, materials{};
+    Rgba background{};            // of background_other
     std::vector<float> alphas{};  // some of them, ascending, where they are few
-    bool has_opaque = false, has_hidden = false, has_two_facings = false, has_centres_on_edges = false;
+    bool has_opaque = false, has_hidden = false, has_two_facings = false, has_centres_on_edges = false,
+         has_other_background = false;
 };
 [[nodiscard]] SceneFacts facts_of(const SceneFragments& scene, const Sample& sample);
 

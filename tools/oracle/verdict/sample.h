@@ -15,6 +15,7 @@ namespace strata::oracle::verdict {
 class Colors {
   public:
     explicit Colors(const Target& target);
+    [[nodiscard]] const Target& target() const noexcept { return *target_; }
     [[nodiscard]] int width() const noexcept { return target_->width; }
     [[nodiscard]] int height() const noexcept { return target_->height; }
     [[nodiscard]] Code code() const noexcept { return target_->code; }

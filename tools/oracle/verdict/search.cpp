@@ -36,7 +36,8 @@ using Rules = std::vector<Rule>;
 // Whether a pixel's structures are the right ones; the division of a peel from both ends aside.
 bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
     return std::ranges::equal(made.stacks, pixel.right.stacks, [](const Stack& a, const Stack& b) {
-        return a.layers == b.layers && a.background == b.background && a.is_linear == b.is_linear;
+        return a.layers == b.layers && a.background == b.background && a.is_linear == b.is_linear &&
+               a.finish == b.finish;
     });
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,8 @@ struct DrawingOrder {
 [[nodiscard]] std::string describe(const DrawingOrder& order);
 
 struct Setting {
-    Rgba cleared{0, 0, 0, 1};  // the colour where nothing is drawn
+    Rgba cleared{0, 0, 0, 1};               // the colour where nothing is drawn
+    std::optional<Rgba> seen_background{};  // what the candidate has there, if that is one other colour
     // By InstanceOrder, then by instance: when it is drawn. Empty: as listed.
     std::array<std::vector<std::uint32_t>, instance_order_count> rank{};
 };

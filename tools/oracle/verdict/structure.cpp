@@ -99,10 +99,13 @@ void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& t
 void StackMaker::list(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties) {
     items_.clear();
     order_.clear();
-    for (const Fragment& f : pixel.visible) order_.push_back(&f);
+    const auto loses = [&](const Rule& rule) { return rule.kind == RuleKind::hidden_alone && pixel.has_opaque; };
+    if (std::ranges::none_of(rules, loses))
+        for (const Fragment& f : pixel.visible) order_.push_back(&f);
     const auto shows = [&](const Fragment& f) {
         return std::ranges::any_of(rules, [&](const Rule& rule) {
-            return rule.kind == RuleKind::hidden_shown || rule.kind == RuleKind::opaque_ignored ||
+            return rule.kind == RuleKind::hidden_shown || rule.kind == RuleKind::hidden_alone ||
+                   rule.kind == RuleKind::opaque_ignored ||
                    (rule.kind == RuleKind::at_opaque_shown && f.code - pixel.opaque <= rule.n);
         });
     };
@@ -163,6 +166,7 @@ const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& give
     finish(rules);
     stack_.background = pixel.behind;
     stack_.is_linear = false;
+    stack_.finish = Finish::as_is;
     for (const Rule& rule : rules) set_background(rule, pixel);
     return stack_;
 }

@@ -44,6 +44,7 @@ class StackMaker {
     void edit_one(const Rule& rule);
     void edit_close(const Rule& rule);
     void combine(const Rule& rule);
+    void combine_with_background(const Rule& rule);
     void recolor(const Rule& rule);
     void set_background(const Rule& rule, const PixelList& pixel);
 

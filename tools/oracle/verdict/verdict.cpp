@@ -1,6 +1,7 @@
 #include "tools/oracle/verdict/verdict.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "rasterizer/base/parallel.h"
 #include "tools/oracle/verdict/pricing.h"
@@ -55,6 +56,61 @@ void find_alike(const SceneFragments& scene, const Colors& candidate, Verdict& v
 }  // namespace
 
 namespace {
+
+// What the candidate has where nothing is drawn, if that is one colour and not the background's.
+std::optional<Rgba> other_background(const SceneFragments& scene, const Colors& candidate) {
+    constexpr double seen = 1.5 / 255;
+    std::mutex mutex;
+    std::optional<std::array<double, 4>> color;
+    bool is_one = true, is_other = false;
+    scene.for_each_tile([&](const TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = scene.at(tile, p);
+            if (!list.visible.empty() || list.has_opaque || list.edge != nullptr) continue;
+            const auto value = candidate.at(list.x, list.y);
+            const std::scoped_lock lock{mutex};
+            if (!color) color = value;
+            for (std::size_t c = 0; c < 3; ++c) {
+                is_one = is_one && value[c] == (*color)[c];
+                is_other = is_other || std::fabs(value[c] - double{list.behind[c]}) > seen;
+            }
+        }
+    });
+    if (!color || !is_one || !is_other) return std::nullopt;
+    return Rgba{static_cast<float>((*color)[0]), static_cast<float>((*color)[1]), static_cast<float>((*color)[2]), 1};
+}
+
+// The candidate's pixels in another order.
+Target rearranged(const Colors& candidate, RuleKind kind) {
+    Target target = candidate.target();
+    const auto channels = static_cast<std::size_t>(target.channels);
+    const auto width = static_cast<std::size_t>(target.width), height = static_cast<std::size_t>(target.height);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t from_x = kind == RuleKind::rows_reversed ? x : width - 1 - x;
+            const std::size_t from_y = kind == RuleKind::columns_reversed ? y : height - 1 - y;
+            for (std::size_t c = 0; c < channels; ++c)
+                target.codes[(y * width + x) * channels + c] =
+                    candidate.target().codes[(from_y * width + from_x) * channels + c];
+        }
+    return target;
+}
+
+// A picture that is right but for where its pixels lie.
+std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const Colors& candidate,
+                                            const Families& definite, std::size_t most_sampled) {
+    for (const RuleKind kind : {RuleKind::rows_reversed, RuleKind::columns_reversed, RuleKind::turned}) {
+        const Target target = rearranged(candidate, kind);
+        const Colors colors{target};
+        Sample sample = sampled(scene, colors, most_sampled);
+        auto found = account_for(definite, {}, scene, colors, sample);
+        if (!found) continue;
+        found->account.rules = {{.kind = kind}};
+        found->changed = found->pixels;
+        return found;
+    }
+    return std::nullopt;
+}
 
 // A right account that leaves little open needs no other one beside it: a code, of floats as much.
 bool leaves_little_open(const Checked& right) {
@@ -133,6 +189,7 @@ Verdict judge(SceneFragments& scene, const Colors& candidate) {
     }
     scene.find_coverages();
     const Sample even = sampled(scene, candidate, most_sampled);
+    if (const auto color = other_background(scene, candidate)) scene.set_seen_background(*color);
     verdict.facts = facts_of(scene, even);
     Sample sample = even, examples{scene.setting()};
     verdict.right = closest_account(scene, candidate, all.definite, even, examples);
@@ -147,6 +204,10 @@ Verdict judge(SceneFragments& scene, const Colors& candidate) {
     }
     for (const SampledPixel& pixel : examples.pixels())
         if (!sample.has(pixel.list.x, pixel.list.y)) sample.add(pixel.list, pixel.value);
+    if (auto found = right_but_rearranged(scene, candidate, all.definite, most_sampled)) {
+        verdict.explanations = {*std::move(found)};
+        return verdict;
+    }
     for (const auto& [some, most_rules] : {std::pair{&all.definite, 1}, {&all.coarse, 1}, {&all.definite, 2}}) {
         verdict.explanations = search(scene, candidate, *some, verdict.right, sample, most_rules);
         if (!verdict.explanations.empty()) return verdict;

@@ -6,6 +6,8 @@
 //          finding, whatever explains a part of it is a lead. Findings that look the same here are all told; none is preferred.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
+#include <string>
+
 #include "tools/oracle/verdict/account.h"
 #include "tools/oracle/verdict/rules.h"
 
@@ -21,6 +23,7 @@ struct Verdict {
     // Kinds of mistakes in the structure that the picture does not tell from what is found: of a right one, those that would look right, too.
     std::vector<Rule> alike{};
     std::size_t kinds = 0;  // of which so many were tried
+    std::string telling{};  // a command whose scene tells the explanations apart, for whoever knows one
 };
 
 class SceneFragments;

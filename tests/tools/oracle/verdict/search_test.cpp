@@ -131,6 +131,28 @@ TEST_CASE("layers that are lost in the middle of many are found, though a port t
     CHECK(found(verdict).contains("ends_alone 5"));
 }
 
+TEST_CASE("a picture that is right but for the order of its rows is told so") {
+    const OpenedScene opened{"showroom", 32, 32};
+    oracle::Target picture = picture_of_port(opened, port_of_codes(Order::under), {});
+    for (std::size_t y = 0; y < 16; ++y)
+        std::swap_ranges(picture.codes.begin() + static_cast<std::ptrdiff_t>(y * 128),
+                         picture.codes.begin() + static_cast<std::ptrdiff_t>((y + 1) * 128),
+                         picture.codes.begin() + static_cast<std::ptrdiff_t>((31 - y) * 128));
+    const Verdict verdict = judged(opened, picture);
+    CHECK_FALSE(verdict.is_right);
+    CHECK(found(verdict) == std::set<std::string>{"rows_reversed 0"});
+}
+
+TEST_CASE("another background is told with its colour") {
+    const OpenedScene opened{"showroom", 32, 32};
+    const auto change = [](PortList& l) {
+        if (!l.has_opaque) l.background = {1, 0.6f, 0.2f, 1};
+    };
+    const Verdict verdict = judged(opened, picture_of_port(opened, port_of_codes(Order::over), change));
+    CHECK(found(verdict) == std::set<std::string>{"background_other 0"});
+    CHECK(verdict.facts.background == Rgba{1, 0.6f, 0.2f, 1});
+}
+
 TEST_CASE("what explains a part of the wrong pixels is a lead and no finding") {
     const OpenedScene opened{"showroom", 48, 48};
     std::size_t number = 0;
