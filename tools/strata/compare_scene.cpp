@@ -8,9 +8,11 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
+#include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/verdict/edits.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/sample.h"
+#include "tools/oracle/verdict/telling.h"
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/render/run.h"
@@ -75,6 +77,20 @@ pipeline::Image drawn(const EditMap& map) {
     return image;
 }
 
+// The command of the first scene of the suite that tells the explanations apart; "" if there is none, or one explanation alone.
+std::string telling_command(const oracle::verdict::Verdict& found) {
+    std::vector<std::vector<oracle::verdict::Rule>> rules;
+    for (const oracle::verdict::Checked& c : found.explanations)
+        if (is_of_any_scene(c.account.rules)) rules.push_back(c.account.rules);
+    if (rules.size() < 2) return "";
+    for (const oracle::SuiteScene& scene : oracle::suite()) {
+        const oracle::OpenScene opened = open(scene);
+        const oracle::verdict::SceneFragments fragments{opened.input(), opened.options.fragment_memory};
+        if (tells_apart(fragments, rules)) return command_of(scene);
+    }
+    return "";
+}
+
 std::string counted(std::uint64_t pixels, const std::string& what) {
     return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
 }
@@ -113,7 +129,8 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
                                               options.fragment_memory};
     const oracle::verdict::Colors seen{colors};
-    const oracle::verdict::Verdict found = judge(fragments, seen);
+    oracle::verdict::Verdict found = judge(fragments, seen);
+    found.telling = telling_command(found);
     const pipeline::DrawList& list = session.scene.list;
     if (!question.report.empty())
         write_page(question.report,

@@ -306,6 +306,18 @@ struct TwoSuspects {
 
 }  // namespace
 
+// Whether the second mistake undoes the first one nearly everywhere: such a pair is none that a port has.
+bool Lineup::cancels(std::size_t first, std::size_t second, const Picture& both) const {
+    const Agreement is_right = agreement(laboratory_.right(), both, {});
+    std::size_t shown = 0, undone = 0;
+    for (std::size_t i = 0; i < is_right.size(); ++i) {
+        if (suspects_[first].unchanged[i] || suspects_[second].unchanged[i]) continue;
+        ++shown;
+        undone += is_right[i] ? 1 : 0;
+    }
+    return shown > 0 && 2 * undone > shown;
+}
+
 void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& result) const {
     if (result.pixels > most_pixels_of_pairs) return;
     std::vector<TwoSuspects> pairs, finished;
@@ -334,7 +346,8 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
         const bool is_finished = both[1]->place == Place::picture;
         const auto picture =
             is_finished ? std::optional{changed(*suspects_[pairs[i].first].picture, *both[1])} : laboratory_.with(both);
-        if (picture) found[i] = evidence.of({both[0], both[1]}, *picture);
+        if (picture && !cancels(pairs[i].first, pairs[i].second, *picture))
+            found[i] = evidence.of({both[0], both[1]}, *picture);
     });
     for (std::optional<Finding>& one : found)
         if (one) result.findings.push_back(*std::move(one));

@@ -35,8 +35,11 @@ enum class Verdict : std::uint8_t {
     right,
     one_mistake,
     two_mistakes,
-    none_of_mine  // the best finding leaves pixels that it does not explain
+    right_structure,  // no machine's picture is the candidate's, but its layers are right apart from rounding
+    none_of_mine      // the best finding leaves pixels that it does not explain
 };
+
+struct SuiteScene;  // tools/oracle/mistakes/suite.h
 
 struct Diagnosis {
     Verdict verdict{};
@@ -46,6 +49,9 @@ struct Diagnosis {
     bool passes_contradict = false;  // the picture is that of the first finding, but no known machine's passes are
     std::optional<PassAgreement> right_passes{};  // of the right machine
     std::vector<Finding> findings{};              // the best first; never empty
+    std::string structure{};  // what the layers say where no machine's picture is the candidate's; empty: not asked
+    std::string structure_json{};
+    const SuiteScene* telling = nullptr;  // tells the first finding and those that are alike apart, or the leads
     int tried = 0, hidden = 0, impossible = 0, pairs_tried = 0;
 };
 
@@ -84,6 +90,7 @@ class Lineup {
         std::size_t like = 0;  // the first suspect with this picture
     };
     struct Evidence;
+    [[nodiscard]] bool cancels(std::size_t first, std::size_t second, const Picture& both) const;
     void try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& diagnosis) const;
     void weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;
     void weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;

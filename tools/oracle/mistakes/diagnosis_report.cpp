@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/oracle/mistakes/catalogue.h"
+#include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/report.h"
 
 namespace strata::oracle {
@@ -24,6 +25,7 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
 
 std::string first_line(const Diagnosis& d) {
     const Finding& best = d.findings.front();
+    if (!d.structure.empty()) return d.structure;
     if (d.passes_contradict)
         return fmt::format(
             "none that is known: the picture is that of: {}; but no known machine that leaves it has these passes\n",
@@ -86,6 +88,7 @@ std::string_view name(Verdict verdict) noexcept {
         case Verdict::right: return "right";
         case Verdict::one_mistake: return "one_mistake";
         case Verdict::two_mistakes: return "two_mistakes";
+        case Verdict::right_structure: return "right_structure";
         case Verdict::none_of_mine: return "none_of_mine";
     }
     return "";  // unreachable: the enum is closed
@@ -100,7 +103,10 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
                             mistake->sentence, mistake->name);
-    const bool is_none = d.verdict == Verdict::none_of_mine;
+    const bool is_none = d.verdict == Verdict::none_of_mine || d.verdict == Verdict::right_structure;
+    if (d.telling != nullptr)
+        text += fmt::format("  the suite's scene {} tells {} apart: {}\n", d.telling->name,
+                            is_none ? "the best of them" : "them", command_of(*d.telling));
     if (d.findings.size() > 1 && d.verdict != Verdict::right) text += is_none ? "the best:\n" : "the next best:\n";
     for (std::size_t i = is_none ? 0 : 1; i < std::min(d.findings.size(), most_findings); ++i)
         if (d.verdict != Verdict::right) text += line_of(d.findings[i], d);
@@ -123,7 +129,11 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"one_colour", d.is_blank},
                           {"passes_contradict", d.passes_contradict},
                           {"right_passes", as_json(d.right_passes)},
+                          {"structure", nullptr},
+                          {"telling_scene", nullptr},
                           {"findings", ordered_json::array()}};
+    if (!d.structure_json.empty()) document["structure"] = ordered_json::parse(d.structure_json);
+    if (d.telling != nullptr) document["telling_scene"] = d.telling->name;
     for (const Finding& f : d.findings) {
         ordered_json sentences = ordered_json::array();
         for (const Mistake* mistake : f.mistakes) sentences.push_back(mistake->sentence);

@@ -14,8 +14,12 @@
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
+#include "tools/oracle/mistakes/telling.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
+#include "tools/oracle/verdict/report.h"
+#include "tools/oracle/verdict/sample.h"
+#include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/diagnose/mistakes.h"
@@ -132,7 +136,45 @@ oracle::ShowProgress shown_by(Progress& bar) {
 }
 
 // Right: 0. Whatever else made the picture, known or not: 1.
-int status_of(oracle::Verdict verdict) { return verdict == oracle::Verdict::right ? 0 : 1; }
+int status_of(oracle::Verdict verdict) {
+    return verdict == oracle::Verdict::right || verdict == oracle::Verdict::right_structure ? 0 : 1;
+}
+
+// A machine's picture to the last code speaks for itself. All else may be a right port that rounds otherwise, or a mistake that no machine
+// of the catalogue has: the layers say so. Algorithms that approximate have no right layers.
+void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
+    const oracle::Finding& best = found.findings.front();
+    const bool is_exact = best.agreeing == found.pixels && best.mistakes.size() < 2 && !found.passes_contradict;
+    const auto colors = std::ranges::find(opened.candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
+    if (is_exact || found.is_blank || colors == opened.candidate.targets.end() || opened.passes_or_null() != nullptr ||
+        !opened.options.run.algorithms[0]->exact)
+        return;
+    const peeling::RenderOptions& options = opened.options.run.render;
+    const pipeline::DrawList& list = opened.session.scene.list;
+    oracle::verdict::SceneFragments fragments{{list, opened.session.view, opened.session.profile, options},
+                                              options.fragment_memory};
+    const oracle::verdict::Verdict layers = judge(fragments, oracle::verdict::Colors{*colors});
+    if (!layers.is_right && layers.explanations.empty()) return;
+    found.structure = to_text(layers, list);
+    found.structure_json = to_json(layers, list);
+    found.is_nearly = false;
+    found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::none_of_mine;
+}
+
+// Which scene of the suite would tell more: of mistakes that leave one picture, or of the best leads.
+void find_telling_scene(oracle::Diagnosis& found) {
+    constexpr std::size_t most = 4;
+    std::vector<const oracle::Mistake*> mistakes;
+    const oracle::Finding& best = found.findings.front();
+    if (found.verdict == oracle::Verdict::one_mistake) {
+        mistakes = best.mistakes;
+        mistakes.insert(mistakes.end(), best.alike.begin(), best.alike.end());
+    } else if (found.verdict == oracle::Verdict::none_of_mine && found.structure.empty()) {
+        for (const oracle::Finding& f : found.findings)
+            if (f.mistakes.size() == 1 && f.explained > 0 && mistakes.size() < most) mistakes.push_back(f.mistakes[0]);
+    }
+    found.telling = oracle::telling_scene(mistakes);
+}
 
 // The best findings, where more than one was tried.
 void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
@@ -181,8 +223,10 @@ int diagnose_one(const DiagnoseOptions& options) {
     Progress machines("wrong machines");
     const auto opened = open_case(options, shown_by(machines));
     Progress pairs("pairs of mistakes");
-    const oracle::Diagnosis found =
+    oracle::Diagnosis found =
         opened->lineup->diagnose(opened->candidate, options.tolerances, shown_by(pairs), opened->passes_or_null());
+    ask_layers(*opened, found);
+    find_telling_scene(found);
     const oracle::Comparison comparison = opened->comparison();
     if (found.verdict != oracle::Verdict::right) warn_of_other_command(*opened);
     if (!options.report.empty()) {

@@ -1,0 +1,30 @@
+// Model: pictures of the machines themselves on the scene that is named.
+#include "tools/oracle/mistakes/telling.h"
+
+#include <catch2/catch.hpp>
+
+#include "tools/oracle/mistakes/laboratory.h"
+
+using namespace strata;
+using namespace strata::oracle;
+
+TEST_CASE("the scene that tells mistakes apart has a picture of its own for each") {
+    const Mistake* const both[] = {find_mistake("red_for_blue"), find_mistake("depth_24")};
+    REQUIRE((both[0] != nullptr && both[1] != nullptr));
+    const SuiteScene* scene = telling_scene(both);
+    REQUIRE(scene != nullptr);
+    const OpenScene opened = open(*scene);
+    const Laboratory laboratory{opened.input(), *opened.algorithm};
+    const auto first = laboratory.with(*both[0]), second = laboratory.with(*both[1]);
+    REQUIRE((first && second));
+    CHECK(first->targets[0].codes != second->targets[0].codes);
+    CHECK(first->targets[0].codes != laboratory.right().targets[0].codes);
+    CHECK(second->targets[0].codes != laboratory.right().targets[0].codes);
+}
+
+TEST_CASE("one mistake needs no scene, and one twice has none") {
+    const Mistake* const one[] = {find_mistake("red_for_blue")};
+    CHECK(telling_scene(one) == nullptr);
+    const Mistake* const twice[] = {one[0], one[0]};
+    CHECK(telling_scene(twice) == nullptr);
+}
