@@ -22,7 +22,7 @@ PixelList OtherList::at(int x, int y) const noexcept {
 
 namespace {
 
-constexpr std::size_t tie_drawings = 4, moved_drawings = 4;
+constexpr std::size_t tie_drawings = 4;
 constexpr double moved_by = 1.0 / 16;  // pixels
 constexpr std::size_t most_others = 48;
 
