@@ -41,11 +41,19 @@ struct Scene {
     int scene_index = 0, scene_count = 1;
 };
 
+// A material that is to be drawn as transparent, its own alpha times `alpha`.
+struct MaterialAlpha {
+    std::string material;
+    float alpha = 1;
+    friend bool operator==(const MaterialAlpha&, const MaterialAlpha&) = default;
+};
+
 struct SceneOptions {
     std::optional<int> scene{};  // --scene N; default: the file's own, else 0
     // The frame's: materials and vertex colours are converted to it once, when the scene is made.
     pipeline::ColorSpace color_space = pipeline::ColorSpace::encoded;
-    bool light = true;  // false: every material unlit (--no-light)
+    bool light = true;                   // false: every material unlit (--no-light)
+    std::vector<MaterialAlpha> alpha{};  // --alpha NAME=A; every material of that name
 };
 
 // `spec` is a path to a .gltf or .glb file or to a pack, "-" for a file from standard input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",

@@ -1,5 +1,6 @@
 # The sources of scenes.
 set(strata_scenes_sources
+  blended_materials.cpp
   bounds.cpp
   camera.cpp
   inside_folder.cpp
@@ -33,6 +34,7 @@ set(strata_scenes_sources
   gltf/document/json.cpp
   gltf/document/uri.cpp
   gltf/gltf.cpp
+  gltf/instancing.cpp
   gltf/material.cpp
   gltf/mesh.cpp
   gltf/model.cpp

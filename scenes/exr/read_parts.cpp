@@ -10,11 +10,13 @@
 #include <OpenEXR/openexr.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <numeric>
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/exr/openexr.h"
+#include "scenes/lfs_pointer.h"
 
 namespace strata::scenes::exr {
 namespace {
@@ -141,7 +143,9 @@ std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        throw InputError(path, "file", "an EXR image", "something else");
+        std::string begin(64, '\0');
+        std::ifstream{path, std::ios::binary}.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+        throw InputError(path, "file", "an EXR image", is_lfs_pointer(begin) ? lfs_pointer_found : "something else");
     }
 }
 

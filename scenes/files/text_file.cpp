@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/lfs_pointer.h"
 
 namespace strata::scenes {
 
@@ -46,6 +47,7 @@ std::string read_begin_of_file(const std::string& path, std::size_t bytes) {
     // A file that shrank since its size was asked is refused too: the read comes up short.
     if (!file || !file.read(text.data(), static_cast<std::streamsize>(text.size())))
         throw InputError(path, "cannot be read");
+    if (is_lfs_pointer(text)) throw InputError(path, lfs_pointer_found);
     return text;
 }
 

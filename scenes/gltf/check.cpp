@@ -9,7 +9,8 @@ namespace strata::scenes {
 namespace {
 
 // Extensions that a file may require. An extension that is used without being required may be ignored, with a warning.
-constexpr std::array implemented{"KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::array implemented{"EXT_mesh_gpu_instancing", "KHR_materials_unlit", "KHR_mesh_quantization",
+                                 "KHR_texture_transform"};
 
 bool is_implemented(const std::string& name) {
     return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
@@ -81,11 +82,13 @@ void check_extensions(const JsonAt& root, Warnings& warnings, Faults& faults) {
         if (!is_implemented(required.string()))
             required.fail(
                 "UNSUPPORTED_EXTENSION",
-                "no required extension but KHR_materials_unlit, KHR_mesh_quantization and KHR_texture_transform" +
+                "no required extension but EXT_mesh_gpu_instancing, KHR_materials_unlit, KHR_mesh_quantization and "
+                "KHR_texture_transform" +
                     way_out_of(required.string()));
     });
     faults.collect_each(root, "extensionsUsed", [&](const JsonAt& used) {
-        if (!is_implemented(used.string()))
+        // Each material that transmits light has a warning of its own (material.cpp).
+        if (!is_implemented(used.string()) && used.string() != "KHR_materials_transmission")
             warnings.add(used.place().pointer, "extension " + one_line(used.string()) + " is ignored");
     });
 }

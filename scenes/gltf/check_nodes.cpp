@@ -3,6 +3,7 @@
 #include <set>
 
 #include "scenes/gltf/check.h"
+#include "scenes/gltf/instancing.h"
 #include "scenes/numbers/elementary.h"
 
 namespace strata::scenes {
@@ -128,6 +129,7 @@ void check_nodes(const JsonAt& root, Warnings& warnings, Faults& faults) {
         if (check_reference(node, "skin", root, "skins"))
             warnings.add(node.place().under("skin").pointer,
                          "skins are ignored: the mesh stands as stored, moved by its node");
+        if (const auto instancing = instancing_of(node)) check_instancing(*instancing, root);
         if (node.has("weights")) warnings.add(node.place().under("weights").pointer, "morph targets are ignored");
         check_children(node, index, parents);
     });

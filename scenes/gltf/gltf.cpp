@@ -2,16 +2,19 @@
 #include "scenes/gltf/gltf.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <span>
 
+#include "pipeline/vertices/matrix.h"
 #include "rasterizer/base/float_environment.h"
 #include "scenes/bounds.h"
 #include "scenes/files/text_file.h"
 #include "scenes/gltf/check.h"
 #include "scenes/gltf/document/uri.h"
+#include "scenes/gltf/instancing.h"
 #include "scenes/gltf/mesh.h"
 #include "scenes/gltf/nodes.h"
 
@@ -79,11 +82,26 @@ class SceneBuilder {
         const auto found = drawables_.find(mesh);
         const std::vector<Drawable>& drawables =
             found != drawables_.end() ? found->second : (drawables_[mesh] = load_mesh(mesh));
+        const auto instancing = instancing_of(document_.at("nodes", static_cast<std::size_t>(placed.node)));
+        if (!instancing) return add_instances(drawables, placed);
+        for (const pipeline::Matrix& own : instance_transforms(*instancing, accessors_, budget_))
+            add_instances(drawables, {placed.node, finite_product(placed, own)});
+    }
+
+    pipeline::Matrix finite_product(const PlacedNode& placed, const pipeline::Matrix& own) const {
+        const pipeline::Matrix world = pipeline::product(placed.world, own);
+        if (!std::ranges::all_of(entries_of(world), [](double v) { return std::isfinite(v); }))
+            place_of(placed).fail("VALUE_NOT_IN_RANGE", "a finite world transform", "an overflow");
+        return world;
+    }
+
+    Place place_of(const PlacedNode& placed) const { return {document_.file, "/nodes/" + std::to_string(placed.node)}; }
+
+    void add_instances(const std::vector<Drawable>& drawables, const PlacedNode& placed) {
         for (const Drawable& drawable : drawables) {
             const std::uint64_t corners = scene_.list.meshes[drawable.mesh].indices.size();
             if (corners > instanced_left_)
-                Place{document_.file, "/nodes/" + std::to_string(placed.node)}.fail(
-                    "VALUE_NOT_IN_RANGE", "at most 2^31 corners of triangles", "more with this node");
+                place_of(placed).fail("VALUE_NOT_IN_RANGE", "at most 2^31 corners of triangles", "more with this node");
             instanced_left_ -= corners;
             scene_.list.instances.push_back({drawable.mesh, drawable.material, placed.world});
         }
@@ -171,7 +189,8 @@ Scene load(const Source& source, const SceneOptions& options, const GltfLimits& 
     Scene scene = SceneBuilder{document, options, limits, warnings}.build();
     scene.name = source.name;
     for (const JsonAt& used : document.root().elements("extensionsUsed")) scene.extensions.push_back(used.string());
-    scene.warnings = warnings.sentences();
+    scene.warnings = container.warnings;
+    for (std::string& sentence : warnings.sentences()) scene.warnings.push_back(std::move(sentence));
     return scene;
 }
 

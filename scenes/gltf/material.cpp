@@ -1,6 +1,8 @@
 // scenes/gltf/material.cpp - see material.h.
 #include "scenes/gltf/material.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "rasterizer/base/numerics.h"
@@ -95,11 +97,14 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     const auto& factor = m.pbrMetallicRoughness.baseColorFactor;
     for (std::size_t i = 0; i < 4; ++i) made.front[i] = static_cast<float>(factor[i]);
     const JsonAt at = c_.document.at("materials", material);
-    // The least alpha that can be seen: the cutoff for MASK, the smallest positive binary32 for BLEND.
-    const float least = made.alpha_mode == AlphaMode::mask ? made.alpha_cutoff : 0x1p-149f;
-    if (made.alpha_mode != AlphaMode::opaque && made.front[3] < least)
-        c_.warnings.add(at.place().pointer, "its alpha is 0 or below its cutoff: nothing of it is drawn");
+    // No vertex colour and no texture raises it.
+    if (made.alpha_mode == AlphaMode::mask && made.front[3] < made.alpha_cutoff)
+        c_.warnings.add(at.place().pointer, "its alpha is below its cutoff: nothing of it is drawn");
+    if (made.alpha_mode == AlphaMode::blend && made.front[3] == 0)
+        c_.warnings.add(at.place().pointer,
+                        "its alpha is 0: nothing of it is seen, but its fragments are peeled as layers");
     const auto extensions = at.find("extensions");
+    if (extensions) warn_of_transmission(*extensions, made);
     made.unlit = extensions && extensions->has("KHR_materials_unlit");
     const tinygltf::TextureInfo& info = m.pbrMetallicRoughness.baseColorTexture;
     if (info.index < 0) return;
@@ -107,6 +112,21 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     made.texture = texture(info.index, made.alpha_mode == AlphaMode::opaque);
     loaded.texcoord_set = texcoord_set(info_at, info.texCoord);
     loaded.transform = texture_transform(info_at);
+}
+
+// Glass lets light through without being blended, which is no alpha: it is drawn as its alpha mode says.
+void Materials::warn_of_transmission(const JsonAt& extensions, const pipeline::Material& made) {
+    const auto transmission = extensions.find("KHR_materials_transmission");
+    const auto factor = transmission ? transmission->find("transmissionFactor") : std::nullopt;
+    if (!factor || !factor->json().is_number() || !(factor->number() > 0)) return;
+    const double through = std::min(factor->number(), 1.0);
+    const std::string option = fmt::format("{}={:.2g}", made.name, std::max(1 - through, 0.05));
+    c_.warnings.add(
+        transmission->place().pointer,
+        fmt::format(
+            "{} transmits {:.3g} of the light (KHR_materials_transmission), which is not drawn; --alpha {} draws "
+            "that material alone blended",
+            in_quotes(made.name), through, option.find(' ') == option.npos ? option : in_quotes(option)));
 }
 
 int Materials::texture(int texture, bool is_opaque) {

@@ -53,6 +53,7 @@ class Materials {
   private:
     [[nodiscard]] LoadedMaterial load(int material);
     void read(std::size_t material, pipeline::Material& made, LoadedMaterial& loaded);
+    void warn_of_transmission(const JsonAt& extensions, const pipeline::Material& made);
     int texture(int texture, bool is_opaque);
     [[nodiscard]] pipeline::Texture load_texture(const tinygltf::Texture& texture, bool is_opaque);
     [[nodiscard]] std::vector<std::uint8_t> load_image(int image, pipeline::Texture& into);

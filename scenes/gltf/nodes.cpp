@@ -23,16 +23,6 @@ Vec3d unit(const Vec3d& v, const Place& place) {
     return divided(scaled, length);
 }
 
-// The quaternion x y z w as it is written: the check has allowed it to be off unit length by little.
-Matrix from_parts(const std::array<double, 3>& t, const std::array<double, 4>& q, const std::array<double, 3>& s) {
-    const auto [x, y, z, w] = q;
-    const Vec3d c0{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-    const Vec3d c1{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-    const Vec3d c2{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
-    return {c0[0] * s[0], c0[1] * s[0], c0[2] * s[0], 0, c1[0] * s[1], c1[1] * s[1], c1[2] * s[1], 0,
-            c2[0] * s[2], c2[1] * s[2], c2[2] * s[2], 0, t[0],         t[1],         t[2],         1};
-}
-
 template <std::size_t n>
 std::array<double, n> values_or(const std::vector<double>& given, const std::array<double, n>& otherwise) {
     std::array<double, n> values = otherwise;
@@ -42,11 +32,22 @@ std::array<double, n> values_or(const std::vector<double>& given, const std::arr
 
 }  // namespace
 
+// The quaternion x y z w as it is written: the check has allowed it to be off unit length by little.
+Matrix transform_of(const std::array<double, 3>& t, const std::array<double, 4>& q,
+                    const std::array<double, 3>& s) noexcept {
+    const auto [x, y, z, w] = q;
+    const Vec3d c0{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
+    const Vec3d c1{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
+    const Vec3d c2{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
+    return {c0[0] * s[0], c0[1] * s[0], c0[2] * s[0], 0, c1[0] * s[1], c1[1] * s[1], c1[2] * s[1], 0,
+            c2[0] * s[2], c2[1] * s[2], c2[2] * s[2], 0, t[0],         t[1],         t[2],         1};
+}
+
 // A node has either a matrix or parts (check_nodes.cpp); what it leaves out is the identity's.
 Matrix local_transform(const tinygltf::Node& node) noexcept {
     if (node.matrix.size() == 16) return matrix_of(values_or<16>(node.matrix, {}));
-    return from_parts(values_or<3>(node.translation, {0, 0, 0}), values_or<4>(node.rotation, {0, 0, 0, 1}),
-                      values_or<3>(node.scale, {1, 1, 1}));
+    return transform_of(values_or<3>(node.translation, {0, 0, 0}), values_or<4>(node.rotation, {0, 0, 0, 1}),
+                        values_or<3>(node.scale, {1, 1, 1}));
 }
 
 std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots, const std::string& file) {

@@ -6,6 +6,7 @@
 // Source   glTF 2.0, 3.5.3 (transformations), 3.10 (cameras).
 // Tests    tests/scenes/gltf/gltf_node_test.cpp
 #pragma once
+#include <array>
 #include <span>
 
 #include "scenes/gltf/model.h"
@@ -22,6 +23,10 @@ struct PlacedNode {
 [[nodiscard]] std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots,
                                                   const std::string& file);
 
+// translation * rotation * scale, the rotation a quaternion x y z w.
+[[nodiscard]] pipeline::Matrix transform_of(const std::array<double, 3>& translation,
+                                            const std::array<double, 4>& rotation,
+                                            const std::array<double, 3>& scale) noexcept;
 [[nodiscard]] pipeline::Matrix local_transform(const tinygltf::Node& node) noexcept;
 
 // The rigid inverse of a camera node's world transform; InputError if it has no direction left.

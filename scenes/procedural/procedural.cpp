@@ -5,6 +5,7 @@
 
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/blended_materials.h"
 #include "scenes/nearest_name.h"
 #include "scenes/packs/pack_scene.h"
 #include "scenes/packs/plain_triangles.h"
@@ -139,7 +140,9 @@ Scene make_procedural(const std::string& spec, const SceneOptions& options) {
     return maker->make(spec, options);
 }
 
-Scene load_scene(const std::string& spec, const SceneOptions& options) {
+namespace {
+
+Scene loaded(const std::string& spec, const SceneOptions& options) {
     // The name decides first: "teapot:x.gltf" is the teapot with a wrong parameter, "./teapot:x.gltf" is a
     // file.
     if (is_procedural(spec)) return make_procedural(spec, options);
@@ -150,6 +153,14 @@ Scene load_scene(const std::string& spec, const SceneOptions& options) {
                      fmt::format("a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of {}",
                                  fmt::join(names(), ", ")),
                      quoted_with_suggestion(scene_name(spec), names()));
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& spec, const SceneOptions& options) {
+    Scene scene = loaded(spec, options);
+    blend_materials(scene.list, options.alpha, spec);
+    return scene;
 }
 
 }  // namespace strata::scenes

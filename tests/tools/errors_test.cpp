@@ -98,8 +98,10 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--polygon-offset=18446744073709551616,0"},
          "strata: --polygon-offset: expected two numbers such as 1,1, each from -16777216 to 16777216, found "
          "'18446744073709551616,0'"},
-        {{"render", "teapot", "--alpha", "1,5"}, "strata: --alpha: expected a number from 0 to 1, found '1,5'"},
-        {{"render", "teapot", "--alpha", "nan"}, "strata: --alpha: expected a number from 0 to 1, found 'nan'"},
+        {{"render", "teapot", "--alpha", "1,5"},
+         "strata: --alpha: expected a number from 0 to 1, or MATERIAL=A with commas between, found '1,5'"},
+        {{"render", "teapot", "--alpha", "nan"},
+         "strata: --alpha: expected a number from 0 to 1, or MATERIAL=A with commas between, found 'nan'"},
         {{"render", "teapot", "--background", "0,0"},
          "strata: --background: expected three numbers from 0 to 1 such as 0.2,0.2,0.3, found '0,0'"},
         {{"render", "teapot", "--orbit", "30"},

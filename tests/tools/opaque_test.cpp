@@ -28,7 +28,7 @@ TEST_CASE("a scene in which nothing is transparent is told, with what to type") 
     CHECK(plain.err == (mode == "BLEND"
                             ? ""
                             : "strata: warning: a.gltf: nothing is transparent, so there is nothing to peel; "
-                              "--alpha 0.5 draws everything as half transparent\n"));
+                              "--alpha 0.5 draws everything as half transparent, --alpha MATERIAL=0.5 one material\n"));
     CHECK(run_strata(folder, {"render", "a.gltf", "--size", "16x16", "--alpha", "0.5"}).err.empty());
 }
 

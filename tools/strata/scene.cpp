@@ -60,6 +60,8 @@ ordered_json to_json(const scenes::Scene& scene) {
         textures.push_back({{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
     }
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
+    ordered_json material_names = ordered_json::array();
+    for (const auto& material : scene.list.materials) material_names.push_back(material.name);
     // JSON has no empty box: null.
     ordered_json bounds = nullptr;
     if (!scene.bounds.is_empty()) bounds = {{"lo", components(scene.bounds.lo)}, {"hi", components(scene.bounds.hi)}};
@@ -69,6 +71,7 @@ ordered_json to_json(const scenes::Scene& scene) {
             {"scenes", scene.scene_count},
             {"meshes", scene.list.meshes.size()},
             {"materials", scene.list.materials.size()},
+            {"material_names", material_names},
             {"instances", all.instances},
             {"triangles", all.triangles},
             {"alpha_modes", modes},
@@ -81,6 +84,15 @@ ordered_json to_json(const scenes::Scene& scene) {
 
 std::string with_commas(const std::vector<std::string>& parts) {
     return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+// " (wall, pane)": the first of them. The JSON has all.
+std::string in_brackets(std::vector<std::string> names) {
+    constexpr std::size_t most = 12;
+    if (names.empty()) return "";
+    const bool has_more = names.size() > most;
+    names.resize(std::min(names.size(), most));
+    return fmt::format(" ({}{})", fmt::join(names, ", "), has_more ? ", ..." : "");
 }
 
 // Six digits: for people. The JSON has all of them.
@@ -104,7 +116,9 @@ std::string describe(const scenes::Scene& scene) {
         const Drawn part = drawn(scene.list, mode);
         table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)), fmt::format("{}", part.triangles)});
     }
-    table.rows.push_back({"materials", fmt::format("{}", scene.list.materials.size())});
+    std::vector<std::string> materials;
+    for (const auto& m : scene.list.materials) materials.push_back(m.name);
+    table.rows.push_back({"materials", fmt::format("{}{}", materials.size(), in_brackets(materials))});
     table.rows.push_back({"textures", with_commas(textures)});
     table.rows.push_back({"cameras", with_commas(cameras)});
     table.rows.push_back({"extensions", with_commas(scene.extensions)});

@@ -49,20 +49,39 @@ class ChunkReader {
         if (length > left - chunk_header_size)
             fail(at_, "GLB_CHUNK_TOO_BIG", "a chunk of at most " + std::to_string(left - chunk_header_size) + " bytes",
                  length);
-        if (length % 4 != 0) fail(at_, "GLB_CHUNK_LENGTH_UNALIGNED", "a chunk length that is a multiple of 4", length);
         const Chunk chunk{type, bytes_.subspan(at_ + chunk_header_size, length)};
-        at_ += chunk_header_size + length;
+        at_ = length % 4 == 0 ? at_ + chunk_header_size + length : behind_odd(length);
         return chunk;
     }
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
     [[noreturn]] void fail(std::size_t at, std::string_view code, const std::string& expected,
                            std::uint64_t found) const {
         Place{file_, "byte " + std::to_string(at)}.fail(code, expected, std::to_string(found));
     }
 
   private:
+    // Older exporters did not count the padding of a chunk, or made none. Where only one of the two leads to the file's end or to a BIN
+    // chunk that fits, the file is clear.
+    std::size_t behind_odd(std::uint32_t length) {
+        const std::size_t bare = at_ + chunk_header_size + length, padded = (bare + 3) / 4 * 4;
+        const auto leads_on = [&](std::size_t to) {
+            if (to == bytes_.size()) return true;
+            if (to + chunk_header_size > bytes_.size()) return false;
+            return word(bytes_, to + 4) == bin_chunk && word(bytes_, to) <= bytes_.size() - to - chunk_header_size;
+        };
+        if (leads_on(bare) == leads_on(padded))
+            fail(at_, "GLB_CHUNK_LENGTH_UNALIGNED",
+                 "a chunk length that is a multiple of 4 (gltf-transform copy IN.glb OUT.glb mends the file)", length);
+        warnings_.push_back("byte " + std::to_string(at_) + ": the chunk's length " + std::to_string(length) +
+                            " is no multiple of 4; the chunk is read as it stands");
+        return leads_on(bare) ? bare : padded;
+    }
+
     Bytes bytes_;
     const std::string& file_;
     std::size_t at_ = header_size;
+    std::vector<std::string> warnings_{};
 };
 
 Container split_glb(Bytes bytes, const std::string& file) {
@@ -70,7 +89,7 @@ Container split_glb(Bytes bytes, const std::string& file) {
     const Chunk first = reader.next();
     if (first.type != json_chunk) reader.fail(16, "GLB_UNEXPECTED_FIRST_CHUNK", "a JSON chunk first", first.type);
     if (first.data.empty()) reader.fail(12, "GLB_EMPTY_CHUNK", "JSON text", 0);
-    Container container{text(first.data), std::nullopt};
+    Container container{.json = text(first.data)};
     for (bool is_second = true; !reader.at_end(); is_second = false) {
         const Chunk chunk = reader.next();
         if (chunk.type == json_chunk) reader.fail(16, "GLB_DUPLICATE_CHUNK", "one JSON chunk", 2);
@@ -79,6 +98,7 @@ Container split_glb(Bytes bytes, const std::string& file) {
         if (!is_second) reader.fail(16, "GLB_UNEXPECTED_BIN_CHUNK", "the BIN chunk as the second one", 3);
         container.bin = chunk.data;
     }
+    container.warnings = reader.warnings();
     return container;
 }
 
@@ -96,7 +116,7 @@ Container split_container(Bytes bytes, const std::string& file) {
     if (!is_glb && !may_be_json)
         start.fail("GLB_INVALID_MAGIC", "glTF, JSON text or a .glb",
                    in_quotes(text(bytes.first(bytes.size() < 4 ? bytes.size() : 4))));
-    const Container container = is_glb ? split_glb(bytes, file) : Container{text(bytes), std::nullopt};
+    const Container container = is_glb ? split_glb(bytes, file) : Container{.json = text(bytes)};
     if (container.json.size() > max_json_bytes)
         start.fail("INVALID_JSON", "at most 2^28 bytes of JSON", std::to_string(container.json.size()));
     return container;

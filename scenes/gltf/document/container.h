@@ -2,7 +2,7 @@
 //
 // Rule     A file that begins with "glTF" is a .glb: a 12-byte header, then chunks of which the first is JSON and the
 //          second may be BIN; other chunks are passed over. Every length is compared with what is there before it is
-//          used.
+//          used. A length that is no multiple of 4 is a warning where the next chunk can only be in one place.
 // Source   glTF 2.0, 4.4 (GLB file format).
 // Tests    tests/scenes/gltf/gltf_bad_container_test.cpp: a small file cut at every length
 #pragma once
@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace strata::scenes {
 
@@ -18,7 +19,8 @@ using Bytes = std::span<const std::byte>;
 
 struct Container {
     std::string_view json;
-    std::optional<Bytes> bin;
+    std::optional<Bytes> bin{};
+    std::vector<std::string> warnings{};  // "byte 12: the chunk's length 325 is ..."
 };
 
 // The result looks into `bytes`.

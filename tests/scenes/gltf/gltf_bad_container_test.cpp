@@ -63,6 +63,44 @@ TEST_CASE("a .gltf cut off after any byte is refused, and one with any byte chan
         }
 }
 
+// A chunk's length counts no padding, with none behind it or with 1 to 3 blanks that align the next chunk.
+TEST_CASE("a chunk of odd length is read with a warning where the next one can be in one place only") {
+    GltfFile file;
+    file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
+    const ByteVector whole = file.as_glb();
+    const auto word_at = [](const ByteVector& bytes, std::size_t at) {
+        std::uint32_t word = 0;
+        for (std::size_t i = 0; i < 4; ++i) word |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
+        return word;
+    };
+    const std::size_t json_begin = 20, json_length = word_at(whole, 12);
+    // The JSON text ends with its last brace.
+    std::size_t length = json_length;
+    while (std::to_integer<char>(whole[json_begin + length - 1]) == ' ') --length;
+    for (std::size_t own = length; own < length + 4; ++own) {
+        if (own % 4 == 0) continue;
+        ByteVector text_bytes(whole.begin() + json_begin,
+                              whole.begin() + static_cast<std::ptrdiff_t>(json_begin + length));
+        text_bytes.resize(own, std::byte{' '});
+        const ByteVector rest(whole.begin() + static_cast<std::ptrdiff_t>(json_begin + json_length), whole.end());
+        for (const bool is_padded : {false, true}) {
+            ByteVector bytes(whole.begin(), whole.begin() + json_begin);
+            bytes = joined(bytes, text_bytes);
+            if (is_padded) bytes.resize((bytes.size() + 3) / 4 * 4, std::byte{' '});
+            bytes = with_length(joined(with_word(bytes, 12, static_cast<std::uint32_t>(own)), rest));
+            INFO(own << (is_padded ? " padded" : " bare"));
+            const auto scene = strata::scenes::load_gltf_bytes(bytes, "odd.glb", {});
+            CHECK(scene.list.meshes.at(0).positions.size() == 3);
+            CHECK(scene.list.meshes[0].positions[1] == strata::Vec3{1, 0, 0});
+            REQUIRE(scene.warnings.size() == 1);
+            CHECK(scene.warnings[0].starts_with("byte 12: the chunk's length " + std::to_string(own)));
+            ByteVector cut = bytes;
+            cut.pop_back();
+            CHECK(refusal(with_length(cut)).ends_with("[GLB_CHUNK_LENGTH_UNALIGNED]"));
+        }
+    }
+}
+
 TEST_CASE("each fault of a .glb's header and chunks has the validator's code") {
     GltfFile file;
     file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});

@@ -72,7 +72,36 @@ TEST_CASE("a material that can never be seen is loaded as written, with a warnin
     const auto scene = file.load();
     CHECK(scene.list.materials.at(0).front[3] == 0);
     CHECK(scene.warnings ==
-          std::vector<std::string>{"/materials/0: its alpha is 0 or below its cutoff: nothing of it is drawn"});
+          std::vector<std::string>{"/materials/0: its alpha is below its cutoff: nothing of it is drawn"});
+    file.json["materials"][0]["alphaCutoff"] = 0;  // alpha 0 passes it
+    CHECK(file.load().warnings.empty());
+    file.json["materials"][0]["alphaMode"] = "BLEND";
+    CHECK(file.load().warnings ==
+          std::vector<std::string>{
+              "/materials/0: its alpha is 0: nothing of it is seen, but its fragments are peeled as layers"});
+}
+
+TEST_CASE("a material that transmits light is named with its factor and the way to draw it alone blended") {
+    GltfFile file = everything();
+    file.json["materials"][0]["name"] = "pane";
+    file.json["extensionsUsed"] = {"KHR_materials_transmission"};
+    Json& transmission = file.json["materials"][0]["extensions"]["KHR_materials_transmission"];
+    transmission["transmissionFactor"] = 0.9;
+    file.json["materials"][0]["alphaMode"] = "OPAQUE";
+    const auto scene = file.load();
+    CHECK(scene.warnings ==
+          std::vector<std::string>{
+              "/materials/0/extensions/KHR_materials_transmission: 'pane' transmits 0.9 of the light "
+              "(KHR_materials_transmission), which is not drawn; --alpha pane=0.1 draws that material alone blended"});
+    CHECK(scene.list.materials.at(0).alpha_mode == AlphaMode::opaque);
+    transmission["transmissionFactor"] = 1;
+    file.json["materials"][0]["name"] = "a pane";
+    CHECK(file.load().warnings.at(0).find("--alpha 'a pane=0.05' draws") != std::string::npos);
+    // Nothing is lost where nothing is transmitted.
+    transmission["transmissionFactor"] = 0;
+    CHECK(file.load().warnings.empty());
+    transmission.erase("transmissionFactor");
+    CHECK(file.load().warnings.empty());
 }
 
 TEST_CASE("unlit comes from the material or from the options, and then there are no normals") {

@@ -63,6 +63,10 @@ void add_view(Words& words, const RunOptions& options) {
     else if (!options.takes_own_view)
         add(words, "--orbit", fmt::format("{},{}", orbit.azimuth, orbit.elevation));
     if (render.alpha) add(words, "--alpha", fmt::format("{}", *render.alpha));
+    std::string alphas;
+    for (const scenes::MaterialAlpha& one : options.scene_options.alpha)
+        alphas += fmt::format("{}{}={}", alphas.empty() ? "" : ",", one.material, one.alpha);
+    if (!alphas.empty()) add(words, "--alpha", alphas);
     const auto& b = render.background;
     if (b != pipeline::Rgba{0, 0, 0, 1} && !options.has_frame_background)
         add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));

@@ -15,6 +15,27 @@ namespace strata::tools {
 
 namespace {
 
+struct Alphas {
+    std::optional<float> everything{};
+    std::vector<scenes::MaterialAlpha> materials{};
+};
+
+// "0.5", or "glass=0.3,water=0.5".
+std::optional<Alphas> to_alphas(std::string_view text) {
+    Alphas alphas;
+    if (text.find('=') == text.npos) {
+        alphas.everything = to_share(text);
+        return alphas.everything ? std::optional(alphas) : std::nullopt;
+    }
+    for (const std::string& part : split(text, ',')) {
+        const std::size_t is = part.rfind('=');
+        const auto alpha = is == std::string::npos ? std::nullopt : to_share(std::string_view(part).substr(is + 1));
+        if (!alpha || is == 0) return std::nullopt;
+        alphas.materials.push_back({part.substr(0, is), *alpha});
+    }
+    return alphas;
+}
+
 // R,G,B, each from 0 to 1; alpha is 1.
 std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
     pipeline::Rgba color{0, 0, 0, 1};
@@ -279,9 +300,20 @@ void add_view_options(CLI::App& app, RunOptions& options) {
                {"--orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
                 "azimuth and elevation in degrees such as 30,20"},
                to_orbit);
-    add_option(app, options.render.alpha,
-               {"--alpha", "A", "draw everything as transparent, its own alpha times A", "a number from 0 to 1"},
-               to_share);
+    app.add_option_function<std::string>(
+           "--alpha",
+           [&options](const std::string& given) {
+               auto alphas = to_alphas(given);
+               if (!alphas)
+                   throw CLI::ValidationError("--alpha",
+                                              "expected a number from 0 to 1, or MATERIAL=A with commas "
+                                              "between, found '" +
+                                                  given + "'");
+               options.render.alpha = alphas->everything;
+               options.scene_options.alpha = std::move(alphas->materials);
+           },
+           "draw everything as transparent, its own alpha times A, or these materials alone")
+        ->type_name("A|MATERIAL=A[,...]");
     add_option(app, options.render.background,
                {"--background", "R,G,B", "sRGB values from 0 to 1 (default 0,0,0)",
                 "three numbers from 0 to 1 such as 0.2,0.2,0.3"},

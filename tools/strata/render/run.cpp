@@ -67,9 +67,9 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
         return scene.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
     };
     if (std::any_of(scene.list.instances.begin(), scene.list.instances.end(), is_transparent)) return;
-    say_warning(
-        options.scene +
-        ": nothing is transparent, so there is nothing to peel; --alpha 0.5 draws everything as half transparent");
+    say_warning(options.scene +
+                ": nothing is transparent, so there is nothing to peel; --alpha 0.5 draws everything as half "
+                "transparent, --alpha MATERIAL=0.5 one material");
 }
 
 }  // namespace
