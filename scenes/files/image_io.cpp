@@ -2,7 +2,6 @@
 // writer, attributes and digests.
 #include "scenes/files/image_io.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -10,26 +9,16 @@
 #include "pipeline/formats/unorm8.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/file_ending.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_decode.h"
 #include "scenes/files/image_formats.h"
 #include "scenes/files/system_error.h"
 
 namespace strata::scenes {
-namespace {
-
-// `ending` is in small letters; the path's may be in either case.
-bool ends_with(const std::string& path, std::string_view ending) {
-    if (path.size() < ending.size()) return false;
-    return std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
-                      [](char wanted, char c) { return wanted == (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-}
-
-}  // namespace
-
 ImageFile image_file(const std::string& path) {
-    if (ends_with(path, ".png")) return ImageFile::png;
-    if (ends_with(path, ".exr")) return ImageFile::exr;
+    if (has_ending(path, ".png")) return ImageFile::png;
+    if (has_ending(path, ".exr")) return ImageFile::exr;
     throw InputError(path, "name", "a file name that ends in .png or .exr", "another ending");
 }
 
@@ -93,6 +82,7 @@ Attributes described(const OutputColor& image) {
     attributes["format.color"] = pipeline::info(image.color.format).name;
     attributes["digest.color"] = digest(image.color);
     attributes["colour"] = name_of(image.space);
+    attributes["alpha"] = image.premultiplied ? "premultiplied" : "straight";
     if (!image.depth.codes.empty()) {
         attributes["format.depth"] = pipeline::info(image.depth.format).name;
         attributes["digest.depth"] = digest(image.depth);

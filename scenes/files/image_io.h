@@ -25,7 +25,7 @@ struct OutputColor {
     pipeline::Image depth{};     // of the same size, or empty
     bool premultiplied = false;  // whether `color` holds colours times alpha
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
-    Attributes attributes{};  // formats, digests and colour space are added by the writer
+    Attributes attributes{};  // formats, digests, colour space and the form of alpha are added by the writer
     std::string part{};       // its name among layers; "": layer.NNN by its number
 };
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/file_ending.h"
 #include "scenes/files/image_decode.h"
 #include "scenes/files/image_formats.h"
 #include "scenes/files/text_file.h"
@@ -37,17 +38,30 @@ void write_png(const std::string& path, const OutputColor& image) {
     });
 }
 
-StoredCodes read_png_codes(const std::string& path) {
+const char* reader_of(const std::string& path) {
+    constexpr std::pair<std::string_view, const char*> readers[]{
+        {".png", "png"}, {".jpg", "jpeg"},  {".jpeg", "jpeg"}, {".ppm", "pnm"}, {".pgm", "pnm"},  {".pbm", "pnm"},
+        {".pnm", "pnm"}, {".tga", "targa"}, {".bmp", "bmp"},   {".hdr", "hdr"}, {".tif", "tiff"}, {".tiff", "tiff"}};
+    for (const auto& [ending, reader] : readers)
+        if (has_ending(path, ending)) return reader;
+    return nullptr;
+}
+
+StoredCodes read_codes(const std::string& path, const char* reader) {
     const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
     const Place place{path, ""};
-    const ImageHeader header = read_image_header(bytes, place);
-    if (header.kind != ImageKind::png) throw InputError(path, "format", "a PNG", "a JPEG");
-    return image_module().decode_codes({.bytes = bytes,
-                                        .reader = "png",
-                                        .width = static_cast<int>(header.width),
-                                        .height = static_cast<int>(header.height)},
-                                       place);
+    EncodedPicture picture{.bytes = bytes, .reader = reader};
+    // What libpng and libjpeg would say of a damaged file by themselves is found before they see it.
+    const bool is_png = reader == std::string_view{"png"};
+    if (is_png || reader == std::string_view{"jpeg"}) {
+        const ImageHeader header = read_image_header(bytes, place);
+        if (is_png != (header.kind == ImageKind::png))
+            throw InputError(path, "format", is_png ? "a PNG" : "a JPEG", is_png ? "a JPEG" : "a PNG");
+        picture.width = static_cast<int>(header.width);
+        picture.height = static_cast<int>(header.height);
+    }
+    return image_module().decode_codes(picture, place);
 }
 
 std::vector<FileImage> read_png(const std::string& path) {

@@ -3,11 +3,23 @@
 #include <stdexcept>
 
 #include "scenes/images/openimageio.h"
+#include "scenes/images/scaled_pnm.h"
 
 namespace strata::scenes::images {
 namespace {
 
 using Codes = std::vector<std::uint8_t>;
+
+// A size that no file of so many bytes can have is refused before memory is asked for its pixels.
+void check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const Place& place) {
+    const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
+    if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(max_image_side) ||
+        spec.height > static_cast<int>(max_image_side))
+        place.fail("VALUE_NOT_IN_RANGE", "an image of 1 x 1 to 16384 x 16384", size);
+    if (spec.image_bytes() / max_packing > file_bytes)
+        place.fail("IMAGE_UNEXPECTED_EOS", "a file that can hold " + size + " pixels",
+                   std::to_string(file_bytes) + " bytes");
+}
 
 std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const EncodedPicture& picture,
                                        const Place& place) {
@@ -21,9 +33,12 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
         place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
     // The memory budget was paid for the header's size: a decoder that finds another size is stopped before it
     // writes.
-    if (spec.width != picture.width || spec.height != picture.height || spec.depth != 1 || spec.nchannels < 1 ||
-        spec.nchannels > 4)
+    if (picture.width != 0 && (spec.width != picture.width || spec.height != picture.height))
         place.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
+    if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 4 || (spec.nchannels == 4 && spec.alpha_channel != 3))
+        place.fail("IMAGE_DATA_INVALID", "grey or red, green and blue, with or without alpha",
+                   std::to_string(spec.nchannels) + " other channels");
+    check_size(spec, picture.bytes.size(), place);
     return reader;
 }
 
@@ -45,7 +60,6 @@ Codes read(OIIO::ImageInput& reader, const Place& place) {
     return codes;
 }
 
-// Grey, grey and alpha, rgb or rgba to rgba.
 // 1, 2, 3 or 4 channels; grey fills red, green and blue, and a missing alpha is 255.
 Codes to_rgba(const Codes& codes, std::size_t channels) {
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
@@ -69,23 +83,56 @@ Codes decode(const EncodedPicture& picture, const Place& place) {
     return channels == 4 ? codes : to_rgba(codes, channels);
 }
 
+namespace {
+
+// All codes as unsigned words of their own width.
+template <class Word>
+void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const Place& place, StoredCodes& to) {
+    const OIIO::ImageSpec& spec = reader.spec();
+    std::vector<Word> words(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
+    if (!reader.read_image(0, 0, 0, spec.nchannels, type, words.data()))
+        place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
+    to.codes.assign(words.begin(), words.end());
+}
+
+// The fourth byte of a BMP's pixel is alpha in some files and 0 in others: 0 everywhere is no alpha.
+void drop_empty_alpha(StoredCodes& stored) {
+    for (std::size_t i = 3; i < stored.codes.size(); i += 4)
+        if (stored.codes[i] != 0) return;
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < stored.codes.size(); ++i)
+        if (i % 4 != 3) stored.codes[to++] = stored.codes[i];
+    stored.codes.resize(to);
+    stored.channels = 3;
+}
+
+}  // namespace
+
 StoredCodes decode_codes(const EncodedPicture& picture, const Place& place) {
     OIIO::Filesystem::IOMemReader memory(picture.bytes.data(), picture.bytes.size());
     const auto reader = open(memory, picture, place);
     const OIIO::ImageSpec& spec = reader->spec();
-    StoredCodes stored{.width = spec.width,
-                       .height = spec.height,
-                       .channels = spec.nchannels,
-                       .bits = spec.format == OIIO::TypeDesc::UINT16 ? 16 : 8};
-    if (stored.bits == 16) {
-        stored.codes.resize(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
-        if (!reader->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, stored.codes.data()))
-            place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
+    StoredCodes stored{.width = spec.width, .height = spec.height, .channels = spec.nchannels};
+    const std::string_view bytes{reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()};
+    if (auto scaled = scaled_pnm(bytes, spec.width, spec.height, spec.nchannels)) return *std::move(scaled);
+    if (spec.format == OIIO::TypeDesc::UINT16) {
+        stored.bits = 16;
+        read_words<std::uint16_t>(*reader, OIIO::TypeDesc::UINT16, place, stored);
+    } else if (spec.format == OIIO::TypeDesc::HALF) {
+        stored.bits = 16;
+        stored.is_float = true;
+        read_words<std::uint16_t>(*reader, OIIO::TypeDesc::HALF, place, stored);
+    } else if (spec.format == OIIO::TypeDesc::FLOAT) {
+        stored.bits = 32;
+        stored.is_float = true;
+        read_words<std::uint32_t>(*reader, OIIO::TypeDesc::FLOAT, place, stored);
+    } else if (spec.format == OIIO::TypeDesc::UINT8) {
+        read_words<std::uint8_t>(*reader, OIIO::TypeDesc::UINT8, place, stored);
     } else {
-        const Codes codes = read(*reader, place);
-        stored.codes.assign(codes.begin(), codes.end());
+        place.fail("IMAGE_DATA_INVALID", "channels of 8 or 16 bits, halves or floats", in_quotes(spec.format.c_str()));
     }
     reader->close();
+    if (picture.reader == std::string_view{"bmp"} && stored.channels == 4) drop_empty_alpha(stored);
     return stored;
 }
 

@@ -16,24 +16,30 @@
 
 namespace strata::scenes {
 
-// The bytes of a PNG or JPEG file and what its header says of its size.
+// The bytes of a file and what its header says of its size.
 struct EncodedPicture {
     Bytes bytes;
-    const char* reader = "";  // "png" or "jpeg"
-    int width = 0, height = 0;
+    const char* reader = "";    // OpenImageIO's name of the format: "png", "jpeg", "pnm"
+    int width = 0, height = 0;  // 0: the header has not been read
 };
 
-// A PNG's channels as the file has them: a palette is looked up, nothing else is changed. 16-bit codes where `bits` is 16, else 8.
+// The largest picture, a side in pixels, and how many bytes of pixels a byte of a file may stand for.
+inline constexpr std::uint32_t max_image_side = 16384;
+inline constexpr std::uint64_t max_packing = 2048;
+
+// A picture's channels as the file has them, 1 to 4: a palette is looked up, nothing else is changed. 1 and 2 channels are grey; the
+// last of 2 and of 4 is alpha. Codes of 8 or 16 bits; or halves of 16 and floats of 32 bits.
 struct StoredCodes {
     int width = 0, height = 0, channels = 0, bits = 8;
-    std::vector<std::uint16_t> codes{};
+    bool is_float = false;
+    std::vector<std::uint32_t> codes{};
 };
 
 struct ImageModule {
     const char* version;
     // width * height * 4 codes. InputError at `place` where the bytes do not decode to that size.
     std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const Place& place);
-    // The same without a change to width, channels or bits.
+    // The same without a change to channels or bits; of any format that the library reads.
     StoredCodes (*decode_codes)(const EncodedPicture& picture, const Place& place);
 };
 

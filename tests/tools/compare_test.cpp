@@ -101,14 +101,51 @@ TEST_CASE("compare says what it wanted where it was given something else") {
         return run_strata(folder, words).err;
     };
     CHECK(says({"--tolerance", "colour"}) ==
-          "strata: --tolerance: expected color=N, depth=N and coverage=N with commas between, found 'colour'\n");
-    CHECK(says({"--layout", "3x3"}) ==
-          "strata: --layout: expected WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, rgb16, rgba32f, d24 or d32f, and "
-          ":bottom-up if the lowest row comes first, found '3x3'\n");
+          "strata: --tolerance: expected color=N, depth=N, coverage=N, background=N, layers=N, depth-pixels=N, "
+          "color-pixels=N and pixels=N with commas between, pixels also as a share such as 0.02%, found 'colour'\n");
+    CHECK(
+        says({"--layout", "3x3"}) ==
+        "strata: --layout: expected WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24 or "
+        "d32f, and :bottom-up if the lowest row comes first, :offset=BYTES for a header, :stride=BYTES from row to "
+        "row, "
+        "found '3x3'\n");
     CHECK(says({"--heat", "heat.exr"}) == "strata: --heat: expected a file that ends in .png, found 'heat.exr'\n");
     CHECK(says({}) ==
-          "strata: a.raw: name: expected a file that ends in .exr, .png or .npy, or --layout for one of bare numbers, "
-          "found another ending\n");
+          "strata: a.raw: name: expected a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or "
+          ".hdr, "
+          "or --layout for one of bare numbers, found another ending\n");
+}
+
+// Four pixels, of which one differs in blue; grey, and the same bytes as blue, green, red behind a header.
+TEST_CASE(
+    "pictures of other programs are compared by what their channels mean, and some pixels may be allowed to differ") {
+    using namespace std::string_literals;
+    const Folder folder;
+    const auto put = [&](const char* name, const std::string& bytes) {
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+    };
+    const std::string head = "P6\n4 1\n255\n";
+    put("a.ppm", head + "\1\2\3\4\5\6\7\7\7\7\7\7"s);
+    put("b.ppm", head + "\1\2\3\4\5\x46\7\7\7\7\7\7"s);
+    put("c.raw", "BM\3\2\1\6\5\4\7\7\7\7\7\7"s);
+    put("d.pgm", "P5\n4 1\n255\n\1\4\7\7"s);
+    const auto compared = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), "compare");
+        return run_strata(folder, words);
+    };
+    CHECK(compared({"a.ppm", "b.ppm"}).status == 1);
+    CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "color=63"}).status == 1);
+    CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "color=64"}).status == 0);
+    const Ended spent = compared({"a.ppm", "b.ppm", "--tolerance", "color=2,pixels=1"});
+    CHECK(spent.status == 0);
+    CHECK_THAT(spent.out, Catch::Contains("pixels: 1 of 1 pixels spent"));
+    CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "pixels=25%"}).status == 0);
+    CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "pixels=24%"}).status == 1);
+    CHECK(compared({"a.ppm", "c.raw", "--layout", "4x1:bgr8:offset=2"}).out == "equal\n");
+    const Ended grey = compared({"a.ppm", "d.pgm"});
+    CHECK(grey.status == 1);
+    CHECK_THAT(grey.out, Catch::Contains("different: 2 of 4 pixels differ") &&
+                             Catch::Contains("the candidate is grey, which counts as equal red, green and blue"));
 }
 
 TEST_CASE("codes of 32 bits are compared bit by bit: the least one of them is a difference") {

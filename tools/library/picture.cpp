@@ -11,18 +11,6 @@ inline namespace v0_1 {
 
 namespace {
 
-std::size_t bytes_of(oracle::Code code) noexcept {
-    switch (code) {
-        case oracle::Code::unorm8: return 1;
-        case oracle::Code::unorm16:
-        case oracle::Code::half: return 2;
-        case oracle::Code::unorm24:
-        case oracle::Code::single:
-        case oracle::Code::integer: break;
-    }
-    return 4;
-}
-
 // Throws unless `rows` rows of `row` bytes, `row_bytes` apart, lie within `memory` bytes. Answers how far apart they are.
 std::size_t checked_row_bytes(std::size_t memory, std::size_t row, std::size_t rows, std::size_t row_bytes) {
     if (row_bytes == 0) row_bytes = row;
@@ -42,10 +30,7 @@ void check_side(const char* field, int side) {
 
 oracle::RawLayout layout(std::string_view text) {
     if (const auto found = oracle::raw_layout(text)) return *found;
-    throw InputError("layout", "text",
-                     "WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, rgb16, rgba32f, d24 or d32f, and :bottom-up if the "
-                     "lowest row comes first",
-                     "'" + std::string{text} + "'");
+    throw InputError("layout", "text", oracle::raw_layout_expected, "'" + std::string{text} + "'");
 }
 
 Picture from_memory(std::span<const std::byte> memory, const oracle::RawLayout& layout, std::size_t row_bytes) {
@@ -53,14 +38,18 @@ Picture from_memory(std::span<const std::byte> memory, const oracle::RawLayout& 
     check_side("height", layout.height);
     if (layout.channels < 1 || layout.channels > 4)
         throw InputError("layout", "channels", "1 to 4", std::to_string(layout.channels));
-    const std::size_t row =
-        static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.channels) * bytes_of(layout.code);
+    const std::size_t row = oracle::own_row_bytes(layout);
     const auto rows = static_cast<std::size_t>(layout.height);
-    row_bytes = checked_row_bytes(memory.size(), row, rows, row_bytes);
-    const auto* const bytes = reinterpret_cast<const char*>(memory.data());
-    std::string without_padding;
-    for (std::size_t y = 0; y < rows; ++y) without_padding.append(bytes + y * row_bytes, row);
-    return {"memory", {oracle::raw_target(without_padding, "memory", layout)}};
+    if (layout.offset >= memory.size())
+        throw InputError("layout", "offset", "less than " + std::to_string(memory.size()),
+                         std::to_string(layout.offset));
+    const std::size_t stride =
+        checked_row_bytes(memory.size() - layout.offset, row, rows, row_bytes != 0 ? row_bytes : layout.row_bytes);
+    oracle::RawLayout apart = layout;
+    apart.row_bytes = stride;
+    const std::string_view bytes{reinterpret_cast<const char*>(memory.data()),
+                                 layout.offset + (rows - 1) * stride + row};
+    return {"memory", {oracle::raw_target(bytes, "memory", apart)}};
 }
 
 Picture from_memory(const void* memory, std::size_t bytes, std::string_view text, std::size_t row_bytes) {

@@ -14,6 +14,7 @@ namespace {
 constexpr unsigned integer_bits(Code code) noexcept {
     switch (code) {
         case Code::unorm8: return 8;
+        case Code::unorm10: return 10;
         case Code::unorm16: return 16;
         case Code::unorm24: return 24;
         case Code::integer: return 32;
@@ -28,7 +29,8 @@ constexpr bool is_unorm(Code code) noexcept { return !is_float(code) && code != 
 
 // Whether each value of `integer`, rounded to `wide`, is another.
 constexpr bool tells_apart(Code wide, Code integer) noexcept {
-    return is_unorm(integer) && (wide == Code::single || (wide == Code::half && integer == Code::unorm8));
+    return is_unorm(integer) &&
+           (wide == Code::single || (wide == Code::half && (integer == Code::unorm8 || integer == Code::unorm10)));
 }
 
 // Floats in ascending order as integers: neighbours differ by 1, and -0 and +0 are two.
@@ -44,6 +46,7 @@ std::int64_t ordered(Stored stored) noexcept {
 std::string_view name(Code code) noexcept {
     switch (code) {
         case Code::unorm8: return "unorm8";
+        case Code::unorm10: return "unorm10";
         case Code::unorm16: return "unorm16";
         case Code::unorm24: return "unorm24";
         case Code::half: return "half";

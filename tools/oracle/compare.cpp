@@ -1,7 +1,9 @@
 #include "tools/oracle/compare.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "peeling/audit/image_error.h"
 #include "rasterizer/base/float_environment.h"
 #include "tools/oracle/layers.h"
 
@@ -30,6 +32,21 @@ struct Distances {
     std::vector<std::uint32_t> color, depth;
 };
 
+// Over all channels, pixel by pixel, in binary64.
+void measure_noise(const Pair& pair, TargetReport& report) {
+    if (pair.reference->meaning != Meaning::color || pair.reference->code == Code::integer) return;
+    double squares = 0;
+    for (std::size_t i = 0; i < pair.reference->pixels(); ++i)
+        for (int c = 0; c < pair.channels(); ++c) {
+            const double apart = 255 * (pair.candidate->value_at(i, c) - pair.reference->value_at(i, c));
+            squares += apart * apart;
+        }
+    const double rmse = std::sqrt(squares / static_cast<double>(pair.reference->codes.size()));
+    if (!std::isfinite(rmse) || rmse == 0) return;
+    report.rmse = rmse;
+    report.psnr = peeling::signal_to_noise(rmse);
+}
+
 void measure(const Pair& pair, Distances& worst, Comparison& result) {
     TargetReport report{.part = pair.reference->part,
                         .name = pair.reference->name,
@@ -45,6 +62,7 @@ void measure(const Pair& pair, Distances& worst, Comparison& result) {
         report.greatest = std::max(report.greatest, apart);
         of_kind[i] = std::max(of_kind[i], apart);
     }
+    if (report.differing > 0) measure_noise(pair, report);
     result.targets.push_back(std::move(report));
 }
 
@@ -112,16 +130,44 @@ void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width
     report.beyond += forgiven ? 0 : 1;
 }
 
+// Pixels of these kinds that no tolerance of codes forgives are paid from the budget, all of them or none.
+void spend(std::string_view name, const Budget& budget, std::span<const Kind> of, std::vector<KindReport>& kinds,
+           Comparison& result) {
+    const std::uint64_t allowed =
+        budget.allowed(static_cast<std::uint64_t>(result.width) * static_cast<std::uint64_t>(result.height));
+    if (allowed == 0) return;
+    std::uint64_t beyond = 0;
+    for (const Kind kind : of) beyond += kinds[static_cast<std::size_t>(kind)].beyond;
+    result.spent.push_back({name, beyond, allowed});
+    if (beyond > allowed) return;
+    for (const Kind kind : of) kinds[static_cast<std::size_t>(kind)].beyond = 0;
+}
+
+void spend_all(const Tolerances& t, std::vector<KindReport>& kinds, Comparison& result) {
+    using enum Kind;
+    constexpr std::array layers{layer_missing, layer_doubled, layer_swapped, layer_merged, layer_other};
+    constexpr std::array coverages{coverage}, backgrounds{background}, depths{depth}, colors{color};
+    constexpr std::array all{coverage,     background,  layer_missing, layer_doubled, layer_swapped,
+                             layer_merged, layer_other, depth,         color};
+    spend("coverage", t.coverage, coverages, kinds, result);
+    spend("background", t.background, backgrounds, kinds, result);
+    spend("layers", t.layers, layers, kinds, result);
+    spend("depth-pixels", t.depth, depths, kinds, result);
+    spend("color-pixels", t.color, colors, kinds, result);
+    spend("pixels", t.pixels, all, kinds, result);
+}
+
 }  // namespace
 
 Comparison compare(const Picture& reference, const Picture& candidate, const Tolerances& tolerances,
                    const Background& background) {
     const FloatEnvironment ours;
-    const Pairing pairing = pair_targets(reference, candidate);
+    const Pairing pairing = pair_targets(reference, candidate, tolerances.channels);
     const Target& first = *pairing.pairs[0].reference;
     const std::size_t pixels = first.pixels();
     Comparison result{.width = first.width, .height = first.height};
     result.not_compared = pairing.not_compared;
+    result.notes = pairing.notes;
     Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels)};
     for (const Pair& pair : pairing.pairs) measure(pair, worst, result);
 
@@ -139,10 +185,9 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
         add(kinds, kind, i, result.width, sorter.is_forgiven(kind, i, worst));
     }
     KindReport& coverage = kinds[static_cast<std::size_t>(Kind::coverage)];
-    if (coverage.pixels > 0) {
+    if (coverage.pixels > 0)
         coverage.detail = compare_coverage(*sorter.masks(), result.width, result.height).sentence();
-        if (coverage.pixels <= tolerances.coverage_pixels) coverage.beyond = 0;
-    }
+    spend_all(tolerances, kinds, result);
     std::erase_if(kinds, [](const KindReport& kind) { return kind.pixels == 0; });
     result.kinds = std::move(kinds);
     result.equal = result.differing == 0;

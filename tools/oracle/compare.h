@@ -5,8 +5,10 @@
 //          `equal` knows no tolerance.
 // Tests    tests/tools/oracle/compare_test.cpp, compare_layers_test.cpp
 #pragma once
+#include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "tools/oracle/coverage.h"
@@ -30,11 +32,30 @@ enum class Kind : std::uint8_t {
 inline constexpr std::size_t kind_count = 10;
 [[nodiscard]] std::string_view name(Kind kind) noexcept;
 
+// How many pixels may differ: a number, or a share of all pixels, whichever allows more.
+struct Budget {
+    std::uint64_t pixels = 0;
+    double share = 0;  // from 0 to 1
+    [[nodiscard]] std::uint64_t allowed(std::uint64_t all) const noexcept {
+        return std::max(pixels, static_cast<std::uint64_t>(share * static_cast<double>(all)));
+    }
+    friend bool operator==(const Budget&, const Budget&) = default;
+};
+
 // What may be forgiven; 0: nothing.
 struct Tolerances {
     std::uint32_t color_codes = 0, depth_codes = 0;  // of the reference's type, at every pixel
-    std::uint64_t coverage_pixels = 0;               // how many pixels may differ in coverage
+    // Pixels that may differ all the same, by what they differ in: coverage, the background, layers of any kind, and depths and colours
+    // that are further apart; and of those that are left over, whatever they differ in.
+    Budget coverage{}, background{}, layers{}, depth{}, color{}, pixels{};
+    ColorChannels channels = ColorChannels::all;  // of colours
     friend bool operator==(const Tolerances&, const Tolerances&) = default;
+};
+
+// What was taken of a budget that allows something.
+struct SpentBudget {
+    std::string_view name;  // "coverage"
+    std::uint64_t pixels = 0, allowed = 0;
 };
 
 struct TargetReport {
@@ -45,6 +66,8 @@ struct TargetReport {
     std::uint32_t greatest = 0;  // distance
     std::map<std::uint32_t, std::uint64_t>
         distances{};  // pixels by the distance of their worst channel; equal ones left out
+    // Of colours that differ: root mean square over all channels in 1/255, and 20 log10(255 / rmse) in decibels.
+    std::optional<double> rmse{}, psnr{};
 };
 
 struct KindReport {
@@ -58,9 +81,11 @@ struct Comparison {
     int width = 0, height = 0;
     std::uint64_t differing = 0;
     std::vector<TargetReport> targets{};
-    std::vector<KindReport> kinds{};           // those that occur
-    std::vector<Explanation> explanations{};   // the best first
-    std::vector<std::string> not_compared{};   // targets and channels of one picture alone
+    std::vector<KindReport> kinds{};          // those that occur
+    std::vector<Explanation> explanations{};  // the best first
+    std::vector<std::string> not_compared{};  // targets and channels of one picture alone
+    std::vector<std::string> notes{};         // what was done to make targets comparable (pairs.h)
+    std::vector<SpentBudget> spent{};
     std::vector<Kind> kind_of{};               // each pixel
     std::vector<std::uint32_t> distance_of{};  // each pixel's greatest distance
     std::array<bool, kind_count> is_tested{};  // whether the targets can show the kind: layers, depths, a background

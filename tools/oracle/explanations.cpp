@@ -29,6 +29,7 @@ bool is_near(Stored candidate, double wanted) noexcept {
     const double found = value(candidate.code, candidate.word), apart = std::abs(found - wanted);
     switch (candidate.code) {
         case Code::unorm8: return apart <= 1.0 / 255;
+        case Code::unorm10: return apart <= 1.0 / 1023;
         case Code::unorm16: return apart <= 1.0 / 65535;
         case Code::unorm24: return apart <= 1.0 / 16777215;
         case Code::half: return apart <= std::max(std::abs(wanted), 0x1p-14) * 0x1p-9;

@@ -1,14 +1,14 @@
-// tools/oracle/read_picture.cpp - EXR and PNG to a Picture; picture.h states the rule.
+// tools/oracle/read_picture.cpp - EXR, and what OpenImageIO reads, to a Picture; picture.h states the rule.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <iterator>
 
 #include "pipeline/formats/format.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/exr/parts.h"
+#include "scenes/file_ending.h"
 #include "scenes/files/image_decode.h"
 #include "scenes/files/image_formats.h"
 #include "tools/oracle/numbers_file.h"
@@ -76,6 +76,7 @@ void add_foreign(const StoredPart& part, const std::string& path, int number, st
     if (!colors.empty()) {
         targets.push_back(of_channels(part, colors, Meaning::color));
         targets.back().name = "color";
+        targets.back().alpha_form = AlphaForm::premultiplied;  // as the format has it
     }
     for (const scenes::StoredChannel& channel : part.header.channels) {
         if (std::ranges::find(colors, channel.name) != colors.end()) continue;
@@ -100,21 +101,30 @@ Picture read_exr(const std::string& path) {
         else if (scenes::attribute(part.header, "format.color").empty())
             add_foreign(part, path, number, picture.targets);
         else
-            for (const scenes::FileImage& image : scenes::as_images(part, number, path))
+            for (const scenes::FileImage& image : scenes::as_images(part, number, path)) {
                 picture.targets.push_back(of_image(image));
+                const bool is_straight = scenes::attribute(part.header, "alpha") == "straight";
+                if (image.target == "color")
+                    picture.targets.back().alpha_form = is_straight ? AlphaForm::straight : AlphaForm::premultiplied;
+            }
         ++number;
     });
     return picture;
 }
 
-Picture read_png(const std::string& path) {
-    const scenes::StoredCodes stored = scenes::read_png_codes(path);
+Picture read_by(const char* reader, const std::string& path) {
+    scenes::StoredCodes stored = scenes::read_codes(path, reader);
+    const Code halves_or_codes = stored.is_float ? Code::half : Code::unorm16;
     Target target{.name = "color",
-                  .code = stored.bits == 16 ? Code::unorm16 : Code::unorm8,
+                  .code = stored.bits == 8    ? Code::unorm8
+                          : stored.bits == 16 ? halves_or_codes
+                                              : Code::single,
                   .width = stored.width,
                   .height = stored.height,
-                  .channels = stored.channels};
-    target.codes.assign(stored.codes.begin(), stored.codes.end());
+                  .channels = stored.channels,
+                  .codes = std::move(stored.codes),
+                  .is_grey = stored.channels < 3,
+                  .alpha_form = AlphaForm::straight};
     return {path, {std::move(target)}};
 }
 
@@ -150,17 +160,15 @@ Target as_target(const pipeline::Image& image, std::string name) {
 }
 
 Picture read_picture(const std::string& path, const std::optional<RawLayout>& layout) {
-    const auto ends_in = [&](std::string_view ending) {
-        return path.size() >= ending.size() &&
-               std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
-                          [](char wanted, char c) { return wanted == (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    };
-    if (ends_in(".exr")) return read_exr(path);
-    if (ends_in(".png")) return read_png(path);
-    if (ends_in(".npy")) return {path, {read_npy(path)}};
+    if (scenes::has_ending(path, ".exr")) return read_exr(path);
+    if (scenes::has_ending(path, ".npy")) return {path, {read_npy(path)}};
+    if (const char* const reader = scenes::reader_of(path)) return read_by(reader, path);
     if (layout) return {path, {read_raw(path, *layout)}};
-    throw InputError(path, "name", "a file that ends in .exr, .png or .npy, or --layout for one of bare numbers",
-                     "another ending");
+    throw InputError(
+        path, "name",
+        "a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or .hdr, or --layout for one of bare "
+        "numbers",
+        "another ending");
 }
 
 }  // namespace strata::oracle

@@ -45,18 +45,25 @@ std::string share(const Explanation& e) {
 
 std::string to_text(const Comparison& c) {
     std::string text = verdict(c) + '\n';
-    for (const TargetReport& target : c.targets)
+    for (const TargetReport& target : c.targets) {
         if (target.differing > 0)
             text += fmt::format(
                 "  target {} ({}{}): {} pixels differ by at most {} codes; pixels by codes: {}\n", in_part(target),
                 name(target.reference),
                 target.candidate == target.reference ? "" : fmt::format(" against {}", name(target.candidate)),
                 target.differing, target.greatest, histogram(target));
+        if (target.rmse)
+            text += fmt::format("  target {}: RMSE {:.3f}/255, PSNR {:.2f} dB\n", in_part(target), *target.rmse,
+                                *target.psnr);
+    }
     for (const KindReport& kind : c.kinds)
         text += fmt::format("  {}: {} pixels, {} of them beyond the tolerance, first at {},{}{}\n", name(kind.kind),
                             kind.pixels, kind.beyond, kind.first_x, kind.first_y,
                             kind.detail.empty() ? "" : "; " + kind.detail);
+    for (const SpentBudget& budget : c.spent)
+        text += fmt::format("  {}: {} of {} pixels spent\n", budget.name, budget.pixels, budget.allowed);
     for (const Explanation& e : c.explanations) text += fmt::format("  {}: {}\n", e.mistake, share(e));
+    for (const std::string& note : c.notes) text += fmt::format("  {}\n", note);
     for (const std::string& left_out : c.not_compared) text += fmt::format("  not compared: {}\n", left_out);
     return text;
 }
@@ -74,6 +81,8 @@ std::string to_json(const Comparison& c) {
                                        {"channels", target.channels},
                                        {"differing", target.differing},
                                        {"greatest", target.greatest},
+                                       {"rmse", target.rmse ? ordered_json(*target.rmse) : ordered_json(nullptr)},
+                                       {"psnr", target.psnr ? ordered_json(*target.psnr) : ordered_json(nullptr)},
                                        {"distances", std::move(distances)}});
     }
     document["kinds"] = ordered_json::array();
@@ -90,6 +99,10 @@ std::string to_json(const Comparison& c) {
                                             {"explained", e.explained},
                                             {"of", e.of},
                                             {"contradicted", e.contradicted}});
+    document["spent"] = ordered_json::array();
+    for (const SpentBudget& budget : c.spent)
+        document["spent"].push_back({{"budget", budget.name}, {"pixels", budget.pixels}, {"allowed", budget.allowed}});
+    document["notes"] = c.notes;
     document["not_compared"] = c.not_compared;
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

@@ -30,6 +30,7 @@ struct CompareOptions {
     std::string reference, candidate;
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
+    std::optional<oracle::AlphaForm> alpha_form{};
     oracle::Background background{};  // empty: read from the pictures
     std::string algorithm;            // of packs; empty: all
     std::string heat, side, junit, report;
@@ -128,11 +129,13 @@ int compare(const CompareOptions& options) {
         return compare_folders(options);
     if (asks_for_verdict(options)) {
         check_without_files(options);
-        const oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
+        oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
+        state_alpha(picture, options.alpha_form);
         return compare_with_scene({options.run, options.algorithm, options.json, options.report}, picture);
     }
     const oracle::Picture reference = reference_of(options);
-    const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
+    oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
+    state_alpha(candidate, options.alpha_form);
     const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances, options.background);
     write_png(options.heat, oracle::heat_map_with_legend(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));
@@ -166,7 +169,8 @@ Command add_compare(CLI::App& root) {
                options->reference = reference;
                if (is_scene(reference)) take_scene(options->run, reference);
            },
-           "a scene or a pack, an .exr, .png or .npy file, or bare numbers with --layout")
+           "a scene or a pack, an .exr, .npy, .png, .jpg, .ppm, .tga, .bmp, .tif or .hdr file, or bare numbers with "
+           "--layout")
         ->required()
         ->type_name("");
     app->add_option("CANDIDATE", options->candidate,
@@ -177,6 +181,8 @@ Command add_compare(CLI::App& root) {
     add_tolerance_option(*app, options->tolerances);
     app->add_flag("--exact", options->exact,
                   "of a scene or a pack: hold the picture to every bit, and show where it differs");
+    add_channels_option(*app, options->tolerances);
+    add_alpha_option(*app, options->alpha_form);
     add_path(*app, options->algorithm,
              {"--algorithm", "NAME", "of a pack: compare this one alone (default: all); of a scene: what the port runs",
               "an algorithm"});

@@ -49,6 +49,7 @@ oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& can
     peeling::RenderResult result = renderer.render(*question.run.algorithms[0]);
     if (result.refusal) throw pipeline::Refused{session.profile, *std::move(result.refusal)};
     oracle::Picture picture{.file = question.run.scene, .targets = {oracle::as_target(result.frame.color, "color")}};
+    picture.targets[0].alpha_form = oracle::AlphaForm::premultiplied;
     if (oracle::has_depth(candidate)) picture.targets.push_back(oracle::as_target(result.frame.depth, "depth"));
     return picture;
 }

@@ -8,6 +8,10 @@
 namespace strata::tools {
 
 void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout);  // --layout
-void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances);         // --tolerance
+// --candidate-alpha; and what it says of a picture's colours.
+void add_alpha_option(CLI::App& app, std::optional<oracle::AlphaForm>& form);
+void state_alpha(oracle::Picture& picture, const std::optional<oracle::AlphaForm>& form);
+void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances);  // --tolerance
+void add_channels_option(CLI::App& app, oracle::Tolerances& tolerances);   // --channels
 
 }  // namespace strata::tools

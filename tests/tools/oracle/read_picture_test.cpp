@@ -5,6 +5,7 @@
 #include "scenes/files/image_io.h"
 #include "tests/tools/oracle/own_file.h"
 #include "tests/tools/oracle/pictures.h"
+#include "tools/oracle/numbers_file.h"
 
 using namespace strata::oracle;
 using namespace strata::test;
@@ -127,9 +128,111 @@ TEST_CASE("bare numbers are read by their layout, from the top or from the botto
     CHECK(layout("640x480:rgba32f").code == Code::single);
     CHECK_THROWS_AS(read_picture(file.path(), layout("2x2:rgb8")), strata::InputError);
     CHECK_THROWS_AS(read_picture(file.path()), strata::InputError);
-    for (const char* text : {"", "640x480", "640:rgba8", "x480:rgba8", "0x1:r8", "16385x1:r8", "1x1:bgra8", "1x1:rgba9",
-                             "1x1:8", "1x1:rgba8:top-down"})
+    for (const char* text : {"", "640x480", "640:rgba8", "x480:rgba8", "0x1:r8", "16385x1:r8", "1x1:gbra8", "1x1:rgba9",
+                             "1x1:8", "1x1:rgba8:top-down", "1x1:bgra16", "1x1:rgba8:offset=0", "1x1:rgba8:offset=x",
+                             "1x1:rgba8:stride=3", "1x1:rgba8:stride=4:stride=4", "1x1:r8:bottom-up:bottom-up"})
         CHECK_FALSE(raw_layout(text));
+}
+
+TEST_CASE("bare numbers may stand blue first, in packed words, behind a header and in rows with padding") {
+    const auto codes = [](const char* text, const std::string& bytes) {
+        return raw_target(bytes, "memory", raw_layout(text).value()).codes;
+    };
+    using Codes = std::vector<std::uint32_t>;
+    CHECK(codes("1x1:bgra8", {1, 2, 3, 4}) == Codes{3, 2, 1, 4});
+    CHECK(codes("2x1:bgr8", {1, 2, 3, 4, 5, 6}) == Codes{3, 2, 1, 6, 5, 4});
+    // From the lowest bit on: 1023, 1, 512 and 2, which is 2 / 3 = 682 / 1023.
+    const std::uint32_t word = 1023u | 1u << 10 | 512u << 20 | 2u << 30;
+    std::string packed;
+    for (int shift = 0; shift < 32; shift += 8) packed += static_cast<char>(word >> shift & 0xff);
+    CHECK(codes("1x1:rgb10a2", packed) == Codes{1023, 1, 512, 682});
+    CHECK(codes("1x1:bgr10a2", packed) == Codes{512, 1, 1023, 682});
+    CHECK(raw_target(packed, "memory", raw_layout("1x1:rgb10a2").value()).code == Code::unorm10);
+    // Two bytes of header, rows of 3 bytes of which the last is padding.
+    const std::string rows{9, 9, 1, 2, 0, 3, 4, 0};
+    CHECK(codes("2x2:r8:offset=2:stride=3", rows) == Codes{1, 2, 3, 4});
+    CHECK(codes("2x2:r8:stride=3:bottom-up:offset=2", rows) == Codes{3, 4, 1, 2});
+    CHECK(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 7)) == Codes{1, 2, 3, 4});  // the last row may lack it
+    CHECK_THROWS_WITH(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 6)),
+                      "memory: size: expected 8 bytes for 2x2 pixels, 3 bytes a row behind 2, found 6");
+}
+
+TEST_CASE("PPM, PGM, TGA and BMP have the codes of their bytes, the upper row first") {
+    using namespace std::string_literals;
+    using Codes = std::vector<std::uint32_t>;
+    const auto read = [](const char* ending, const std::string& bytes) {
+        const OwnFile file{ending, bytes};
+        const Picture picture = read_picture(file.path());
+        REQUIRE(picture.targets.size() == 1);
+        return picture.targets[0];
+    };
+    const Codes expected{1, 2, 3, 40, 50, 60, 7, 8, 9, 100, 110, 120};
+    const Target ppm = read(".ppm", "P6\n2 2\n255\n\x01\x02\x03\x28\x32\x3c\x07\x08\x09\x64\x6e\x78"s);
+    CHECK(ppm.codes == expected);
+    CHECK(ppm.channels == 3);
+    CHECK(ppm.alpha_form == AlphaForm::straight);
+    const Target wide = read(".PPM", "P6 1 1 65535\n\x12\x34\x00\x01\xff\xff"s);
+    CHECK(wide.code == Code::unorm16);
+    CHECK(wide.codes == Codes{0x1234, 1, 0xffff});
+    CHECK(read(".pgm", "P5\n# made by hand\n3 1\n1023\n\x00\x01\x02\x00\x03\xff"s).codes == Codes{64, 32800, 65535});
+    CHECK(read(".pgm", "P2 4 1 7 0 1 6 7\n"s).codes == Codes{0, 36, 219, 255});
+    CHECK(read(".ppm", "P3 1 1 300 300 150 1 "s).codes == Codes{65535, 32768, 218});
+    const Target pgm = read(".pgm", "P5 2 1 255\n\x05\xff"s);
+    CHECK(pgm.is_grey);
+    CHECK(pgm.codes == Codes{5, 255});
+    // 18 bytes of header: uncompressed (2) or in runs (10), 2 x 2 of 24 bits, the upper row first (0x20); blue, green, red.
+    const auto tga = [](char type, char bits, char order) {
+        return "\0\0"s + type + "\0\0\0\0\0\0\0\0\0\2\0\2\0"s + bits + order;
+    };
+    const std::string pixels = "\x03\x02\x01\x3c\x32\x28\x09\x08\x07\x78\x6e\x64"s;
+    CHECK(read(".tga", tga(2, 24, 0x20) + pixels).codes == expected);
+    CHECK(read(".tga", tga(2, 24, 0) + pixels.substr(6) + pixels.substr(0, 6)).codes == expected);
+    CHECK(read(".tga", tga(10, 24, 0x20) + "\x81\x03\x02\x01\x01\x09\x08\x07\x78\x6e\x64"s).codes ==
+          Codes{1, 2, 3, 1, 2, 3, 7, 8, 9, 100, 110, 120});
+    CHECK(read(".tga", tga(2, 32, 0x28) + "\x01\x02\x03\x80\1\1\1\1\2\2\2\2\3\3\3\3"s).codes[3] == 0x80);
+    CHECK(read(".tga", tga(2, 32, 0x28) + "\x01\x02\x03\x80\1\1\1\1\2\2\2\2\3\3\3\3"s).codes[0] == 3);  // straight
+    // 14 + 40 bytes of header; rows of 8 bytes, the lowest first.
+    const auto bmp = [](char bits, const std::string& rows) {
+        return "BM"s + "\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0"s + bits + std::string(25, '\0') +
+               rows;
+    };
+    CHECK(read(".bmp", bmp(24, "\x09\x08\x07\x78\x6e\x64\0\0\x03\x02\x01\x3c\x32\x28\0\0"s)).codes == expected);
+    const Target unused = read(".bmp", bmp(32, "\x09\x08\x07\0\x78\x6e\x64\0\x03\x02\x01\0\x3c\x32\x28\0"s));
+    CHECK(unused.channels == 3);  // a fourth byte that is 0 everywhere is no alpha
+    CHECK(unused.codes == expected);
+}
+
+TEST_CASE("Radiance HDR has binary32 of its shared exponents") {
+    using namespace std::string_literals;
+    // (r, g, b, e): r / 256 2^(e - 128); the reader takes the middle of a step or its lower end, within 2^-8 of it.
+    const OwnFile file{".hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x82\x00\x00\x00\x00"s};
+    const Target target = read_picture(file.path()).targets.at(0);
+    CHECK(target.code == Code::single);
+    CHECK(target.channels == 3);
+    CHECK(target.value_at(0, 0) == Approx(2).epsilon(1.0 / 128));
+    CHECK(target.value_at(0, 1) == Approx(1).epsilon(1.0 / 64));
+    CHECK(target.value_at(1, 2) == 0);
+}
+
+TEST_CASE("a picture that is cut, is another kind or claims more pixels than its bytes hold is refused by name") {
+    using namespace std::string_literals;
+    const auto refused = [](const char* ending, const std::string& bytes) {
+        const OwnFile file{ending, bytes};
+        CHECK_THROWS_AS(read_picture(file.path()), strata::InputError);
+    };
+    refused(".ppm", "P6 2 2 255\n\x01\x02"s);
+    refused(".ppm", "P6 16384 16384 255\n\x01\x02"s);
+    refused(".ppm", "P6 0 2 255\n"s);
+    refused(".tga", "\x89PNG\r\n\x1a\n"s);
+    refused(".bmp", "BM"s);
+    refused(".bmp", "");
+    refused(".jpg", "P6 1 1 255\n\1\2\3"s);
+    refused(".hdr", "#?RADIANCE\n"s);
+    refused(".tif", "II*\0"s);
+    const OwnFile pointer{".png", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 12345\n"};
+    CHECK_THROWS_WITH(read_picture(pointer.path()), Catch::EndsWith(": a Git LFS pointer, run git lfs pull"));
+    const OwnFile exr{".exr", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 12345\n"};
+    CHECK_THROWS_WITH(read_picture(exr.path()), Catch::EndsWith("found a Git LFS pointer, run git lfs pull"));
 }
 
 TEST_CASE("a file of this project's comes back with its codes, its parts and the meaning of each target") {

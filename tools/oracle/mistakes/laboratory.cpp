@@ -64,6 +64,7 @@ Picture Laboratory::run(const Experiment& e, RightRun* counted) const {
                                                 &pipeline::Diagnostic::fault) != result.frame.diagnostics.end();
     }
     Picture picture{.file = "", .targets = {as_target(result.frame.color, "color")}};
+    picture.targets[0].alpha_form = AlphaForm::premultiplied;
     if (depths_ == Depths::made) picture.targets.push_back(as_target(result.frame.depth, "depth"));
     for (const auto& change : e.afterwards) change(picture);
     return picture;

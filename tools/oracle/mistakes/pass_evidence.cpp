@@ -16,6 +16,7 @@ std::uint32_t rounding_of(Code code) noexcept {
         case Code::unorm24: return 16;
         case Code::half: return 2;
         case Code::unorm8:
+        case Code::unorm10:
         case Code::unorm16:
         case Code::integer: break;
     }

@@ -221,7 +221,9 @@ Picture right_picture(const Golden& scene) {
     peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, options};
     peeling::RenderResult result = renderer.render(*scene.algorithms.at(0));
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{scene.profile, *std::move(result.refusal)};
-    return {.file = "", .targets = {as_target(result.frame.color, "color")}};
+    Picture picture{.file = "", .targets = {as_target(result.frame.color, "color")}};
+    picture.targets[0].alpha_form = AlphaForm::premultiplied;
+    return picture;
 }
 
 Background background_of(const Golden& scene) {

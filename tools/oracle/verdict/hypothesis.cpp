@@ -20,6 +20,7 @@ std::string_view name(Storage storage) noexcept {
 Storage storage_of(Code code) noexcept {
     switch (code) {
         case Code::unorm8: return Storage::unorm8;
+        case Code::unorm10: return Storage::unorm10;
         case Code::unorm16:
         case Code::unorm24: return Storage::unorm16;
         case Code::half: return Storage::half;

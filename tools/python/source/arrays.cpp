@@ -49,6 +49,7 @@ const char* type_of(pipeline::Format format) {
 const char* type_of(oracle::Code code) {
     switch (code) {
         case oracle::Code::unorm8: return "u1";
+        case oracle::Code::unorm10:
         case oracle::Code::unorm16: return "u2";
         case oracle::Code::half: return "f2";
         case oracle::Code::single: return "f4";

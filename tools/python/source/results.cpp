@@ -190,10 +190,13 @@ void bind_compare(py::module_& module) {
         return std::make_pair(checked.is_accepted, checked.message);
     });
     py::class_<Tolerances>(module, "Tolerances", "What may be forgiven; nothing unless it is said.")
-        .def(py::init([](std::uint32_t color, std::uint32_t depth, std::uint64_t coverage) {
-                 return Tolerances{.color_codes = color, .depth_codes = depth, .coverage_pixels = coverage};
+        .def(py::init([](std::uint32_t color, std::uint32_t depth, std::uint64_t coverage, std::uint64_t pixels) {
+                 return Tolerances{.color_codes = color,
+                                   .depth_codes = depth,
+                                   .coverage = {.pixels = coverage},
+                                   .pixels = {.pixels = pixels}};
              }),
-             py::kw_only(), py::arg("color") = 0, py::arg("depth") = 0, py::arg("coverage") = 0);
+             py::kw_only(), py::arg("color") = 0, py::arg("depth") = 0, py::arg("coverage") = 0, py::arg("pixels") = 0);
 }
 
 void bind_diagnosis(py::module_& module) {

@@ -42,6 +42,7 @@ struct DiagnoseOptions {
     std::string candidate;
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
+    std::optional<oracle::AlphaForm> alpha_form{};
     int limit = 0;  // geometry passes after which the candidate gives up
     std::string report;
     MistakesOptions mistakes{};
@@ -104,6 +105,7 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::
     if (options.run.algorithms.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
     const peeling::Algorithm& algorithm = *options.run.algorithms[0];
     opened->candidate = read_candidate(options, algorithm.name);
+    state_alpha(opened->candidate, options.alpha_form);
     opened->passes = read_passes(options, algorithm.name);
     // The machines draw at the candidate's size.
     options.run.render.width = opened->candidate.targets[0].width;
@@ -260,7 +262,7 @@ std::vector<std::string> packs_in(const std::string& folder) {
 
 // What the port made of a pack: a folder or a picture of its name. Empty if there is none.
 std::string made_of(const std::string& pack, const std::string& folder) {
-    for (const char* ending : {"", ".exr", ".png", ".npy"})
+    for (const char* ending : {"", ".exr", ".npy", ".png", ".ppm", ".tga", ".bmp", ".hdr", ".jpg"})
         if (const std::string path = (std::filesystem::path(folder) / (pack + ending)).string();
             std::filesystem::exists(path))
             return path;
@@ -297,8 +299,8 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
 
 // Every pack of a folder brings its own state.
 void check_several(const CLI::App& app) {
-    const std::vector<std::string> fitting{"SCENE",       "CANDIDATE", "--algorithm", "--limit",
-                                           "--tolerance", "--layout",  "--json"};
+    const std::vector<std::string> fitting{"SCENE",      "CANDIDATE",         "--algorithm", "--limit", "--tolerance",
+                                           "--channels", "--candidate-alpha", "--layout",    "--json"};
     for (const CLI::Option* option : app.get_options())
         if (option->count() > 0 && std::ranges::find(fitting, option->get_name()) == fitting.end() &&
             !is_message_option(*option))
@@ -332,6 +334,8 @@ Command add_diagnose(CLI::App& root) {
         ->type_name("");
     add_layout_option(*app, options->layout);
     add_tolerance_option(*app, options->tolerances);
+    add_channels_option(*app, options->tolerances);
+    add_alpha_option(*app, options->alpha_form);
     add_option(*app, options->limit,
                {"--limit", "PASSES", "geometry passes after which the candidate gives up, of mistakes that never end",
                 "a whole number, at least 1"},

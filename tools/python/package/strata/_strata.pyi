@@ -43,7 +43,7 @@ class History:
     layers: Final[list[list[int]]]
 
 class Tolerances:
-    def __init__(self, *, color: int = ..., depth: int = ..., coverage: int = ...) -> None: ...
+    def __init__(self, *, color: int = ..., depth: int = ..., coverage: int = ..., pixels: int = ...) -> None: ...
 
 class Comparison:
     equal: Final[bool]
