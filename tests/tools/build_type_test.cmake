@@ -33,3 +33,32 @@ file(READ ${FOLDER}/whole_part/compile_commands.json commands)
 if(NOT commands MATCHES "tools/library" OR commands MATCHES "tools/strata/|${SOURCE}/tests/")
   message(FATAL_ERROR "as a part of another project: expected the library without tests and command")
 endif()
+
+# A parent that compiles with everything: its flags are its own. A program of it that includes the library, and a source of the library,
+# are looked at by their own commands.
+file(WRITE ${FOLDER}/strict/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(strict LANGUAGES CXX)\n"
+  "set(CMAKE_EXPORT_COMPILE_COMMANDS ON)\nset(CMAKE_CXX_STANDARD 17)\n"
+  "add_compile_options(-Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Werror)\n"
+  "add_subdirectory(${SOURCE} strata)\nadd_executable(app main.cpp)\ntarget_link_libraries(app PRIVATE strata::library)\n")
+file(WRITE ${FOLDER}/strict/main.cpp "#include <strata/strata.h>\nint main() { return strata::version().empty() ? 1 : 0; }\n")
+expect(strict_part FALSE ${FOLDER}/strict)
+file(READ ${FOLDER}/strict_part/compile_commands.json commands)
+string(JSON count LENGTH "${commands}")
+math(EXPR last "${count} - 1")
+set(looked_at 0)
+foreach(number RANGE ${last})
+  string(JSON file GET "${commands}" ${number} file)
+  if(NOT file MATCHES "strict/main\\.cpp$|rasterizer/set_up/clip\\.cpp$|rasterizer.*unity_0_cxx\\.cxx$")
+    continue()
+  endif()
+  string(JSON command GET "${commands}" ${number} command)
+  string(JSON folder GET "${commands}" ${number} directory)
+  execute_process(COMMAND sh -c "${command} -fsyntax-only" WORKING_DIRECTORY ${folder} RESULT_VARIABLE status ERROR_VARIABLE out)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "as a part of a strict project: ${file} does not compile: ${out}")
+  endif()
+  math(EXPR looked_at "${looked_at} + 1")
+endforeach()
+if(looked_at LESS 2)
+  message(FATAL_ERROR "as a part of a strict project: expected the program and a source of the library, found ${looked_at} of them")
+endif()
