@@ -43,27 +43,6 @@ bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat forma
     return has_chip_rule && has_w && format != pipeline::DepthFormat::d32f;
 }
 
-FragmentFact* find(History& history, std::uint32_t primitive) {
-    const auto found = std::ranges::find(history.fragments, primitive, &FragmentFact::primitive);
-    return found == history.fragments.end() ? nullptr : &*found;
-}
-
-void add_depths(const RunInput& input, const Geometry& geometry, const rasterizer::Rect& window,
-                std::span<History> histories) {
-    const pipeline::DepthFormat format = histories[0].depth_format;
-    for (std::size_t path = 0; path < depth_path_names.size(); ++path) {
-        if (!has_path(input, static_cast<DepthPath>(path), format)) continue;
-        auto take = [&](rasterizer::FragmentBatch& batch) {
-            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-                if (FragmentFact* fact = find(histories[batch.pixel[i]], batch.primitive[i]))
-                    fact->path_codes[path] = batch.code[i];
-        };
-        rasterizer::TileRasterizer walk{window};
-        walk.draw(geometry, geometry.all_triangles, {static_cast<DepthPath>(path), format},
-                  {.shader_z = false, .code = true, .color = false}, rasterizer::BatchSink{take});
-    }
-}
-
 // Numbers of the source triangles in the order of submission; empty: as listed. Nothing where the order is the algorithm's own.
 std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, const peeling::Algorithm& algorithm,
                                                      pipeline::Selection selection) {
@@ -82,13 +61,15 @@ std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, cons
 constexpr std::size_t longest_name = 200;
 
 // A triangle's mesh by counting through the instances that are drawn.
-void add_mesh(const RunInput& input, bool draws_all, std::uint32_t source, FragmentFact& fact) {
+void add_mesh(const RunInput& input, pipeline::Selection drawn, std::uint32_t source, FragmentFact& fact) {
     for (const pipeline::Instance& instance : input.list.instances) {
-        if (!draws_all && input.list.materials[instance.material].alpha_mode != pipeline::AlphaMode::blend) continue;
+        const bool is_blended = input.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
+        if (drawn != pipeline::Selection::all && is_blended != (drawn == pipeline::Selection::transparent)) continue;
         const pipeline::Mesh& mesh = input.list.meshes[instance.mesh];
         const auto triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
         if (source < triangles) {
-            fact.mesh = mesh.name.size() <= longest_name ? mesh.name : mesh.name.substr(0, longest_name) + "...";
+            fact.mesh = mesh.name.substr(0, longest_name);
+            if (mesh.name.size() > longest_name) fact.mesh += "...";
             fact.triangle = static_cast<int>(source);
             return;
         }
@@ -123,26 +104,66 @@ void add_barycentric(const Geometry& geometry, const rasterizer::SubpixelPoint& 
     }
 }
 
+// Numbers of source triangles by the order of submission; empty: as listed. Nothing: known to the algorithm alone.
+using Order = std::vector<std::uint32_t>;
+
+// A list that was drawn, and the fragments that came of it.
+struct DrawnList {
+    const Geometry& geometry;
+    std::vector<FragmentFact> History::*fragments;
+    pipeline::Selection drawn;
+    const std::optional<Order>& order;
+};
+
+FragmentFact* find(std::vector<FragmentFact>& fragments, std::uint32_t primitive) {
+    const auto found = std::ranges::find(fragments, primitive, &FragmentFact::primitive);
+    return found == fragments.end() ? nullptr : &*found;
+}
+
+void add_depths(const RunInput& input, const DrawnList& list, const rasterizer::Rect& window,
+                std::span<History> histories) {
+    const pipeline::DepthFormat format = histories[0].depth_format;
+    for (std::size_t path = 0; path < depth_path_names.size(); ++path) {
+        if (!has_path(input, static_cast<DepthPath>(path), format)) continue;
+        auto take = [&](rasterizer::FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                if (FragmentFact* fact = find(histories[batch.pixel[i]].*list.fragments, batch.primitive[i]))
+                    fact->path_codes[path] = batch.code[i];
+        };
+        rasterizer::TileRasterizer walk{window};
+        walk.draw(list.geometry, list.geometry.all_triangles, {static_cast<DepthPath>(path), format},
+                  {.shader_z = false, .code = true, .color = false}, rasterizer::BatchSink{take});
+    }
+}
+
+void add_facts_of(const RunInput& input, const DrawnList& list, const rasterizer::Rect& pixels,
+                  std::span<History> histories) {
+    const auto& [left, top] = input.options.window_origin;
+    add_depths(input, list, {pixels.x0 + left, pixels.y0 + top, pixels.x1 + left, pixels.y1 + top}, histories);
+    const int one = 1 << list.geometry.rules.subpixel_bits;
+    for (History& history : histories) {
+        const rasterizer::SubpixelPoint centre{(history.x + left) * one + one / 2, (history.y + top) * one + one / 2};
+        for (FragmentFact& fact : history.*list.fragments) {
+            if (list.order)
+                add_mesh(input, list.drawn, list.order->empty() ? fact.primitive : (*list.order)[fact.primitive], fact);
+            add_barycentric(list.geometry, centre, fact);
+        }
+    }
+}
+
 }  // namespace
 
 void add_facts(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
                std::span<History> histories) {
     const FloatEnvironment ours;
     peeling::PreparedLists lists = prepared(input, histories[0].depth_format);
-    const Geometry& geometry = lists.transparent(algorithm.order).geometry;
-    const auto& [left, top] = input.options.window_origin;
-    add_depths(input, geometry, {pixels.x0 + left, pixels.y0 + top, pixels.x1 + left, pixels.y1 + top}, histories);
-    const bool draws_all = input.options.alpha.has_value();
-    const auto order =
-        submission(input, algorithm, draws_all ? pipeline::Selection::all : pipeline::Selection::transparent);
-    const int one = 1 << geometry.rules.subpixel_bits;
-    for (History& history : histories) {
-        const rasterizer::SubpixelPoint centre{(history.x + left) * one + one / 2, (history.y + top) * one + one / 2};
-        for (FragmentFact& fact : history.fragments) {
-            if (order) add_mesh(input, draws_all, order->empty() ? fact.primitive : (*order)[fact.primitive], fact);
-            add_barycentric(geometry, centre, fact);
-        }
-    }
+    const auto drawn = input.options.alpha ? pipeline::Selection::all : pipeline::Selection::transparent;
+    const auto order = submission(input, algorithm, drawn);
+    add_facts_of(input, {lists.transparent(algorithm.order).geometry, &History::fragments, drawn, order}, pixels,
+                 histories);
+    if (const pipeline::PreparedDraw* opaque = lists.opaque())
+        add_facts_of(input, {opaque->geometry, &History::opaque, pipeline::Selection::opaque, Order{}}, pixels,
+                     histories);
 }
 
 }  // namespace strata::oracle

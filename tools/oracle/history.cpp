@@ -33,6 +33,7 @@ std::string_view name(Fate fate) noexcept {
 
 std::string_view name(LineKind kind) noexcept {
     switch (kind) {
+        case LineKind::opaque: return "opaque";
         case LineKind::clear: return "clear";
         case LineKind::copy: return "copy";
         case LineKind::fragment: return "fragment";
@@ -78,7 +79,7 @@ class Recorder {
     void name(pipeline::Target target, std::string_view name) { names_.add(target, name); }
 
     void stage(const Region& region, const StageEvent& e) {
-        if (!e.is_counted) return;
+        if (!e.is_counted && !e.is_geometry) return;
         for (std::size_t i = 0; i < static_cast<std::size_t>(e.batch.count); ++i) {
             const int slot = slot_of(e.batch.pixel[i]);
             if (slot < 0) continue;
@@ -89,7 +90,10 @@ class Recorder {
     }
 
     void step(const Region& region, const StepEvent& e) {
-        if (!e.is_counted) return;
+        if (!e.is_counted) {  // the opaque list: its fragments are told, its clears are not
+            for (std::size_t slot = 0; slot < open_.size(); ++slot) close(region, slot);
+            return;
+        }
         for (std::size_t slot = 0; slot < open_.size(); ++slot) {
             close(region, slot);
             Line line{.pass = pass_, .iteration = e.iteration};
@@ -159,7 +163,10 @@ class Recorder {
     // The line of a fragment or of a quad's pixel, with what its targets hold now.
     void begin(const Region& region, const StageEvent& e, std::size_t i, std::size_t slot) {
         close(region, slot);
-        Line line{.kind = e.is_geometry ? LineKind::fragment : LineKind::quad, .pass = pass_};
+        Line line{.kind = !e.is_counted   ? LineKind::opaque
+                          : e.is_geometry ? LineKind::fragment
+                                          : LineKind::quad,
+                  .pass = e.is_counted ? pass_ : -1};
         line.state = e.state;
         line.state.primitives = {};
         std::vector<pipeline::Target> written;
@@ -179,13 +186,13 @@ class Recorder {
             if (target.exists()) line.reads.push_back(held(region, target, pixel));
         for (int unit = 0; unit < e.state.depth_unit_count; ++unit)
             line.reads.push_back(held(region, e.state.depth_units[static_cast<std::size_t>(unit)].depth, pixel));
-        if (e.is_geometry) line.fragment = fragment(e, i, histories_[slot]);
+        if (e.is_geometry)
+            line.fragment = fragment(e, i, e.is_counted ? histories_[slot].fragments : histories_[slot].opaque);
         open_[slot] = Open{std::move(written), std::move(line)};
     }
 
     // The number of the fragment among the pixel's; a new one is described.
-    [[nodiscard]] static int fragment(const StageEvent& e, std::size_t i, History& history) {
-        auto& all = history.fragments;
+    [[nodiscard]] static int fragment(const StageEvent& e, std::size_t i, std::vector<FragmentFact>& all) {
         const auto found = std::ranges::find(all, e.batch.primitive[i], &FragmentFact::primitive);
         if (found != all.end()) return static_cast<int>(found - all.begin());
         FragmentFact fact{.primitive = e.batch.primitive[i]};

@@ -15,9 +15,9 @@
 
 namespace strata::oracle {
 
-// A fragment of the transparent list; colours and depth are those that fragment programs get.
+// A fragment of the transparent list, or of the opaque one; colours and depth are those that fragment programs get.
 struct FragmentFact {
-    std::uint32_t primitive = 0;  // submission number of its triangle
+    std::uint32_t primitive = 0;  // submission number of its triangle in its list
     std::string
         mesh{};  // the begin of a long name; "" and triangle -1 where the algorithm sorts triangles by an order of its own
     int triangle = -1;  // within the mesh
@@ -60,17 +60,18 @@ struct Output {
     pipeline::Blend blend{};
 };
 
-enum class LineKind : std::uint8_t { clear, copy, fragment, quad, query, taken, published };
+// opaque: a fragment of the opaque list, which is drawn before the first pass.
+enum class LineKind : std::uint8_t { opaque, clear, copy, fragment, quad, query, taken, published };
 [[nodiscard]] std::string_view name(LineKind kind) noexcept;
 
 struct Line {
     LineKind kind{};
-    int pass = 0;  // as in passes(); of clears and copies, the pass that follows
+    int pass = 0;  // as in passes(); of clears and copies, the pass that follows; of opaque fragments -1
     int iteration = 0;
     std::string from{};        // copy
     std::vector<Held> held{};  // targets that may change: clear, copy, fragment, quad; the picture, published
     // Fragments and quads.
-    int fragment = -1;  // its number among the pixel's; -1: a quad
+    int fragment = -1;  // its number among the pixel's, or among its opaque ones; -1: a quad
     Fate fate = Fate::passed;
     pipeline::PassState state{};  // without its primitives
     std::string depth_target{}, stencil_target{};
@@ -92,6 +93,7 @@ struct History {
     pipeline::DepthFormat depth_format{};
     bool is_reversed = false;  // all depths are keys (rasterizer/rules/depth_key.h): less is nearer
     std::vector<FragmentFact> fragments{};
+    std::vector<FragmentFact> opaque{};  // of materials that are opaque or masked, in the order of their list
     std::vector<Line> lines{};
 };
 

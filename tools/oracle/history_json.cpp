@@ -72,7 +72,7 @@ ordered_json json_of_tests(const Line& line) {
 }
 
 void add_shaded(const Line& line, ordered_json& document) {
-    if (line.kind == LineKind::fragment) document["fragment"] = line.fragment;
+    if (line.kind != LineKind::quad) document["fragment"] = line.fragment;
     document["fate"] = name(line.fate);
     document["depth_code"] = line.depth_code;
     document["reference_code"] = line.reference_code ? ordered_json(*line.reference_code) : ordered_json();
@@ -89,6 +89,7 @@ ordered_json json_of_line(const Line& line) {
     ordered_json document{{"kind", name(line.kind)}, {"pass", line.pass}, {"iteration", line.iteration}};
     switch (line.kind) {
         case LineKind::copy: document["from"] = line.from; break;
+        case LineKind::opaque:
         case LineKind::fragment:
         case LineKind::quad: add_shaded(line, document); break;
         case LineKind::query:
@@ -129,9 +130,11 @@ ordered_json of_history(const History& history) {
                           {"depth_format", pipeline::info(pipeline::target_format(history.depth_format)).name},
                           {"reversed_depth", history.is_reversed},
                           {"fragments", ordered_json::array()},
+                          {"opaque", ordered_json::array()},
                           {"lines", ordered_json::array()},
                           {"composited", composited(history)}};
     for (const FragmentFact& fragment : history.fragments) document["fragments"].push_back(json_of_fragment(fragment));
+    for (const FragmentFact& fragment : history.opaque) document["opaque"].push_back(json_of_fragment(fragment));
     for (const Line& line : history.lines) document["lines"].push_back(json_of_line(line));
     return document;
 }

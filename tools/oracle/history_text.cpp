@@ -15,9 +15,9 @@ std::string hex(const std::vector<std::uint32_t>& codes) {
     return text;
 }
 
-std::string of_fragment(const FragmentFact& f, std::size_t number) {
+std::string of_fragment(const FragmentFact& f, std::string_view mark, std::size_t number) {
     std::string text = fmt::format(
-        "  #{} {} triangle {}, submitted as {}, {}-facing{}\n", number, f.mesh.empty() ? "mesh unknown" : f.mesh,
+        "  {}{} {} triangle {}, submitted as {}, {}-facing{}\n", mark, number, f.mesh.empty() ? "mesh unknown" : f.mesh,
         f.triangle, f.primitive, f.front_facing ? "front" : "back", f.is_masked ? ", cut by its material's alpha" : "");
     text += fmt::format(
         "     barycentric {:.6f} {:.6f} {:.6f}; colour {:.6f} {:.6f} {:.6f} {:.6f}; z {:.9g} ({:08x})\n     depth",
@@ -56,10 +56,13 @@ std::string of_line(const Line& line) {
                                line.side == pipeline::Side::back ? "far" : "near",
                                line.fragments.size() > 1 ? ", merged" : "");
         case LineKind::published: return fmt::format("the picture has {}", hex(line.held[0].before));
+        case LineKind::opaque:
         case LineKind::fragment:
         case LineKind::quad: break;
     }
-    std::string text = line.kind == LineKind::quad ? "quad " : fmt::format("fragment #{} ", line.fragment);
+    std::string text = line.kind == LineKind::quad     ? "quad "
+                       : line.kind == LineKind::opaque ? fmt::format("fragment opaque.{} ", line.fragment)
+                                                       : fmt::format("fragment #{} ", line.fragment);
     text += name(line.fate);
     if (line.fate == Fate::depth_killed) text += fmt::format(" ({:x} against {})", line.depth_code, line.depth_target);
     if (line.reference_code)
@@ -71,14 +74,19 @@ std::string of_line(const Line& line) {
 }  // namespace
 
 std::string to_text(const History& history) {
-    std::string text = fmt::format("pixel {},{} by {} on {}: {} fragments in submission order\n", history.x, history.y,
-                                   history.algorithm, history.profile, history.fragments.size());
-    if (history.fragments.empty())
+    std::string text =
+        fmt::format("pixel {},{} by {} on {}: {} fragments in submission order{}\n", history.x, history.y,
+                    history.algorithm, history.profile, history.fragments.size(),
+                    history.opaque.empty() ? "" : fmt::format(", {} opaque or masked", history.opaque.size()));
+    if (history.fragments.empty() && history.opaque.empty())
         text += fmt::format("  no fragment covers this pixel: it shows what was there before{}\n",
                             history.lines.empty() ? "" : ", " + hex(history.lines.back().held.at(0).before));
     if (history.is_reversed) text += "  depth is reversed: depths are shown as keys, of which the less is nearer\n";
-    for (std::size_t f = 0; f < history.fragments.size(); ++f) text += of_fragment(history.fragments[f], f);
-    for (const Line& line : history.lines) text += fmt::format("  pass {}: {}\n", line.pass, of_line(line));
+    for (std::size_t f = 0; f < history.opaque.size(); ++f) text += of_fragment(history.opaque[f], "opaque.", f);
+    for (std::size_t f = 0; f < history.fragments.size(); ++f) text += of_fragment(history.fragments[f], "#", f);
+    for (const Line& line : history.lines)
+        text += line.kind == LineKind::opaque ? fmt::format("  before: {}\n", of_line(line))
+                                              : fmt::format("  pass {}: {}\n", line.pass, of_line(line));
     return text;
 }
 

@@ -341,6 +341,50 @@ TEST_CASE(
     CHECK(apart > 0);
 }
 
+// Model: the nearest code of the opaque fragments that are not cut, one by one in the order of their list, with LESS.
+TEST_CASE("opaque and masked fragments have a history, which leaves the depth and colour that the first pass finds") {
+    ExplainedScene room = explained_scene("showroom", 64, 64);
+    REQUIRE(room.scene.own_view);
+    room.view = *room.scene.own_view;
+    auto& instances = room.scene.list.instances;
+    const auto once = instances;  // and once more at the same depths, which LESS hides
+    instances.insert(instances.end(), once.begin(), once.end());
+    const RunInput input = room.input("geforce8");
+    int told = 0, cut = 0, wrong = 0, behind = 0;
+    for (const History& history : explain(input, *peeling::find_algorithm("front_to_back"), {0, 0, 64, 64})) {
+        std::optional<std::uint32_t> depth;
+        bool is_over = false;  // no opaque line after those of the passes
+        for (const Line& line : history.lines) {
+            wrong += line.kind == LineKind::opaque && is_over ? 1 : 0;
+            is_over |= line.kind != LineKind::opaque;
+            if (line.kind != LineKind::opaque) continue;
+            ++told;
+            wrong += line.pass == -1 ? 0 : 1;
+            const FragmentFact& fact = history.opaque.at(static_cast<std::size_t>(line.fragment));
+            if (fact.is_masked) {
+                ++cut;
+                wrong += line.fate == Fate::masked ? 0 : 1;
+                continue;
+            }
+            const bool is_nearer = !depth || line.depth_code < *depth;
+            wrong += line.fate == (is_nearer ? Fate::passed : Fate::depth_killed) ? 0 : 1;
+            behind += is_nearer ? 0 : 1;
+            if (is_nearer) depth = line.depth_code;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(told > 500);
+    CHECK(cut > 10);
+    CHECK(behind > 0);
+    const auto histories = explain(input, *peeling::find_algorithm("front_to_back"), {0, 0, 64, 64});
+    const auto with_surface = std::ranges::find_if(histories, [](const History& h) { return !h.opaque.empty(); });
+    REQUIRE(with_surface != histories.end());
+    const std::string text = to_text(*with_surface);
+    CHECK(text.find(" opaque or masked\n") != std::string::npos);
+    CHECK(text.find("  opaque.0 ") != std::string::npos);
+    CHECK(text.find("  before: fragment opaque.0 ") != std::string::npos);
+}
+
 TEST_CASE("where algorithms part ways is told in a sentence, and drawn") {
     const ExplainedScene column = explained_scene("random", 20, 14);
     const rasterizer::Rect centre{10, 7, 11, 8};
