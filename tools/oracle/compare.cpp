@@ -27,9 +27,11 @@ std::string_view name(Kind kind) noexcept {
 
 namespace {
 
-// Beside the distances of all targets, the worst of a pixel's depths and of its other codes.
+// Beside the distances of all targets, the worst of a pixel's depths and of its other codes, and whether one of them is beyond what its
+// target allows.
 struct Distances {
     std::vector<std::uint32_t> color, depth;
+    std::vector<bool> is_beyond;
 };
 
 // Over all channels, pixel by pixel, in binary64.
@@ -47,12 +49,13 @@ void measure_noise(const Pair& pair, TargetReport& report) {
     report.psnr = peeling::signal_to_noise(rmse);
 }
 
-void measure(const Pair& pair, Distances& worst, Comparison& result) {
+void measure(const Pair& pair, const Tolerances& tolerances, Distances& worst, Comparison& result) {
     TargetReport report{.part = pair.reference->part,
                         .name = pair.reference->name,
                         .reference = pair.reference->code,
                         .candidate = pair.candidate->code,
                         .channels = pair.channels()};
+    const std::uint32_t allowed = tolerances.codes_of(*pair.reference);
     std::vector<std::uint32_t>& of_kind = pair.reference->meaning == Meaning::depth ? worst.depth : worst.color;
     for (std::size_t i = 0; i < pair.reference->pixels(); ++i) {
         const std::uint32_t apart = pair.distance_at(i);
@@ -61,6 +64,9 @@ void measure(const Pair& pair, Distances& worst, Comparison& result) {
         ++report.distances[apart];
         report.greatest = std::max(report.greatest, apart);
         of_kind[i] = std::max(of_kind[i], apart);
+        if (apart <= allowed) continue;
+        ++report.beyond;
+        worst.is_beyond[i] = true;
     }
     if (report.differing > 0) measure_noise(pair, report);
     result.targets.push_back(std::move(report));
@@ -68,12 +74,10 @@ void measure(const Pair& pair, Distances& worst, Comparison& result) {
 
 class Sorter {
   public:
-    Sorter(const Picture& reference, const Picture& candidate, const Pairing& pairing, const Tolerances& tolerances,
-           const Background& background)
+    Sorter(const Picture& reference, const Picture& candidate, const Pairing& pairing, const Background& background)
         : reference_layers_{layers_of(reference)},
           candidate_layers_{layers_of(candidate)},
-          masks_{drawn(pairing.pairs, background)},
-          tolerances_{tolerances} {}
+          masks_{drawn(pairing.pairs, background)} {}
 
     [[nodiscard]] const std::optional<Masks>& masks() const { return masks_; }
     [[nodiscard]] bool has_layers() const { return !reference_layers_.empty() && !candidate_layers_.empty(); }
@@ -90,12 +94,11 @@ class Sorter {
     }
 
     // Layers and the background have no tolerance of their own: their colours and depths have.
-    [[nodiscard]] bool is_forgiven(Kind kind, std::size_t pixel, const Distances& worst) const {
+    [[nodiscard]] static bool is_forgiven(Kind kind, std::size_t pixel, const Distances& worst) {
         switch (kind) {
             case Kind::background:
             case Kind::depth:
-            case Kind::color:
-                return worst.color[pixel] <= tolerances_.color_codes && worst.depth[pixel] <= tolerances_.depth_codes;
+            case Kind::color: return !worst.is_beyond[pixel];
             case Kind::none: return true;
             default: return false;
         }
@@ -104,7 +107,6 @@ class Sorter {
   private:
     std::vector<LayerTarget> reference_layers_, candidate_layers_;
     std::optional<Masks> masks_;
-    Tolerances tolerances_;
 };
 
 std::array<bool, kind_count> tested_kinds(const std::vector<Pair>& pairs, const Sorter& sorter) {
@@ -168,21 +170,23 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     Comparison result{.width = first.width, .height = first.height};
     result.not_compared = pairing.not_compared;
     result.notes = pairing.notes;
-    Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels)};
-    for (const Pair& pair : pairing.pairs) measure(pair, worst, result);
+    Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), std::vector<bool>(pixels)};
+    for (const Pair& pair : pairing.pairs) measure(pair, tolerances, worst, result);
 
-    const Sorter sorter{reference, candidate, pairing, tolerances, background};
+    const Sorter sorter{reference, candidate, pairing, background};
     result.is_tested = tested_kinds(pairing.pairs, sorter);
     std::vector<KindReport> kinds(kind_count);
     result.kind_of.resize(pixels);
     result.distance_of.resize(pixels);
+    result.is_beyond.resize(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         const Kind kind = sorter.kind_of(i, worst);
         result.kind_of[i] = kind;
         result.distance_of[i] = std::max(worst.color[i], worst.depth[i]);
         if (kind == Kind::none) continue;
         ++result.differing;
-        add(kinds, kind, i, result.width, sorter.is_forgiven(kind, i, worst));
+        result.is_beyond[i] = !Sorter::is_forgiven(kind, i, worst);
+        add(kinds, kind, i, result.width, !result.is_beyond[i]);
     }
     KindReport& coverage = kinds[static_cast<std::size_t>(Kind::coverage)];
     if (coverage.pixels > 0)

@@ -44,12 +44,19 @@ struct Budget {
 
 // What may be forgiven; 0: nothing.
 struct Tolerances {
-    std::uint32_t color_codes = 0, depth_codes = 0;  // of the reference's type, at every pixel
+    std::uint32_t color_codes = 0, depth_codes = 0;       // of the reference's type, at every pixel
+    std::map<std::string, std::uint32_t> target_codes{};  // of targets by their names, in place of the two
     // Pixels that may differ all the same, by what they differ in: coverage, the background, layers of any kind, and depths and colours
     // that are further apart; and of those that are left over, whatever they differ in.
     Budget coverage{}, background{}, layers{}, depth{}, color{}, pixels{};
     ColorChannels channels = ColorChannels::all;  // of colours
     friend bool operator==(const Tolerances&, const Tolerances&) = default;
+
+    [[nodiscard]] std::uint32_t codes_of(const Target& target) const {
+        const auto own = target_codes.find(target.name);
+        if (own != target_codes.end()) return own->second;
+        return target.meaning == Meaning::depth ? depth_codes : color_codes;
+    }
 };
 
 // What was taken of a budget that allows something.
@@ -61,9 +68,9 @@ struct SpentBudget {
 struct TargetReport {
     std::string part, name{};
     Code reference = Code::unorm8, candidate = Code::unorm8;
-    int channels = 0;  // compared
-    std::uint64_t differing = 0;
-    std::uint32_t greatest = 0;  // distance
+    int channels = 0;                         // compared
+    std::uint64_t differing = 0, beyond = 0;  // pixels; beyond: further apart than the target's codes allow
+    std::uint32_t greatest = 0;               // distance
     std::map<std::uint32_t, std::uint64_t>
         distances{};  // pixels by the distance of their worst channel; equal ones left out
     // Of colours that differ: root mean square over all channels in 1/255, and 20 log10(255 / rmse) in decibels.
@@ -89,6 +96,7 @@ struct Comparison {
     std::vector<Kind> kind_of{};               // each pixel
     std::vector<std::uint32_t> distance_of{};  // each pixel's greatest distance
     std::array<bool, kind_count> is_tested{};  // whether the targets can show the kind: layers, depths, a background
+    std::vector<bool> is_beyond{};             // each pixel: differs, and no tolerance of codes forgives it
     bool equal = false, accepted = false;      // without and with tolerances
 };
 

@@ -80,6 +80,7 @@ std::string to_json(const Comparison& c) {
                                        {"candidate", name(target.candidate)},
                                        {"channels", target.channels},
                                        {"differing", target.differing},
+                                       {"beyond", target.beyond},
                                        {"greatest", target.greatest},
                                        {"rmse", target.rmse ? ordered_json(*target.rmse) : ordered_json(nullptr)},
                                        {"psnr", target.psnr ? ordered_json(*target.psnr) : ordered_json(nullptr)},

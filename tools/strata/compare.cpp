@@ -82,6 +82,21 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
     }
 }
 
+std::vector<std::string> names_of_targets(const oracle::Picture& picture) {
+    std::vector<std::string> names;
+    for (const oracle::Target& target : picture.targets)
+        if (std::ranges::find(names, target.name) == names.end()) names.push_back(target.name);
+    return names;
+}
+
+std::vector<std::string> names_of_targets(const std::vector<oracle::PackPictures>& packs) {
+    oracle::Picture all;
+    for (const oracle::PackPictures& pictures : packs)
+        for (const oracle::PassPicture& pass : pictures.passes)
+            for (const oracle::Target& target : pass.targets.targets) all.targets.push_back({.name = target.name});
+    return names_of_targets(all);
+}
+
 // A pack and the folder of a port: the end and the passes of every algorithm that both have.
 int compare_folders(const CompareOptions& options) {
     if (!options.background.empty())
@@ -89,6 +104,7 @@ int compare_folders(const CompareOptions& options) {
             "--background goes with a picture as the candidate; of a folder compare its picture.npy");
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
+    check_targets(options.tolerances, names_of_targets(reference));
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
     if (std::ranges::none_of(found, &oracle::PackComparison::is_there))
         throw InputError(options.candidate, "has pictures of none of the pack's algorithms");
@@ -136,6 +152,7 @@ int compare(const CompareOptions& options) {
     const oracle::Picture reference = reference_of(options);
     oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
     state_alpha(candidate, options.alpha_form);
+    check_targets(options.tolerances, names_of_targets(reference));
     const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances, options.background);
     write_png(options.heat, oracle::heat_map_with_legend(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));

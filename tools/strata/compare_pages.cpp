@@ -49,8 +49,8 @@ void add_findings(PlainPage& page, const oracle::PackComparison& c) {
     if (c.first)
         sentences.push_back("Passes: the first that differs is " + std::to_string(c.first->number) + ", a " +
                             c.first->kind + " pass of iteration " + std::to_string(c.first->iteration) + ".");
-    else if (c.passes_compared > 0)
-        sentences.push_back("Passes: all " + std::to_string(c.passes_compared) + " are " +
+    else if (!c.passes.empty())
+        sentences.push_back("Passes: all " + std::to_string(c.passes.size()) + " are " +
                             (c.equal ? "equal." : "alike within the tolerance."));
     for (const std::string& what : c.missing) sentences.push_back("The candidate has no " + what + ".");
     page.items(sentences);

@@ -1,5 +1,7 @@
 #include "tools/strata/tolerances.h"
 
+#include <algorithm>
+
 #include "tools/strata/options/option.h"
 
 namespace strata::tools {
@@ -35,7 +37,9 @@ bool take_tolerance(std::string_view kind, std::string_view amount, oracle::Tole
             tolerances.*budget = found.value_or(oracle::Budget{});
             return found.has_value();
         }
-    return false;
+    const auto codes = to_int<std::uint32_t>(amount);
+    if (codes) tolerances.target_codes[std::string{kind}] = *codes;
+    return codes.has_value();
 }
 
 // "color=1,depth=2,coverage=10,pixels=0.02%".
@@ -51,6 +55,17 @@ std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
 }
 
 }  // namespace
+
+void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::string>& targets) {
+    for (const auto& [name, codes] : tolerances.target_codes) {
+        if (std::ranges::find(targets, name) != targets.end()) continue;
+        std::vector<std::string> known{"color",  "depth",        "coverage",     "background",
+                                       "layers", "depth-pixels", "color-pixels", "pixels"};
+        known.insert(known.end(), targets.begin(), targets.end());
+        throw CLI::ValidationError("--tolerance",
+                                   "expected " + one_of(known) + ", found " + found_but_near(name, known));
+    }
+}
 
 void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout) {
     add_option(
@@ -92,11 +107,12 @@ void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances) {
     add_option(
         app, tolerances,
         {"--tolerance", "KIND=N[,KIND=N...]",
-         "forgive colours and depths N codes apart (color, depth), and pixels that differ all the same, N or N% of "
-         "them, by what they differ in (coverage, background, layers, depth-pixels, color-pixels) or in whatever "
+         "forgive colours and depths N codes apart (color, depth, or a target by its name), and pixels that differ all "
+         "the same, N or N% of them, by what they differ in (coverage, background, layers, depth-pixels, color-pixels) "
+         "or in whatever "
          "(pixels); nothing without this option",
-         "color=N, depth=N, coverage=N, background=N, layers=N, depth-pixels=N, color-pixels=N and pixels=N with "
-         "commas between, pixels also as a share such as 0.02%"},
+         "color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, depth-pixels=N, color-pixels=N and "
+         "pixels=N with commas between, pixels also as a share such as 0.02%"},
         [&tolerances](std::string_view text) {
             auto found = to_tolerances(text);
             if (found) found->channels = tolerances.channels;  // of an option of its own

@@ -8,6 +8,8 @@
 namespace strata::tools {
 
 void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout);  // --layout
+// Names of --tolerance that are no kinds are those of targets: throws CLI::ValidationError for one that is none of these.
+void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::string>& targets);
 // --candidate-alpha; and what it says of a picture's colours.
 void add_alpha_option(CLI::App& app, std::optional<oracle::AlphaForm>& form);
 void state_alpha(oracle::Picture& picture, const std::optional<oracle::AlphaForm>& form);

@@ -1,7 +1,10 @@
 // Model: a candidate is a copy of the expected tree with one number changed on purpose.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "peeling/registry.h"
 #include "scenes/camera.h"
@@ -54,7 +57,7 @@ TEST_CASE("the expected tree is its own right candidate, and so is the pack") {
                 INFO(c.algorithm << to_text({c}));
                 CHECK(c.equal);
                 CHECK(c.accepted);
-                CHECK(c.passes_compared > 0);
+                CHECK(!c.passes.empty());
             }
         }
     }
@@ -69,6 +72,7 @@ TEST_CASE("the first pass that went another way is named, with its targets, and 
     const nlohmann::json manifest = scenes::read_manifest(pack);
     // The second pass that writes a file of its own.
     std::string target;
+    std::string changed_file;
     int number = -1;
     for (const auto& pass : manifest["results"][0]["passes"])
         for (const auto& described : pass["targets"]) {
@@ -78,6 +82,7 @@ TEST_CASE("the first pass that went another way is named, with its targets, and 
             if (number < 0 && pass["number"] >= 2 && described["file"] == own) {
                 number = pass["number"];
                 target = described["name"];
+                changed_file = own;
                 change_last_byte(candidate + own.substr(8));
             }
         }
@@ -95,9 +100,48 @@ TEST_CASE("the first pass that went another way is named, with its targets, and 
                                    Contains("the first pass that differs is " + std::to_string(number) + ",") &&
                                    Contains(target + " at 1 pixels") &&
                                    Contains("weighted_average: not compared: the candidate has nothing of it"));
+    // Every target of every pass is told: those whose file was changed differ.
+    std::size_t told = 0, wrong = 0;
+    std::set<std::string> equal, unequal;
+    for (const auto& pass : manifest["results"][0]["passes"]) {
+        const int pass_number = pass["number"].get<int>();
+        const auto compared = std::ranges::find(found[0].passes, pass_number, &ComparedPass::number);
+        const auto targets = compared != found[0].passes.end() ? compared->targets : std::vector<TargetReport>{};
+        for (const auto& described : pass["targets"]) {
+            const auto report = std::ranges::find(targets, described["name"].get<std::string>(), &TargetReport::name);
+            // The candidate's folder has the file where it was written first, and is not held to it again.
+            const auto file = described["file"].get<std::string>();
+            const bool is_own = file.find(fmt::format("/pass.{:03}/", pass_number)) != std::string::npos;
+            REQUIRE((report != targets.end()) == is_own);
+            if (!is_own) continue;
+            ++told;
+            const bool is_changed = file == changed_file;
+            wrong += (report->differing == 1) == is_changed ? 0 : 1;
+            (is_changed ? unequal : equal).insert(described["name"]);
+        }
+    }
+    CHECK(told > 6);
+    CHECK(wrong == 0);
+    for (const std::string& name : unequal) equal.erase(name);
+    CHECK_THAT(to_text(found),
+               Contains("  =: equal; N:M: N pixels differ by at most M codes; in brackets: within the tolerance\n"));
+    const std::string text = to_text(found);
+    const std::size_t line = text.find("  equal after every pass: ");
+    REQUIRE(line != std::string::npos);
+    for (const std::string& name : equal) CHECK(text.find(name, line) != std::string::npos);
     const auto document = nlohmann::json::parse(to_json(found));
+    CHECK(document[0]["passes"].size() == found[0].passes.size());
     CHECK(document[0]["first_pass"]["number"] == number);
     CHECK(document[0]["picture"]["equal"] == false);
+    // A tolerance of that target alone forgives the passes, and one of another target does not.
+    Tolerances tolerances;
+    tolerances.color_codes = ~0u;
+    tolerances.target_codes = {{target, 0}};
+    CHECK(compare_packs(expected, candidate_pictures(pack, candidate), tolerances)[0].first);
+    tolerances.target_codes = {{target, ~0u}};
+    const auto forgiven = compare_packs(expected, candidate_pictures(pack, candidate), tolerances);
+    CHECK_FALSE(forgiven[0].first);
+    CHECK_THAT(to_text(forgiven), Contains(" (1:"));
     std::filesystem::remove_all(candidate);
     std::filesystem::create_directories(candidate);
     CHECK_THROWS_WITH(candidate_pictures(pack, candidate), Contains("folder: expected ALGORITHM/picture.npy"));

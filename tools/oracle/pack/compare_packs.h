@@ -1,13 +1,20 @@
 // tools/oracle/pack/compare_packs.h - how a candidate differs from a pack: the end, and the first pass that went another way.
 //
-// Rule     Each algorithm that the candidate has anything of is compared: its picture, its layers, then its passes in their order up
-//          to the first that differs.
+// Rule     Each algorithm that the candidate has anything of is compared: its picture, its layers, and every target of every pass. The first
+//          pass that differs beyond the tolerance is named; a table has them all.
 // Tests    tests/tools/oracle/pack_pictures_test.cpp
 #pragma once
 #include "tools/oracle/compare.h"
 #include "tools/oracle/pack/pack_pictures.h"
 
 namespace strata::oracle {
+
+// All targets of a pass that both have.
+struct ComparedPass {
+    int number = 0;
+    std::string kind{};
+    std::vector<TargetReport> targets{};
+};
 
 struct PassDifference {
     int number = 0, iteration = 0;
@@ -19,7 +26,7 @@ struct PackComparison {
     std::string algorithm{};
     bool is_there = true;  // false: the candidate has nothing of it
     std::optional<Comparison> picture{}, layers{};
-    int passes_compared = 0;
+    std::vector<ComparedPass> passes{};
     std::optional<PassDifference> first{};  // the first pass that differs
     std::vector<std::string> missing{};     // "picture", "pass 3": what the candidate has not
     bool equal = true, accepted = true;     // of what was compared

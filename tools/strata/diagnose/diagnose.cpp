@@ -100,6 +100,7 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::
     auto opened = std::make_unique<OpenCase>();
     opened->options = given;
     DiagnoseOptions& options = opened->options;
+    check_targets(options.tolerances, {});
     choose_algorithm(options.run);
     complete(options.run);
     if (options.run.algorithms.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
