@@ -56,7 +56,7 @@ struct SceneOptions {
     std::vector<MaterialAlpha> alpha{};  // --alpha NAME=A; every material of that name
 };
 
-// `spec` is a path to a .gltf or .glb file or to a pack, "-" for a file from standard input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
+// `spec` is a path to a .gltf, .glb, .obj, .ply, .stl or .off file or to a pack, "-" for a glTF file from standard input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
 // "random:seed=S,triangles=N", "shadow-demo", "showroom", "hard:case=NAME". Throws InputError for everything that is not one of them or is malformed.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 

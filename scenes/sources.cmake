@@ -3,6 +3,7 @@ set(strata_scenes_sources
   blended_materials.cpp
   bounds.cpp
   camera.cpp
+  flat_normals.cpp
   inside_folder.cpp
   nearest_name.cpp
   exr/openexr.cpp
@@ -15,6 +16,7 @@ set(strata_scenes_sources
   files/image_header.cpp
   files/image_io.cpp
   files/load_image_module.cpp
+  files/load_module.cpp
   files/picture_attributes.cpp
   files/png.cpp
   images/png_encode.cpp
@@ -39,6 +41,8 @@ set(strata_scenes_sources
   gltf/mesh.cpp
   gltf/model.cpp
   gltf/nodes.cpp
+  models/load_model_module.cpp
+  models/models.cpp
   numbers/elementary.cpp
   numbers/srgb_encode.cpp
   packs/json_fields.cpp
@@ -76,10 +80,13 @@ set(strata_scenes_with_files
   files/deep_exr.cpp
   files/exr.cpp
   files/load_image_module.cpp
+  files/load_module.cpp
   files/picture_attributes.cpp
   files/png.cpp
   images/png_encode.cpp
   files/unfinished_files.cpp
+  models/load_model_module.cpp
+  models/models.cpp
   packs/json_fields.cpp
   packs/new_folder.cpp
   packs/npy.cpp

@@ -6,7 +6,7 @@
 
 #include "scenes/exr/parts.h"
 #include "scenes/files/image_io.h"
-#include "scenes/files/load_image_module.h"
+#include "scenes/files/load_module.h"
 
 namespace strata::scenes {
 

@@ -1,72 +1,14 @@
-// scenes/files/load_image_module.cpp - finds the shared library of the image module and takes its table of
-// functions.
-#include "scenes/files/load_image_module.h"
-
-#include <dlfcn.h>
+// scenes/files/load_image_module.cpp - the image module's table of functions, once there is room for what it brings along.
 #include <sys/mman.h>
 
-#include <filesystem>
-#include <vector>
-
 #include "rasterizer/base/thread_loop.h"
+#include "scenes/files/load_module.h"
 #include "scenes/files/system_error.h"
 
 namespace strata::scenes {
 namespace {
 
-constexpr const char* file_name = STRATA_IMAGE_MODULE;         // strata_images.so
-constexpr const char* installed_folder = STRATA_IMAGE_FOLDER;  // from the program's folder, when installed
-
-// dlerror() answers null where nothing has failed since it was last asked.
-std::string last_reason() {
-    const char* reason = ::dlerror();
-    return reason != nullptr ? reason : "no reason given";
-}
-
-ImageModuleEntry entry_in(void* library) {
-    // POSIX lets an object pointer of dlsym() be a function's.
-    return reinterpret_cast<ImageModuleEntry>(::dlsym(library, image_module_symbol));
-}
-
-// Of the shared library that this code is a part of; empty if that is not known. A program is known by the name that it was called
-// by, which may be relative to another folder: only whole paths count.
-std::filesystem::path folder_of_this_code() {
-    Dl_info info{};
-    if (::dladdr(reinterpret_cast<const void*>(&entry_in), &info) == 0 || info.dli_fname == nullptr) return {};
-    if (info.dli_fname[0] != '/') return {};
-    std::error_code ignored;
-    return std::filesystem::canonical(info.dli_fname, ignored).parent_path();
-}
-
-// Where the module may be. The current folder and the search path are left out, so that no stray library is run.
-std::vector<std::filesystem::path> places() {
-    std::error_code ignored;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-    std::vector<std::filesystem::path> places{program / file_name, program / installed_folder / file_name};
-    const auto library = folder_of_this_code();
-    if (library.empty() || library == program) return places;
-    places.push_back(library / file_name);
-    places.push_back(library / "strata" / file_name);
-    return places;
-}
-
-// An entry that the program already holds (tests link the module) comes first.
-ImageModuleEntry find_entry() {
-    if (const ImageModuleEntry linked = entry_in(RTLD_DEFAULT)) return linked;
-    std::error_code ignored;
-    std::string looked_in;
-    for (const auto& path : places()) {
-        looked_in += (looked_in.empty() ? "" : " or ") + path.parent_path().lexically_normal().string();
-        if (!std::filesystem::exists(path, ignored)) continue;
-        void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for as long as the process lives
-        const ImageModuleEntry entry = library != nullptr ? entry_in(library) : nullptr;
-        // A library that is there and does not load is an error of its own: a second place would hide it.
-        if (entry == nullptr) throw SystemError(path.string(), "load the image module", last_reason());
-        return entry;
-    }
-    throw SystemError(file_name, "load the image module",
-                      "expected in " + looked_in + ", found in neither; PNG and JPEG need it");
-}
+constexpr ModuleFile file{STRATA_IMAGE_MODULE, image_module_symbol, "load the image module", "PNG and JPEG need it"};
 
 // Asked for and given back: nothing of it is ever touched.
 bool has_address_space(std::size_t bytes) {
@@ -81,23 +23,21 @@ void require_room() {
     constexpr int wanted = 4;
     constexpr std::size_t usual_stack = std::size_t{8} << 20, libraries = std::size_t{400} << 20;
     if (const int found = threads_to_be_had(wanted, usual_stack); found < wanted)
-        throw SystemError(file_name, "load the image module",
+        throw SystemError(file.file, file.task,
                           "expected " + std::to_string(wanted) + " threads for the image library, the system gives " +
                               std::to_string(found));
     const std::size_t bytes = libraries + static_cast<std::size_t>(wanted) * usual_stack;
     if (!has_address_space(bytes))
-        throw SystemError(file_name, "load the image module",
+        throw SystemError(file.file, file.task,
                           "expected " + std::to_string(bytes >> 20) +
                               " MiB of address space for the image library, the system gives less");
 }
 
 const ImageModule& load() {
     require_room();
-    const ImageModule& module = *find_entry()();
-    // The table's layout has no version of its own: program and module must come from one build of the project.
-    if (module.version != std::string{STRATA_VERSION})
-        throw SystemError(file_name, "load the image module",
-                          "expected version " STRATA_VERSION ", found " + std::string{module.version});
+    // POSIX lets an object pointer of dlsym() be a function's.
+    const ImageModule& module = *reinterpret_cast<ImageModuleEntry>(module_function(file))();
+    check_version(file, module.version);
     return module;
 }
 

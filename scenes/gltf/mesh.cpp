@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "rasterizer/base/vector_arithmetic.h"
+#include "scenes/flat_normals.h"
 
 namespace strata::scenes {
 namespace {
@@ -77,24 +77,6 @@ Selection select_unshared(Indices corners) {
     Indices indices(corners.size());
     std::iota(indices.begin(), indices.end(), 0u);
     return {std::move(corners), std::move(indices)};
-}
-
-// In binary64: the sides of small triangles far from the origin would cancel in binary32. Not finite, or of
-// length 0: the triangle has no direction, and any unit vector will do.
-Vec3 flat_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3d origin{a};
-    const Vec3d n = cross_product(minus(Vec3d{b}, origin), minus(Vec3d{c}, origin));
-    const double length = std::sqrt(dot_product(n, n));
-    if (!(length > 0) || !std::isfinite(length)) return {0, 0, 1};
-    return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
-}
-
-std::vector<Vec3> flat_normals(const std::vector<Vec3>& positions) {  // unshared: three a triangle
-    std::vector<Vec3> normals;
-    normals.reserve(positions.size());
-    for (std::size_t i = 0; i < positions.size(); i += 3)
-        normals.insert(normals.end(), 3, flat_normal(positions[i], positions[i + 1], positions[i + 2]));
-    return normals;
 }
 
 // Calls take(vertex) for each selected vertex of the attribute and refuses what is not finite.

@@ -1,7 +1,7 @@
 // scenes/images/image_module.h - the border to OpenImageIO: what the rest of the project asks of it, and what it answers.
 //
 // Rule     OpenImageIO brings some 250 shared libraries, so it stands in a shared library of its own that is loaded
-//          when the first PNG or JPEG is read (files/load_image_module.h; images/png_encode.h writes). Standard types alone cross the
+//          when the first picture is read (files/load_module.h; images/png_encode.h writes). Standard types alone cross the
 //          border: a `pipeline::Image` has an allocator that the module does not share. The module knows no format of
 //          a target, no digest and no temporary name; its answers are bytes, sizes and sentences.
 // Tests    tests/scenes/files/png_test.cpp; tests/tools/image_module_test.cpp

@@ -6,6 +6,7 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/blended_materials.h"
+#include "scenes/models/models.h"
 #include "scenes/nearest_name.h"
 #include "scenes/packs/pack_scene.h"
 #include "scenes/packs/plain_triangles.h"
@@ -149,10 +150,16 @@ Scene loaded(const std::string& spec, const SceneOptions& options) {
     if (spec == "-" || is_gltf_path(spec)) return load_gltf(spec, options);
     if (is_pack(spec)) return load_pack(spec, options);
     if (is_plain_triangles(spec)) return load_plain_triangles(spec, options);
-    throw InputError(spec, "scene",
-                     fmt::format("a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of {}",
-                                 fmt::join(names(), ", ")),
-                     quoted_with_suggestion(scene_name(spec), names()));
+    if (is_model(spec)) return load_model(spec, options);
+    if (is_foreign_model(spec))
+        throw InputError(spec, "scene", "a .gltf, .glb, .obj, .ply, .stl or .off file",
+                         "another format; `assimp export MODEL MODEL.glb` or Blender makes one of it");
+    throw InputError(
+        spec, "scene",
+        fmt::format(
+            "a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in .npy or .json, or one of {}",
+            fmt::join(names(), ", ")),
+        quoted_with_suggestion(scene_name(spec), names()));
 }
 
 }  // namespace

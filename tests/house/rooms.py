@@ -17,7 +17,7 @@ FLOORS = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "chip", "values", "walk"],
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region", "selections"],
     "peeling": ["programs", "closed", "algorithms", "audit", "", "truth"],
-    "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "packs", "procedural", "gltf"],
+    "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
     "tools": ["port", "hardware_check", "oracle", "probe", "library", "python", "recipes", "strata", "bench", "web"],
 }
 # Which floors a floor stands on. scenes stands beside peeling.

@@ -42,7 +42,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "softpipe, swiftshader, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
-         "strata: teapt: scene: expected a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of "
+         "strata: teapt: scene: expected a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in "
+         ".npy or .json, or one of "
          "teapot, volume-beam, random, planes, "
          "shadow-demo, showroom, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},

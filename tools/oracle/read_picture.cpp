@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <iterator>
 
 #include "pipeline/formats/format.h"
@@ -164,6 +165,8 @@ Picture read_picture(const std::string& path, const std::optional<RawLayout>& la
     if (scenes::has_ending(path, ".npy")) return {path, {read_npy(path)}};
     if (const char* const reader = scenes::reader_of(path)) return read_by(reader, path);
     if (layout) return {path, {read_raw(path, *layout)}};
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) throw InputError(path, "no such file");
     throw InputError(
         path, "name",
         "a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or .hdr, or --layout for one of bare "

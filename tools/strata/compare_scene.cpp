@@ -6,6 +6,7 @@
 
 #include "peeling/render.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/models/models.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/suite.h"
@@ -21,7 +22,7 @@
 namespace strata::tools {
 
 bool is_scene(const std::string& reference) {
-    if (scenes::is_procedural(reference) || scenes::is_pack(reference)) return true;
+    if (scenes::is_procedural(reference) || scenes::is_pack(reference) || scenes::is_model(reference)) return true;
     std::string ending = std::filesystem::path(reference).extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending == ".gltf" || ending == ".glb" || ending == ".json";

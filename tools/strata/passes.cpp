@@ -11,7 +11,7 @@
 #include "scenes/exr/parts.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
-#include "scenes/files/load_image_module.h"
+#include "scenes/files/load_module.h"
 #include "tools/oracle/contact_sheet.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"

@@ -13,7 +13,7 @@
 
 #include "hwy/highway.h"
 #include "rasterizer/base/input_error.h"
-#include "scenes/files/load_image_module.h"
+#include "scenes/files/load_module.h"
 
 namespace tinygltf {
 

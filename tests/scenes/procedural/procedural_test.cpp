@@ -80,7 +80,8 @@ TEST_CASE("in the linear space a procedural scene's colours are decoded and noth
 
 TEST_CASE("every fault of a scene's name is one sentence, with the nearest name") {
     CHECK(message("teapt") ==
-          "teapt: scene: expected a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of teapot, "
+          "teapt: scene: expected a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in .npy or "
+          ".json, or one of teapot, "
           "volume-beam, random, planes, shadow-demo, "
           "showroom, hard, found 'teapt' (did you mean 'teapot'?)");
     CHECK_THAT(message("xyz"), Catch::EndsWith("found 'xyz'"));

@@ -49,7 +49,7 @@ struct Triangles {
 class Scene {
   public:
     Scene() = default;
-    // As the command takes it: a .gltf or .glb file, or a built-in scene such as "teapot". InputError.
+    // As the command takes it: a .gltf, .glb, .obj, .ply, .stl or .off file, or a built-in scene such as "teapot". InputError.
     explicit Scene(const std::string& spec, const SceneOptions& options = {});
 
     // Copies them. InputError names the field ("triangles 'door': colors.count: expected 3 or none, found 2").

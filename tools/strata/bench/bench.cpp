@@ -118,7 +118,8 @@ Command add_bench(CLI::App& root) {
     const auto options = std::make_shared<BenchOptions>();
     const auto names = job_names();
     options->algorithms = values_of(names);
-    app->add_option("SCENE", options->scenes, "one or more scenes: .gltf or .glb files, or built-in ones")
+    app->add_option("SCENE", options->scenes,
+                    "one or more scenes: models' files (.gltf, .glb, .obj, .ply, .stl, .off), or built-in ones")
         ->required()
         ->type_name("...");
     add_reading_options(*app, options->run.scene_options);

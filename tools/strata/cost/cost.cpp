@@ -178,7 +178,8 @@ Command add_cost(CLI::App& root) {
     auto* app = root.add_subcommand("cost", "measure what each choice costs in accuracy and in time");
     const auto options = std::make_shared<CostOptions>();
     options->run.render.width = options->run.render.height = 512;
-    app->add_option("SCENE", options->scenes, "one or more scenes: .gltf or .glb files, or built-in ones")
+    app->add_option("SCENE", options->scenes,
+                    "one or more scenes: models' files (.gltf, .glb, .obj, .ply, .stl, .off), or built-in ones")
         ->required()
         ->type_name("...");
     add_reading_options(*app, options->run.scene_options);

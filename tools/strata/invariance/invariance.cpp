@@ -156,7 +156,8 @@ Command add_invariance(CLI::App& root) {
     auto* app =
         root.add_subcommand("invariance", "peel with two depths that ought to be equal, and measure what goes wrong");
     const auto options = std::make_shared<InvarianceOptions>();
-    app->add_option("SCENE", options->run.scene, "a .gltf or .glb file, or a built-in scene (strata list scenes)")
+    app->add_option("SCENE", options->run.scene,
+                    "a model's file (.gltf, .glb, .obj, .ply, .stl, .off), or a built-in scene (strata list scenes)")
         ->type_name("");
     add_reading_options(*app, options->run.scene_options);
     for (const PlanKey& key : plan_keys())

@@ -167,9 +167,9 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
 }
 
 void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
-    app.add_option_function<std::string>(
-           "SCENE", take,
-           "a .gltf or .glb file, - for one from standard input, a pack, or a built-in scene (strata list scenes)")
+    app.add_option_function<std::string>("SCENE", take,
+                                         "a .gltf, .glb, .obj, .ply, .stl or .off file, - for a glTF file from "
+                                         "standard input, a pack, or a built-in scene (strata list scenes)")
         ->required()
         ->type_name("");
 }

@@ -10,7 +10,7 @@
 #include "scenes/camera.h"
 #include "scenes/exr/parts.h"
 #include "scenes/files/atomic_file.h"
-#include "scenes/files/load_image_module.h"
+#include "scenes/files/load_module.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/files/unfinished_files.h"
 #include "scenes/inside_folder.h"

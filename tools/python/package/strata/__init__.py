@@ -30,7 +30,7 @@ Comparable = Union[Rendering, Picture, Array, str, "os.PathLike[str]"]
 
 
 class Scene(_strata.Scene):
-    """A .gltf or .glb file, a built-in scene, or triangles that are added; without a camera their positions are clip space."""
+    """A model's file (.gltf, .glb, .obj, .ply, .stl, .off), a built-in scene, or triangles that are added; without a camera their positions are clip space."""
 
     def add(self, positions: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None, indices: Optional[npt.ArrayLike] = None,
             color: Sequence[float] = (1, 1, 1, 1), transparent: bool = True, double_sided: bool = True,

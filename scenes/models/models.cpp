@@ -1,0 +1,203 @@
+#include "scenes/models/models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "pipeline/vertices/check_list.h"
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/bounds.h"
+#include "scenes/file_ending.h"
+#include "scenes/files/image_decode.h"
+#include "scenes/files/text_file.h"
+#include "scenes/flat_normals.h"
+#include "scenes/inside_folder.h"
+#include "scenes/models/load_model_module.h"
+#include "scenes/numbers/srgb_encode.h"
+
+namespace strata::scenes {
+
+namespace {
+
+namespace fs = std::filesystem;
+using pipeline::AlphaMode;
+
+constexpr std::size_t max_bytes = std::size_t{1} << 32;
+
+// The file's folder, and what may be opened in it: the names that the model gives, as long as they lead nowhere else.
+class ModelFolder {
+  public:
+    explicit ModelFolder(const std::string& path) : path_{path}, folder_{fs::path(path).parent_path()} {}
+
+    // Errors in the model itself are told; another file that is missing or not a file is nothing.
+    [[nodiscard]] std::vector<std::byte> read(const std::string& name) const {
+        const fs::path relative = fs::path(name).lexically_normal();
+        if (relative == fs::path(path_).filename()) return bytes_of(path_);
+        const auto file = inside(name);
+        return file ? bytes_of(*file) : std::vector<std::byte>{};
+    }
+    [[nodiscard]] std::optional<std::string> inside(std::string name) const {
+        std::ranges::replace(name, '\\', '/');
+        const InsideFolder found = inside_folder(folder_, name);
+        std::error_code ignored;
+        return fs::is_regular_file(found.path, ignored) ? std::optional(found.path.string()) : std::nullopt;
+    }
+
+  private:
+    [[nodiscard]] static std::vector<std::byte> bytes_of(const std::string& file) {
+        const std::string text = read_text_file(file, max_bytes);
+        const auto bytes = std::as_bytes(std::span{text});
+        return {bytes.begin(), bytes.end()};
+    }
+    std::string path_;
+    fs::path folder_;
+};
+
+class ModelScene {
+  public:
+    ModelScene(const std::string& path, const SceneOptions& options) : path_{path}, options_{options}, folder_{path} {}
+
+    Scene build() {
+        const std::string name = fs::path(path_).filename().string();
+        LoadedModel model = loaded(name);
+        if (!model.failure.empty())
+            throw InputError(path_, "content", "a model that Assimp reads", in_quotes(model.failure));
+        scene_.name = name;
+        for (const ModelMaterial& material : model.materials) add_material(material);
+        for (ModelMesh& mesh : model.meshes) add_mesh(std::move(mesh));
+        pipeline::check(scene_.list);
+        scene_.bounds = bounds_of(scene_.list);
+        return std::move(scene_);
+    }
+
+  private:
+    [[nodiscard]] bool has_materials() const { return has_ending(path_, ".obj"); }
+
+    // Errors of reading go round the library, which would swallow them.
+    LoadedModel loaded(const std::string& name) {
+        std::exception_ptr failure;
+        std::set<std::string> missing;
+        const auto read = [&](const std::string& file) -> std::vector<std::byte> {
+            try {
+                std::vector<std::byte> bytes = folder_.read(file);
+                if (bytes.empty()) missing.insert(in_quotes(file));
+                return bytes;
+            } catch (const std::exception&) {
+                failure = std::current_exception();
+                return {};
+            }
+        };
+        LoadedModel model = model_module().load(name, read);
+        if (failure) std::rethrow_exception(failure);
+        if (!missing.empty() && !model.has_library)
+            scene_.warnings.push_back(fmt::format(
+                "its materials are drawn white: found none of the material libraries {} in the model's folder",
+                fmt::join(missing, ", ")));
+        return model;
+    }
+
+    void add_material(const ModelMaterial& from) {
+        pipeline::Material made{
+            .name = from.name.empty() ? "material " + std::to_string(scene_.list.materials.size()) : from.name,
+            .double_sided = true,
+            .unlit = !options_.light || !from.is_lit};
+        if (has_materials()) {
+            for (std::size_t c = 0; c < 4; ++c)
+                made.front[static_cast<Rgba::length_type>(c)] = std::clamp(from.color[c], 0.0f, 1.0f);
+            made.front = from_encoded(made.front, options_.color_space);
+            if (!from.texture.empty()) made.texture = texture(from.texture);
+        }
+        made.back = made.front;
+        if (made.front[3] < 1) made.alpha_mode = AlphaMode::blend;
+        scene_.list.materials.push_back(made);
+    }
+
+    // -1, with a warning, for a texture that cannot be drawn.
+    int texture(const std::string& name) {
+        if (const auto known = textures_.find(name); known != textures_.end()) return known->second;
+        int& number = textures_[name] = -1;
+        const auto file = folder_.inside(name);
+        if (!file) {
+            scene_.warnings.push_back("texture " + in_quotes(name) +
+                                      " is not drawn: no file of that name in the model's folder");
+            return number;
+        }
+        const std::vector<std::byte> bytes = folder_.read(name);
+        if (!has_ending(*file, ".png") && !has_ending(*file, ".jpg") && !has_ending(*file, ".jpeg")) {
+            scene_.warnings.push_back("texture " + in_quotes(name) + " is not drawn: it is neither PNG nor JPEG");
+            return number;
+        }
+        const Place place{*file, ""};
+        const ImageHeader header = read_image_header(bytes, place);
+        pipeline::Texture made{.name = name,
+                               .width = static_cast<int>(header.width),
+                               .height = static_cast<int>(header.height),
+                               .decode_srgb = options_.color_space == pipeline::ColorSpace::linear,
+                               .texels = decode_image(bytes, header, place)};
+        number = static_cast<int>(scene_.list.textures.size());
+        scene_.list.textures.push_back(std::move(made));
+        return number;
+    }
+
+    // A mesh with an alpha below 1 makes its material blended, for all that share it.
+    void add_mesh(ModelMesh&& from) {
+        if (from.indices.empty()) return;
+        pipeline::Material& material = scene_.list.materials.at(from.material);
+        pipeline::Mesh mesh;
+        mesh.name = from.name.empty() ? "mesh " + std::to_string(scene_.list.meshes.size()) : from.name;
+        for (const auto& p : from.positions) mesh.positions.push_back({p[0], p[1], p[2]});
+        for (const auto& n : from.normals) mesh.normals.push_back({n[0], n[1], n[2]});
+        for (const auto& c : from.colors) {
+            if (c[3] < 1) material.alpha_mode = AlphaMode::blend;
+            mesh.colors.push_back(from_encoded({c[0], c[1], c[2], c[3]}, options_.color_space));
+        }
+        if (material.texture >= 0) {
+            for (const auto& t : from.texcoords) mesh.texcoords.push_back({t[0], 1.0f - t[1]});
+            mesh.texcoords.resize(mesh.positions.size(), {0, 1});  // of a mesh without any: the texture's first texel
+        }
+        mesh.indices = std::move(from.indices);
+        if (material.unlit)
+            mesh.normals.clear();
+        else if (mesh.normals.empty())
+            make_flat(mesh);
+        scene_.list.instances.push_back({.mesh = static_cast<std::uint32_t>(scene_.list.meshes.size()),
+                                         .material = static_cast<std::uint32_t>(from.material)});
+        scene_.list.meshes.push_back(std::move(mesh));
+    }
+
+    const std::string& path_;
+    const SceneOptions& options_;
+    ModelFolder folder_;
+    Scene scene_;
+    std::map<std::string, int> textures_;
+};
+
+bool has_one_of(const std::string& path, std::initializer_list<std::string_view> endings) {
+    return std::ranges::any_of(endings, [&](std::string_view ending) { return has_ending(path, ending); });
+}
+
+}  // namespace
+
+bool is_model(const std::string& path) { return has_one_of(path, {".obj", ".ply", ".stl", ".off"}); }
+
+bool is_foreign_model(const std::string& path) {
+    return has_one_of(path,
+                      {".fbx", ".dae", ".3ds",  ".blend", ".usd", ".usda", ".usdc", ".usdz", ".wrl", ".x3d", ".vrml",
+                       ".3mf", ".lwo", ".ms3d", ".iges",  ".igs", ".step", ".stp",  ".vtk",  ".vtp", ".vtu", ".abc"});
+}
+
+Scene load_model(const std::string& path, const SceneOptions& options) {
+    const FloatEnvironment environment;
+    if (options.scene.value_or(0) != 0)
+        throw InputError(path, "--scene", "0, the only one", std::to_string(*options.scene));
+    return ModelScene{path, options}.build();
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,146 @@
+// Model: the numbers as they were written into the files.
+#include "scenes/models/models.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/own_folder.h"
+
+using namespace strata;
+using namespace strata::scenes;
+using Catch::Contains;
+
+namespace {
+
+std::string put(const strata::test::OwnFolder& folder, const std::string& name, const std::string& bytes) {
+    const std::string path = folder.path() + "/" + name;
+    std::ofstream{path, std::ios::binary} << bytes;
+    return path;
+}
+
+const std::string obj = "v -1 -1 0.1\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+const std::string off = "OFF\n3 1 0\n-1 -1 0.1\n1 -1 0\n0 1 0\n3 0 1 2\n";
+const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+    "1\nproperty list "
+    "uchar int vertex_indices\nend_header\n-1 -1 0.1\n1 -1 0\n0 1 0\n3 0 1 2\n";
+const std::string stl =
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0.1\nvertex 1 -1 0\nvertex 0 1 "
+    "0\nendloop\nendfacet\nendsolid a\n";
+
+// A material with a colour, one with opacity, one that is not lit and has a texture.
+const std::string mtl =
+    "newmtl wall\nKd 0.2 0.4 0.6\nillum 2\nnewmtl pane\nKd 1 0 0\nd 0.25\nillum 2\nnewmtl sign\nKd 1 1 1\nillum "
+    "0\nmap_Kd sign.bmp\n";
+
+}  // namespace
+
+TEST_CASE("one triangle as OBJ, OFF, PLY and STL has the positions of the file, from both sides, opaque and lit") {
+    const strata::test::OwnFolder folder;
+    for (const auto& [name, bytes] :
+         {std::pair{"a.obj", obj}, {"a.off", off}, {"a.ply", ply}, {"a.stl", stl}, {"B.OBJ", obj}}) {
+        INFO(name);
+        const Scene scene = load_scene(put(folder, name, bytes), {});
+        CHECK(scene.name == name);
+        REQUIRE(scene.list.meshes.size() == 1);
+        const pipeline::Mesh& mesh = scene.list.meshes[0];
+        REQUIRE(mesh.indices.size() == 3);
+        const Vec3 a = mesh.positions.at(mesh.indices[0]), b = mesh.positions.at(mesh.indices[1]),
+                   c = mesh.positions.at(mesh.indices[2]);
+        CHECK((a == Vec3{-1, -1, 0.1f} && b == Vec3{1, -1, 0} && c == Vec3{0, 1, 0}));
+        CHECK(mesh.normals.size() == mesh.positions.size());
+        const pipeline::Material& material = scene.list.materials.at(scene.list.instances.at(0).material);
+        CHECK(material.front == Rgba{1, 1, 1, 1});
+        CHECK(material.alpha_mode == pipeline::AlphaMode::opaque);
+        CHECK(material.double_sided);
+        CHECK_FALSE(material.unlit);
+        CHECK(scene.bounds.hi[2] == Approx(0.1));
+    }
+}
+
+TEST_CASE("polygons are cut into triangles; points and lines are left out; a mesh a material") {
+    const strata::test::OwnFolder folder;
+    const Scene scene =
+        load_scene(put(folder, "q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nl 1 5\np 5\n"), {});
+    std::size_t corners = 0;
+    for (const pipeline::Mesh& mesh : scene.list.meshes) corners += mesh.indices.size();
+    CHECK(corners == 6);
+}
+
+TEST_CASE("materials of an OBJ file have their colour, their opacity and their name; what cannot be drawn is told") {
+    const strata::test::OwnFolder folder;
+    put(folder, "room.mtl", mtl);
+    const Scene scene =
+        load_scene(put(folder, "room.obj",
+                       "mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 0.25\nusemtl wall\nf 1 2 3\n"
+                       "usemtl pane\nf 3 2 1\nusemtl sign\nf 1/1 2/2 3/3\n"),
+                   {});
+    const auto material = [&](const std::string& name) {
+        const auto found = std::ranges::find(scene.list.materials, name, &pipeline::Material::name);
+        REQUIRE(found != scene.list.materials.end());
+        return *found;
+    };
+    CHECK(material("wall").front == Rgba{0.2f, 0.4f, 0.6f, 1});
+    CHECK(material("pane").front == Rgba{1, 0, 0, 0.25f});
+    CHECK(material("pane").alpha_mode == pipeline::AlphaMode::blend);
+    CHECK(material("sign").unlit);
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK_THAT(scene.warnings[0], Contains("sign.bmp") && Contains("no file of that name in the model's folder"));
+    put(folder, "sign.bmp", "BM");
+    CHECK_THAT(load_scene(folder.path() + "/room.obj", {}).warnings.at(0), Contains("neither PNG nor JPEG"));
+    const Scene blended = load_scene(folder.path() + "/room.obj", {.alpha = {{"wall", 0.5f}}});
+    const auto wall = std::ranges::find(blended.list.materials, "wall", &pipeline::Material::name);
+    CHECK(wall->alpha_mode == pipeline::AlphaMode::blend);
+    CHECK(wall->front[3] == 0.5f);
+}
+
+TEST_CASE("colours of a PLY file's vertices are drawn, and make it blended where one lets light through") {
+    const strata::test::OwnFolder folder;
+    std::string colored = ply;
+    colored.replace(colored.find("element face"), 0,
+                    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
+    for (const char* corner : {"-1 -1 0.1\n", "1 -1 0\n", "0 1 0\n"}) {
+        const std::size_t at = colored.find(corner) + std::strlen(corner) - 1;
+        colored.replace(at, 0, " 255 0 51 102");
+    }
+    const Scene scene = load_scene(put(folder, "c.ply", colored), {});
+    const pipeline::Mesh& mesh = scene.list.meshes.at(0);
+    REQUIRE(mesh.colors.size() == mesh.positions.size());
+    CHECK(mesh.colors[0] == Rgba{1, 0, 0.2f, 0.4f});
+    CHECK(scene.list.materials.at(0).alpha_mode == pipeline::AlphaMode::blend);
+}
+
+TEST_CASE("a model that is none, and one of another format, is refused in a sentence") {
+    const strata::test::OwnFolder folder;
+    CHECK_THROWS_WITH(load_scene(put(folder, "a.ply", "ply\nnothing"), {}),
+                      Contains("a.ply: content: expected a model that Assimp reads"));
+    CHECK_THROWS_WITH(load_scene(put(folder, "b.obj",
+                                     "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, 'a') +
+                                         "\nsize 12\n"),
+                                 {}),
+                      Contains("b.obj: a Git LFS pointer, run git lfs pull"));
+    CHECK_THROWS_WITH(load_scene(folder.path() + "/none.stl", {}), Contains("none.stl"));
+    CHECK_THROWS_WITH(load_scene("house.fbx", {}), Contains("assimp export MODEL MODEL.glb"));
+    CHECK_THROWS_WITH(load_scene(put(folder, "c.obj", obj), {.scene = 1}),
+                      Contains("--scene: expected 0, the only one"));
+}
+
+// A model names other files: those of its folder alone are read.
+TEST_CASE("what a model names outside of its folder is not opened") {
+    const strata::test::OwnFolder outside, folder;
+    put(outside, "far.mtl", mtl);
+    const std::string name = std::filesystem::relative(outside.path(), folder.path()).string() + "/far.mtl";
+    const Scene scene = load_scene(put(folder, "a.obj", "mtllib " + name + "\nusemtl wall\n" + obj), {});
+    for (const pipeline::Material& material : scene.list.materials) CHECK(material.front == Rgba{1, 1, 1, 1});
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK_THAT(scene.warnings[0], Contains("its materials are drawn white") && Contains("far.mtl'"));
+}
+
+TEST_CASE("what is wrong with a file that a model names is told, as of the model itself") {
+    const strata::test::OwnFolder folder;
+    put(folder, "walls.mtl", "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, 'a') + "\n");
+    CHECK_THROWS_WITH(load_scene(put(folder, "a.obj", "mtllib walls.mtl\nusemtl wall\n" + obj), {}),
+                      Contains("walls.mtl: a Git LFS pointer, run git lfs pull"));
+}
