@@ -15,7 +15,6 @@ set(strata_scenes_sources
   files/exr.cpp
   files/image_header.cpp
   files/image_io.cpp
-  files/load_image_module.cpp
   files/load_module.cpp
   files/picture_attributes.cpp
   files/png.cpp
@@ -79,7 +78,6 @@ set(strata_scenes_with_files
   files/camera_file.cpp
   files/deep_exr.cpp
   files/exr.cpp
-  files/load_image_module.cpp
   files/load_module.cpp
   files/picture_attributes.cpp
   files/png.cpp

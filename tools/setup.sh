@@ -8,9 +8,9 @@ cd "$(dirname "$0")/.."
 fail() { echo "tools/setup.sh: $*" >&2; exit 3; }
 
 case "${1:-tests}" in
-    program) needed_sets="program" optional_sets="" ;;
-    tests) needed_sets="program tests" optional_sets="tests?" ;;
-    all) needed_sets="program tests" optional_sets="tests? all?" ;;
+    program) needed_sets="program" optional_sets="program?" ;;
+    tests) needed_sets="program tests" optional_sets="program? tests?" ;;
+    all) needed_sets="program tests" optional_sets="program? tests? all?" ;;
     *) echo "tools/setup.sh: expected program, tests or all, found '$1'" >&2; exit 2 ;;
 esac
 
@@ -60,7 +60,7 @@ command -v dpkg-query >/dev/null || fail "this is neither Debian 12 nor one of i
     mapfile -t optional < <(listed $optional_sets | missing)
 }
 headers=()
-[ -z "$optional_sets" ] || mapfile -t headers < <(listed headers | while read -r package _; do [ -d "build/headers/$package" ] || echo "$package"; done)
+[ "$needed_sets" = program ] || mapfile -t headers < <(listed headers | while read -r package _; do [ -d "build/headers/$package" ] || echo "$package"; done)
 [ $((${#needed[@]} + ${#optional[@]} + ${#headers[@]})) -gt 0 ] || exit 0
 
 all=("${needed[@]}" "${optional[@]}")

@@ -6,7 +6,8 @@ namespace strata::scenes {
 
 const ModelModule& model_module() {
     static constexpr ModuleFile file{STRATA_MODEL_MODULE, model_module_symbol, "load the model module",
-                                     "OBJ, PLY, STL and OFF files need it"};
+                                     "OBJ, PLY, STL and OFF files need it; it is built where Assimp is installed "
+                                     "(Debian: libassimp-dev)"};
     // Once a process, and safe from several threads; a failure is tried again by the next call.
     static const ModelModule& module = [&]() -> const ModelModule& {
         const ModelModule& found = *reinterpret_cast<ModelModuleEntry>(module_function(file))();

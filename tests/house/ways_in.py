@@ -3,8 +3,8 @@
 
 usage: ways_in.py REPOSITORY
 
-tools/packages.txt is lines `set package # why`. The demo installs the set `program` alone, which the libraries that the program's CMake files ask for
-come from and nothing else; its report has a light background, for the built-in scenes are dark on black.
+tools/packages.txt is lines `set package # why`. The demo installs the sets `program` and `program?` alone, which the libraries that the program's CMake
+files ask for come from and nothing else; its report has a light background, for the built-in scenes are dark on black.
 Exit status 1 and a line for each thing that does not hold.
 """
 import os
@@ -13,14 +13,14 @@ import subprocess
 import sys
 import tempfile
 
-SETS = {"program", "tests", "tests?", "all?", "headers"}
+SETS = {"program", "program?", "tests", "tests?", "all?", "headers"}
 # What only tests and tools of their own labels use.
 NOT_FOR_THE_PROGRAM = {"zsh", "fish", "parallel", "gnuplot-nox", "catch2", "libboost-dev", "libgmp-dev", "libmpfr-dev", "clang", "valgrind", "locales",
                        "libegl-dev", "libgl1-mesa-dri"}
 # Packages by the name that a CMake file of the program finds them with.
 FOUND_BY = {"TBB": "libtbb-dev", "OpenEXR": "libopenexr-dev", "OpenImageIO": "libopenimageio-dev", "PNG": "libpng-dev", "ZLIB": "zlib1g-dev",
             "fmt": "libfmt-dev", "CLI11": "libcli11-dev", "benchmark": "libbenchmark-dev", "nlohmann_json": "nlohmann-json3-dev", "glm": "libglm-dev",
-            "TinyGLTF": "libtinygltf-dev", "PkgConfig": "pkg-config"}
+            "TinyGLTF": "libtinygltf-dev", "assimp": "libassimp-dev", "PkgConfig": "pkg-config"}
 
 
 def read(root, path):
@@ -45,7 +45,7 @@ def packages(root):
 
 
 def program_packages(root, found):
-    program = {package for package, which in found.items() if which == "program"}
+    program = {package for package, which in found.items() if which in {"program", "program?"}}
     for package in sorted(program & NOT_FOR_THE_PROGRAM):
         yield f"tools/packages.txt: {package} is not for the program"
     files = subprocess.run(["git", "ls-files", "CMakeLists.txt", "*/CMakeLists.txt"], cwd=root, capture_output=True, text=True, check=True).stdout.split()
