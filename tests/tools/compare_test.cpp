@@ -28,6 +28,9 @@ TEST_CASE("compare ends with 0 for equal pictures, with 1 for others and with 2 
     CHECK(content_of(folder / "report.xml").find("<failure") != std::string::npos);
     CHECK(run_strata(folder, {"compare", "a.png", "b.png", "--tolerance", "color=255,coverage=2000"}).status == 0);
     CHECK(run_strata(folder, {"compare", "a.png", "none.png"}).status == 2);
+    CHECK(run_strata(folder, {"compare", "a.png", "none"}).err == "strata: none: no such file\n");
+    CHECK(run_strata(folder, {"compare", "-q", "a.png", "a.png"}).out == "equal\n");
+    CHECK(run_strata(folder, {"compare", "-v", "--color", "never", "a.png", "a.png"}).status == 0);
     std::ofstream{folder / "cut.exr"} << content_of(folder / "a.exr").substr(0, 200);
     CHECK(run_strata(folder, {"compare", "a.exr", "cut.exr"}).status == 2);
 }
@@ -101,8 +104,9 @@ TEST_CASE("compare says what it wanted where it was given something else") {
         return run_strata(folder, words).err;
     };
     CHECK(says({"--tolerance", "colour"}) ==
-          "strata: --tolerance: expected color=N, depth=N, coverage=N, background=N, layers=N, depth-pixels=N, "
-          "color-pixels=N and pixels=N with commas between, pixels also as a share such as 0.02%, found 'colour'\n");
+          "strata: --tolerance: expected color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, "
+          "depth-pixels=N, color-pixels=N and pixels=N with commas between, pixels also as a share such as 0.02%, "
+          "found 'colour'\n");
     CHECK(
         says({"--layout", "3x3"}) ==
         "strata: --layout: expected WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24 or "
@@ -110,10 +114,11 @@ TEST_CASE("compare says what it wanted where it was given something else") {
         "row, "
         "found '3x3'\n");
     CHECK(says({"--heat", "heat.exr"}) == "strata: --heat: expected a file that ends in .png, found 'heat.exr'\n");
+    CHECK(says({}) == "strata: a.raw: no such file\n");
+    std::ofstream{folder / "a.raw"} << "abc";
     CHECK(says({}) ==
           "strata: a.raw: name: expected a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or "
-          ".hdr, "
-          "or --layout for one of bare numbers, found another ending\n");
+          ".hdr, or --layout for one of bare numbers, found another ending\n");
 }
 
 // Four pixels, of which one differs in blue; grey, and the same bytes as blue, green, red behind a header.

@@ -22,7 +22,7 @@ bool names(const json& list, const std::string& name) {
 TEST_CASE("a suite holds the packs of its commands, says which mistake shows where, and checks") {
     const Folder folder;
     const std::string scene = "planes.front_to_back";
-    REQUIRE(run_strata(folder, {"golden", scene, "--suite", "-o", "set"}).status == 0);
+    REQUIRE(run_strata(folder, {"golden", scene, "--suite", "-q", "-o", "set"}).status == 0);
     const json list = json_in(folder / "set/suite.json");
     REQUIRE(list["scenes"].size() == 1);
     const std::string command = list["scenes"][0]["command"];

@@ -15,6 +15,7 @@
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/compare_scene.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
@@ -170,7 +171,7 @@ void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pi
     }
     if (is_scene(options.reference)) return;
     for (const CLI::Option* option : app.get_options())
-        if (option->count() > 0 && option->get_name() != "--background" &&
+        if (option->count() > 0 && option->get_name() != "--background" && !is_message_option(*option) &&
             std::ranges::find(of_pictures, option) == of_pictures.end())
             throw CLI::ValidationError(option->get_name() + " goes with a scene as the reference, not with a picture");
 }
