@@ -85,14 +85,15 @@ Command add_explain(CLI::App& root) {
              {"--svg", "FILE.svg", "the column of fragments, and which pass took which, as a drawing", "a file name"});
     add_path(*app, options->candidate,
              {"--candidate", "PICTURE",
-              "a port's picture of the scene: tell which layers it composited at the pixel, and by which mistake",
+              "a port's picture of the scene: show which layers it composited at the pixel, and by which mistake",
               "a file name"});
     app->add_flag("--json", options->json, "one JSON document instead of text: enough to do every step again");
     app->footer(
         footer("  strata explain teapot --size 64x48 --pixel 32,24\n"
                "  strata explain volume-beam:slices=4 --algorithm dual,front_to_back --size 32x32 --pixel 16,16 --json "
                "--svg column.svg\n"
-               "  strata explain teapot --candidate port.png --pixel 32,24\n"));
+               "  strata render teapot --size 64x48 -o port.png && strata explain teapot --candidate port.png --pixel "
+               "32,24\n"));
     return {app, [options] { return explain(*options); }};
 }
 
