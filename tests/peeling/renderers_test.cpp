@@ -50,17 +50,17 @@ TEST_CASE("frames in sequence are those of a renderer each, whatever order, tile
         for (const Algorithm* algorithm : sequence) expected.push_back(alone(scene, options, *algorithm));
         Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options};
         std::string wrong;
-        std::set<int> tile_sizes;
+        std::set<int> sizes_used;
         // Forward and back, so that each has another one before it.
         for (std::size_t turn = 0; turn < 2 * sequence.size(); ++turn) {
             const std::size_t i = turn < sequence.size() ? turn : 2 * sequence.size() - 1 - turn;
             const RenderResult found = renderer.render(*sequence[i]);
             if (const std::string what = difference(found, expected[i]); !what.empty())
                 wrong += sequence[i]->name + " after " + std::to_string(turn) + " others: " + what + "; ";
-            tile_sizes.insert(found.frame.work.tile_size);
+            sizes_used.insert(found.frame.work.tile_size);
         }
         CHECK(wrong == "");
-        CHECK(tile_sizes.size() >= 3);  // 0 for a whole frame, and two of tiles
+        CHECK(sizes_used.size() >= 3);  // 0 for a whole frame, and two of tiles
     }
 }
 
