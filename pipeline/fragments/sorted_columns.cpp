@@ -15,6 +15,14 @@ namespace {
     return behind != ranges.begin() && primitive < std::prev(behind)->last;
 }
 
+// As TileFragments does: an array that grows again and again leaves memory behind. Nothing of it is copied.
+template <class T>
+void take_room(UninitializedVector<T>& array, std::size_t admitted) {
+    constexpr std::size_t most_at_once = std::size_t{1} << 20;
+    array.clear();
+    array.reserve(std::min(admitted, most_at_once));
+}
+
 }  // namespace
 
 bool SortedColumns::sort(const TileFragments& fragments, const SortRequest& request, std::size_t pixels,
@@ -22,6 +30,9 @@ bool SortedColumns::sort(const TileFragments& fragments, const SortRequest& requ
     request_ = request;
     state_ = State::declined;
     if (!has_order(fragments)) return false;
+    const auto admitted = static_cast<std::size_t>(limit / sizeof(std::uint64_t));
+    take_room(words_, admitted);
+    take_room(taken_, admitted);
     choose(fragments, surface);
     const auto pixel = fragments.pixel();
     count_.assign(pixels, 0);

@@ -15,9 +15,13 @@ namespace {
 // Kernels write whole vectors behind the last fragment.
 constexpr std::size_t spare_places = 16;
 
+// An array that grows leaves its old memory with the allocator, which keeps it (uninitialized.h): so it takes at once what the limit admits, of
+// which only what is written costs memory, up to a number of fragments that few tiles have.
+constexpr std::size_t most_at_once = std::size_t{1} << 20;
+
 template <class T>
-void grow(UninitializedVector<T>& array, std::size_t wanted) {
-    if (array.size() < wanted) array.resize(std::max(wanted, 2 * array.size()));
+void grow(UninitializedVector<T>& array, std::size_t wanted, std::size_t admitted) {
+    if (array.size() < wanted) array.resize(std::max({wanted, 2 * array.size(), std::min(admitted, most_at_once)}));
 }
 
 // False for -0, NaN and what is negative.
@@ -83,13 +87,14 @@ bool TileFragments::serves(const FragmentNeeds& needs) const noexcept {
 
 void TileFragments::make_room(std::size_t more) {
     const std::size_t wanted = size_ + more + spare_places;
-    grow(pixel_, wanted);
-    grow(primitive_, wanted);
-    if (needs_.code) grow(code_, wanted);
-    if (needs_.exact_code) grow(exact_code_, wanted);
-    if (needs_.shader_z) grow(shader_z_, wanted);
-    if (needs_.color) grow(color_, wanted);
-    if (needs_.reference) grow(reference_z_, wanted), grow(reference_code_, wanted);
+    const auto admitted = static_cast<std::size_t>(limit_ / bytes_of(needs_)) + more + spare_places;
+    grow(pixel_, wanted, admitted);
+    grow(primitive_, wanted, admitted);
+    if (needs_.code) grow(code_, wanted, admitted);
+    if (needs_.exact_code) grow(exact_code_, wanted, admitted);
+    if (needs_.shader_z) grow(shader_z_, wanted, admitted);
+    if (needs_.color) grow(color_, wanted, admitted);
+    if (needs_.reference) grow(reference_z_, wanted, admitted), grow(reference_code_, wanted, admitted);
 }
 
 void TileFragments::append(const FragmentBatch& batch, const Lanes<std::uint32_t>& alive) {

@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-MOST = 8000
+MOST = 8050
 GROUPS = {
     "whole loops of dual and front_to_back in one walk": ["peeling/closed/*"],
     "the record of a tile's fragments": [
