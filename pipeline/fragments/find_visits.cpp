@@ -70,7 +70,7 @@ void find_nearest(SortedColumns& sorted, const Windows& windows, const StoredCod
 }
 
 // A fragment that lies behind has a compared code of at least the raised bound, and so a code of its own that is less by the record's
-// greatest lead at most.
+// greatest lead at most. A depth that is not quantised may part from its code, which other arithmetic made: each fragment is asked.
 void find_nearest_behind(SortedColumns& sorted, const TileFragments& fragments, const DepthCompare& compare,
                          const Windows& windows, const std::uint32_t* behind, const StoredCodes& stored,
                          Visits& visits) {
@@ -79,7 +79,8 @@ void find_nearest_behind(SortedColumns& sorted, const TileFragments& fragments, 
     for_each_column(sorted, [&](std::size_t pixel, const Column& column) {
         const std::uint32_t raised = compare.raised(behind[pixel]);
         const auto [low, high] = keys_at(windows, pixel);
-        const std::uint64_t from = std::max<std::uint64_t>(low, raised - std::min(raised, fragments.reference_lead()));
+        const std::uint32_t lead = compare.quantizes ? fragments.reference_lead() : raised;
+        const std::uint64_t from = std::max<std::uint64_t>(low, raised - std::min(raised, lead));
         const std::uint64_t end = std::min<std::uint64_t>(high, stored.of(pixel));
         for (std::uint32_t k = first_from(sorted, pixel, column, from); k < column.size(); ++k) {
             if (key_of(column[k]) >= end) return;

@@ -81,6 +81,7 @@ class SortedColumns {
         std::uint32_t size_;
     };
     [[nodiscard]] Column column(std::size_t pixel) const noexcept {
+        if (count_[pixel] == 0) return {nullptr, 0};
         return {words_.data() + begin_[pixel / block_lanes] + pixel % block_lanes, count_[pixel]};
     }
     // Where windows of the last pass began and ended at a pixel: where the next one's are sought from.
