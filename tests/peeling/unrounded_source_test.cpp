@@ -38,7 +38,7 @@ struct Differing {
 
 }  // namespace
 
-TEST_CASE("sources that are not made codes blend as real numbers do, rounded once; codes as sources differ by few") {
+TEST_CASE("sources that are not made codes blend as real numbers do, rounded once, and codes differ by few") {
     Random random{811};
     FragmentScene scene{16, 16};
     for (GivenPixel& pixel : scene.pixels)

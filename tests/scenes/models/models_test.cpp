@@ -60,7 +60,7 @@ TEST_CASE("one triangle as OBJ, OFF, PLY and STL has the positions of the file, 
     }
 }
 
-TEST_CASE("polygons are cut into triangles; points and lines are left out; a mesh a material") {
+TEST_CASE("polygons are cut into triangles, points and lines are left out, a mesh a material") {
     const strata::test::OwnFolder folder;
     const Scene scene =
         load_scene(put(folder, "q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nl 1 5\np 5\n"), {});
@@ -69,7 +69,8 @@ TEST_CASE("polygons are cut into triangles; points and lines are left out; a mes
     CHECK(corners == 6);
 }
 
-TEST_CASE("materials of an OBJ file have their colour, their opacity and their name; what cannot be drawn is told") {
+TEST_CASE(
+    "materials of an OBJ file have their colour, their opacity and their name, and what cannot be drawn is told") {
     const strata::test::OwnFolder folder;
     put(folder, "room.mtl", mtl);
     const Scene scene =
