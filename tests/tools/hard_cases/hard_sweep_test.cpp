@@ -58,7 +58,7 @@ TEST_CASE("lines of another sweep are refused, and so is a shard that is not who
     CHECK_THROWS_WITH(merge_shards(hard_work(sweep), folder.path, 2), Catch::Contains("one a cell of the shard"));
     const std::string nowhere = folder / "nowhere";
     CHECK_THROWS_WITH(merge_shards(hard_work(sweep), nowhere, 2),
-                      nowhere + ": folder: expected the results of 2 shards, found no such folder");
+                      nowhere + ": no such folder; it is to hold the results of 2 shards");
     CHECK_FALSE(std::filesystem::exists(nowhere));
 }
 

@@ -33,7 +33,7 @@ NEEDS = {
     "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "hardware-check": ["."], "scene": SMALL[:1],
     "digest": ["none.png"], "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
     "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"],
-    "probe": OUT, "infer": ["none"], "algorithms": [], "scenes": [], "info": ["none.png"],
+    "probe": OUT, "infer": ["none"], "list": ["scenes"], "algorithms": [], "scenes": [], "info": ["none.png"],
     "help": [], "man": [], "completions": ["bash"],
 }
 
@@ -45,11 +45,14 @@ ACCEPTED = {
     ("*", "--alpha", "-0"): "zero",
     ("*", "--compare-epsilon", "-0"): "zero",
     ("bench", "--warm-up", "-0"): "zero",
+    ("bench", "--json", "-"): "standard output, in the old spelling",
 }
+# Sentences may name an option so.
+SHORT = {"--output": ["-o"]}
 # Looked at once the files are read, of which there is none here.
 LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--sorted"), ("diagnose", "--camera"),
-        ("reduce", "--algorithm"), ("reduce", "--picture")}
-ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml")
+        ("reduce", "--algorithm"), ("reduce", "--picture"), ("explain", "--candidate"), ("infer", "--output")}
+ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml", "FILE.html|FOLDER")
 
 
 def options_of(program, command):
@@ -69,7 +72,7 @@ def options_of(program, command):
 
 def without(words, option):
     """The words but for the option and its value, so that the option is given once."""
-    short = {"--output": "-o"}.get(option, option)
+    short = SHORT.get(option, [option])[0]
     kept = list(words)
     while short in kept:
         at = kept.index(short)
@@ -98,7 +101,7 @@ def option_cases(program, commands):
                 if {("*", option, value), (command, option, value)} & ACCEPTED.keys():
                     continue
                 words = [command] + without(NEEDS[command], option) + given(option, value)
-                yield Trial(f"{command} {option}", words, names=(option.lstrip('-'),))
+                yield Trial(f"{command} {option}", words, names=(option.lstrip('-'), *SHORT.get(option, ())))
 
 
 def scene_cases(program):
