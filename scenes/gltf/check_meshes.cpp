@@ -6,14 +6,14 @@ namespace strata::scenes {
 namespace {
 
 // The fields of an accessor that the rules for primitives look at.
-struct Format {
+struct AccessorFormat {
     ElementType type;
     ComponentType component;
     bool is_normalized;
     std::uint64_t count, offset, stride;  // offset: the accessor's; stride 0: not given
 };
 
-Format format(const Json& root, std::size_t accessor) {  // of an accessor that check_accessors has passed
+AccessorFormat format(const Json& root, std::size_t accessor) {  // of an accessor that check_accessors has passed
     const Json& a = root["accessors"][accessor];
     const bool has_stride =
         a.contains("bufferView") && root["bufferViews"][a["bufferView"].get<std::size_t>()].contains("byteStride");
@@ -27,13 +27,15 @@ Format format(const Json& root, std::size_t accessor) {  // of an accessor that 
 }
 
 // The integers of 8 and 16 bits, which KHR_mesh_quantization admits.
-bool is_small_integer(const Format& f) {
+bool is_small_integer(const AccessorFormat& f) {
     return f.component != ComponentType::f32 && f.component != ComponentType::u32;
 }
-bool is_signed(const Format& f) { return f.component == ComponentType::i8 || f.component == ComponentType::i16; }
+bool is_signed(const AccessorFormat& f) {
+    return f.component == ComponentType::i8 || f.component == ComponentType::i16;
+}
 
 // glTF 2.0, 3.7.2.1, and what KHR_mesh_quantization adds. Attributes that nothing here reads are not looked at.
-bool is_allowed(const std::string& name, const Format& f, bool is_quantized) {
+bool is_allowed(const std::string& name, const AccessorFormat& f, bool is_quantized) {
     const bool is_float = f.component == ComponentType::f32;
     const bool is_unorm = f.is_normalized && is_small_integer(f) && !is_signed(f);
     if (name == "POSITION") return f.type == ElementType::vec3 && (is_float || (is_quantized && is_small_integer(f)));
@@ -69,7 +71,7 @@ struct MeshChecker {
         if (!is_attribute_name(name))
             attribute.place().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
                                    in_quotes(name));
-        const Format f = format(root.json(), attribute.index(accessors));
+        const AccessorFormat f = format(root.json(), attribute.index(accessors));
         if (!is_allowed(name, f, is_quantized))
             attribute.fail("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
                            is_quantized ? "an accessor of a format for " + name
@@ -87,7 +89,7 @@ struct MeshChecker {
 
     // glTF 2.0, 3.7.2.1. The values are compared with the vertex count when they are read (mesh.cpp).
     void check_indices(const JsonAt& indices) const {
-        const Format f = format(root.json(), indices.index(accessors));
+        const AccessorFormat f = format(root.json(), indices.index(accessors));
         if (f.type != ElementType::scalar || !is_index_type(f.component) || f.is_normalized)
             indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "an accessor of unsigned scalars");
         if (f.stride != 0)
