@@ -22,9 +22,8 @@ constexpr int block_px = 8;  // of the parts of it whose density is told
 constexpr std::uint64_t word_bytes = 4;
 // A transformed vertex with what set-up takes of it, a triangle set up, and its place in the bins of a few tiles.
 constexpr std::uint64_t vertex_bytes = 32, triangle_bytes = 64;
-// A captured fragment with its depth, colour and place in the sorted sets and their layers; what a closed form keeps of one; one in a pixel's list;
-// and what the audit holds of one: its step of the trace, and itself in a list.
-constexpr std::uint64_t captured_bytes = 80, closed_bytes = 8, listed_bytes = 32, audited_bytes = 64;
+// A recorded fragment with its depth, its colour and its sorted words; one in a pixel's list; and what the audit holds of one: its step of the trace, and itself in a list.
+constexpr std::uint64_t captured_bytes = 80, listed_bytes = 32, audited_bytes = 64;
 
 // Fragments a pixel: of the region, and of its densest block.
 struct Density {
@@ -135,8 +134,7 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
     };
     if (options.audit) need.fragments += kept(audited_bytes, list_limit);
     if (algorithm.is_oracle) need.fragments += kept(listed_bytes, list_limit);
-    if (found.is_replayed)
-        need.fragments += kept(is_closed(options, algorithm) ? closed_bytes : captured_bytes, options.fragment_memory);
+    if (found.is_replayed) need.fragments += kept(captured_bytes, options.fragment_memory);
     for (const Instance& instance : list.instances) {
         const Mesh& mesh = list.meshes[instance.mesh];
         need.triangles += mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * triangle_bytes;

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "peeling/algorithms/runs.h"
-#include "peeling/closed/closed_form.h"
+#include "peeling/loops/dual_closed.h"
 
 namespace strata::peeling {
 
@@ -117,7 +117,6 @@ std::span<const Algorithm> of_bavoil_and_myers() {
          .premultiplied_layers = true,
          .geometry_passes = every_layer_and_one,
          .run = front_to_back,
-         .closed_form = front_to_back_closed,
          .replayed = code_and_color,
          .features = {fragment_programs, separate_alpha_blend}},
         {.name = "dual",

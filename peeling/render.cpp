@@ -25,8 +25,8 @@ using namespace pipeline;
 
 namespace {
 
-// What sorting takes of a recorded fragment beside its word (sorted_columns.h), and what a closed form takes of one (columns.h).
-constexpr std::uint64_t sorted_bytes = 4, column_bytes = 32;
+// What sorting takes of a recorded fragment beside its word (sorted_columns.h).
+constexpr std::uint64_t sorted_bytes = 4;
 
 // A closed form where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
@@ -60,7 +60,7 @@ int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexc
     constexpr std::int64_t large = 128, many = 32;
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
     if (!algorithm.replayed) return options.tile_size.value_or(has_many ? large : 64);
-    // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form visits them once.
+    // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form looks at them once.
     return options.tile_size.value_or(is_closed(options, algorithm) ? 64 : 32);
 }
 
@@ -119,8 +119,7 @@ struct Renderer::State {
         needs.reference = compares_apart;
         return {.bytes = options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)),
                 .needs = needs,
-                .bytes_a_fragment = TileFragments::bytes_of(needs) + sorted_bytes,
-                .bytes_in_columns = is_closed(options, algorithm) ? column_bytes : 0};
+                .bytes_a_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
     }
 
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by

@@ -47,7 +47,7 @@ struct Algorithm {
     void (*run)(pipeline::Region&) = nullptr;
     // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some of them twice.
     std::function<void(pipeline::Region&)> body{};
-    bool (*closed_form)(pipeline::Region&) = nullptr;  // peeling/closed/closed_form.h; null if it has none
+    bool (*closed_form)(pipeline::Region&) = nullptr;  // its whole loop from the record, or false; null if it has none
     // All values of fragments that its geometry passes look at: replay captures these. Empty: one pass, so nothing is
     // replayed.
     std::optional<rasterizer::FragmentNeeds> replayed{};

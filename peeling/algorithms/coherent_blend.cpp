@@ -5,8 +5,8 @@
 // Passes     5 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2).
 //            Equal depths: all, the first arrival in front.
 // Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test stores.
-#include "peeling/algorithms/coherent.h"
 #include "peeling/algorithms/runs.h"
+#include "peeling/loops/coherent.h"
 #include "peeling/programs/depth_float.h"
 
 namespace strata::peeling {

@@ -5,8 +5,8 @@
 // Passes     6 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2) for n <= 255.
 //            Equal depths: all, the first arrival in front.
 // Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost time (E19).
-#include "peeling/algorithms/coherent.h"
 #include "peeling/algorithms/runs.h"
+#include "peeling/loops/coherent.h"
 
 namespace strata::peeling {
 

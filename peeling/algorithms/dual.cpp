@@ -6,7 +6,7 @@
 // Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 - transmittance),
 //            back = what lies behind far, over the background.
 // By default these passes are the definition and do not run: in replay execution, on rgba8 and float targets,
-//            peeling/closed/dual_closed.cpp finds what they leave from each pixel's sorted fragments.
+//            peeling/loops/dual_closed.cpp finds what they leave from each pixel's sorted fragments.
 //            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and
 //            trace. Where the closed form declines (its head says when), they run.
 #include <utility>

@@ -5,10 +5,6 @@
 // Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
 // Invariant  before pass i, `accumulated` = layers 0 .. i-1 composited, alpha = what they let through,
 //            and `peeled` = the depth of layer i-1.
-// By default these passes are the definition and do not run: in replay execution
-//            peeling/closed/front_to_back_closed.cpp finds what they leave from each pixel's sorted fragments.
-//            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and
-//            trace. Where the closed form declines (its head says when), they run.
 #include <utility>
 
 #include "peeling/algorithms/runs.h"

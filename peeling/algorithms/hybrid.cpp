@@ -4,8 +4,8 @@
 // Needs      a fragment program with discard, separate alpha blending; an ordered set that arrives front to back at every pixel.
 // Passes     3 N + 2 in N + 1 iterations for N layers of the unordered set alone. Equal depths: the ordered set in front.
 // Invariant  before iteration i everything up to the unordered layer i-2 is composited, and so are the ordered fragments up to i-1.
-#include "peeling/algorithms/peel_sets.h"
 #include "peeling/algorithms/runs.h"
+#include "peeling/loops/peel_sets.h"
 
 namespace strata::peeling {
 

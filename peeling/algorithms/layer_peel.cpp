@@ -4,8 +4,8 @@
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
 // Passes     2 N + 1 in N + 1 iterations: the last one finds nothing. Equal depths: all, the first arrival in front.
 // Invariant  before iteration i the layers 0 .. i-1 are composited or, the last of them, found.
-#include "peeling/algorithms/peel_sets.h"
 #include "peeling/algorithms/runs.h"
+#include "peeling/loops/peel_sets.h"
 
 namespace strata::peeling {
 

@@ -1,5 +1,5 @@
 // peeling/programs/under.h - under_text-inl.h for a lane at a time.
-// Tests: tests/peeling/programs/programs_test.cpp, tests/peeling/closed/columns_test.cpp
+// Tests: tests/peeling/programs/programs_test.cpp, tests/peeling/loops/block_passes_test.cpp
 #pragma once
 #include <cstdint>
 

@@ -16,6 +16,7 @@ namespace strata::pipeline {
 
 inline constexpr std::size_t block_lanes = 16;
 
+inline namespace strict {
 namespace scalar {
 
 // What is done with levels: the loops here, vectors in sort_levels_simd.cpp.
@@ -32,6 +33,7 @@ struct Levels {
 };
 
 }  // namespace scalar
+}  // namespace strict
 
 template <class Levels>
 [[gnu::always_inline]] inline void merge_exchange(std::uint64_t* levels, std::size_t height) noexcept {

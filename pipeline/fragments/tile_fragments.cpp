@@ -97,14 +97,35 @@ void TileFragments::make_room(std::size_t more) {
     if (needs_.reference) grow(reference_z_, wanted, admitted), grow(reference_code_, wanted, admitted);
 }
 
+bool TileFragments::fits(std::size_t size) {
+    if (size * bytes_of(needs_) <= limit_) return true;
+    forget();
+    state_ = State::too_large;
+    return false;
+}
+
+// A record that is too large writes over the same room again and again.
+TileFragments::Space TileFragments::more_space(const Space& from) {
+    constexpr std::size_t at_once = 4096;
+    close(from.size);
+    make_room(at_once);
+    return {.pixel = pixel_.data(),
+            .primitive = primitive_.data(),
+            .code = needs_.code ? code_.data() : nullptr,
+            .shader_z = needs_.shader_z ? shader_z_.data() : nullptr,
+            .color = needs_.color ? color_.data() : nullptr,
+            .size = size_,
+            .capacity = size_ + at_once};
+}
+
+void TileFragments::close(std::size_t size) {
+    if (state_ == State::filling && fits(size)) size_ = size;
+}
+
 void TileFragments::append(const FragmentBatch& batch, const Lanes<std::uint32_t>& alive) {
     if (state_ != State::filling) return;
     const Living living{batch, alive};
-    if ((size_ + living.count) * bytes_of(needs_) > limit_) {
-        forget();
-        state_ = State::too_large;
-        return;
-    }
+    if (!fits(size_ + living.count)) return;
     make_room(living.count);
     living.copy(batch.pixel, pixel_.data() + size_);
     living.copy(batch.primitive, primitive_.data() + size_);

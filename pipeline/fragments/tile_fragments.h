@@ -24,6 +24,17 @@ class TileFragments {
     void start(const rasterizer::FragmentNeeds& needs, std::uint64_t limit);
     // The living fragments of a batch.
     void append(const rasterizer::FragmentBatch& batch, const rasterizer::Lanes<std::uint32_t>& alive);
+    // For kernels that write values by themselves (record_rows.h): arrays with places up to `capacity`, null where a value is not held, and
+    // how many are taken. `more_space` takes what `from` has got, and gives room for at least one more vector.
+    using Color = std::array<float, 4>;
+    struct Space {
+        std::uint32_t *pixel = nullptr, *primitive = nullptr, *code = nullptr;
+        float* shader_z = nullptr;
+        Color* color = nullptr;
+        std::size_t size = 0, capacity = 0;
+    };
+    [[nodiscard]] Space more_space(const Space& from);
+    void close(std::size_t size);
     void finish();  // nothing more will come
     void forget() noexcept;
 
@@ -41,7 +52,6 @@ class TileFragments {
     [[nodiscard]] std::uint64_t bytes() const noexcept { return size_ * bytes_of(needs_); }
     [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
     // By place; values that are not held are not to be looked at.
-    using Color = std::array<float, 4>;
     [[nodiscard]] std::span<const std::uint32_t> pixel() const noexcept { return {pixel_.data(), size_}; }
     [[nodiscard]] std::span<const std::uint32_t> primitive() const noexcept { return {primitive_.data(), size_}; }
     [[nodiscard]] std::span<const std::uint32_t> code() const noexcept { return {code_.data(), size_}; }
@@ -75,6 +85,7 @@ class TileFragments {
     enum class State : std::uint8_t { empty, filling, complete, too_large };
 
     void make_room(std::size_t more);
+    [[nodiscard]] bool fits(std::size_t size);
 
     State state_ = State::empty;
     rasterizer::FragmentNeeds needs_;

@@ -17,9 +17,8 @@ namespace strata::pipeline {
 struct Replay {
     std::uint64_t bytes = 0;            // a region; 0: every pass rasterizes
     rasterizer::FragmentNeeds needs{};  // what the algorithm's passes look at, all together
-    // What a fragment takes there, of a region; and of a row of a region, where columns as deep as the deepest do, too. Tiles are cut until one
-    // of them fits (tile_parts.h). 0: nothing is said.
-    std::uint64_t bytes_a_fragment = 0, bytes_in_columns = 0;
+    std::uint64_t bytes_a_fragment =
+        0;  // what one takes there: tiles are cut until theirs fit (tile_parts.h); 0: nothing is said
 };
 
 struct PreparedDraw;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/fragments/record_rows.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
@@ -80,6 +81,13 @@ bool Region::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     scratch_->sorted.forget();
     scratch_->other_sorted.forget();
     const MaterialNeeds& materials = needs_of_tile(list);
+    if (rows_have(kept) && may_walk_rows(list) && materials == MaterialNeeds{} &&
+        profile().raster.color == rasterizer::ColorInterpolation::exact_plane) {
+        books_.fragments_drawn +=
+            record_rows(fragments, list.geometry, triangles_of(list), frame_.key_request(), rect_);
+        fragments.finish();
+        return fragments.serves(needs);
+    }
     FragmentNeeds drawn = kept;
     drawn.color |= materials.color;
     drawn.texcoord |= materials.texcoord && drawn.color;

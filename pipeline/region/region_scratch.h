@@ -5,7 +5,6 @@
 #include <mutex>
 #include <vector>
 
-#include "pipeline/fragments/arena.h"
 #include "pipeline/fragments/sorted_columns.h"
 #include "pipeline/fragments/tile_fragments.h"
 #include "pipeline/fragments/visits.h"
@@ -16,7 +15,7 @@
 
 namespace strata::pipeline {
 
-// Contents last from one stage of a batch to the next, but for the record and what is sorted of it, `trace` and `arena`, which last as long as the
+// Contents last from one stage of a batch to the next, but for the record and what is sorted of it, `trace`, which last as long as the
 // region.
 struct alignas(64) RegionScratch {
     Loads loads;
@@ -35,7 +34,6 @@ struct alignas(64) RegionScratch {
     SortedColumns sorted, other_sorted;  // of the record: what the present pass looks into, and what another did
     Visits visits;                       // of the present pass
     Trace trace;
-    Arena arena;
     std::vector<TargetWords> target_words;  // of targets that are no more
 
     [[nodiscard]] TargetWords take_words() {
@@ -62,7 +60,6 @@ class RegionScratchPool {
         scratch->fragments.forget();
         scratch->sorted.forget();
         scratch->other_sorted.forget();
-        scratch->arena.reset();
         return scratch;
     }
     // Called by destructors: where there is no memory for the list, the scratch goes.

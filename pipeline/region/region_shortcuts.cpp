@@ -44,13 +44,12 @@ void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect
     }
 }
 
-// Rows compute colours by exact planes alone, and know neither texture, shadow nor MASK.
-std::optional<RowSource> RegionShortcuts::row_source() const {
+std::optional<SortedRecord> RegionShortcuts::sorted_record(const FragmentNeeds& needs) {
     const PreparedDraw& list = *region_.frame_.transparent;
-    if (!region_.may_walk_rows(list) || region_.profile().raster.color != rasterizer::ColorInterpolation::exact_plane ||
-        region_.needs_of_tile(list) != MaterialNeeds{})
-        return {};
-    return RowSource{list.geometry, list.geometry.bin(region_.tile_), region_.frame_.key_request()};
+    if (!region_.may_record(list) || !region_.has_ordered_surface() || !region_.record(list, needs) ||
+        !region_.sort_for({}))
+        return std::nullopt;
+    return SortedRecord{region_.scratch_->fragments, region_.scratch_->sorted};
 }
 
 // Literal execution and --effects all run the program: it is the definition that the kernel is compared with.
@@ -105,8 +104,6 @@ std::uint64_t RegionShortcuts::target_words() const {
     }
     return words;
 }
-
-Arena& RegionShortcuts::arena() noexcept { return region_.scratch_->arena; }
 
 // Geometry passes also count for limit_reached, as the passes that are replaced would have.
 void RegionShortcuts::book(const PassCount& passes) {

@@ -1,5 +1,5 @@
 // pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the machine's, in the
-// machine's own books. Closed forms (peeling/closed/closed_form.h), the kernels of rows and whole pixels, and the emulator's own looks.
+// machine's own books. The closed form of dual (peeling/loops), the kernels of rows and whole pixels, and the emulator's own looks.
 //
 // Rule     Nothing here is a pass, and nothing is counted unless `book` says so: the caller books what the passes that it
 //          replaces would have counted. An algorithm that is written as its paper says needs none of it.
@@ -13,20 +13,20 @@
 
 namespace strata::pipeline {
 
-class Arena;
+class SortedColumns;
+class TileFragments;
+
+// A tile's fragments, and by pixel in the order of the frame's key.
+struct SortedRecord {
+    const TileFragments& fragments;
+    const SortedColumns& sorted;
+};
 
 // The targets of a full-screen pass as they are stored: for kernels that leave by themselves what the pass would leave.
 struct ScreenWords {
     std::array<Texels, max_reads> reads;  // as PassState::reads; sample 0
     Texels color;                         // target 0
     std::size_t pixels = 0;
-};
-
-// The input of a walk over a region's fragments by rows of pixels (rasterizer/walk/row_walk-inl.h).
-struct RowSource {
-    const rasterizer::Geometry& geometry;
-    std::span<const std::uint32_t> triangles;
-    rasterizer::DepthRequest depth;
 };
 
 class RegionShortcuts {
@@ -39,20 +39,12 @@ class RegionShortcuts {
     // the band's first. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
-    // The input for walking those fragments by rows, without batches; empty where rows do not have their depths and
-    // colours. After its walk a caller reports the number of fragments to looked_at.
-    [[nodiscard]] std::optional<RowSource> row_source() const;
-    void looked_at(std::uint64_t fragments) noexcept { region_.books_.fragments_drawn += fragments; }
-    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept {
-        return Region::alive_count(out, count);
-    }
-    // 1 everywhere, as before the first opaque triangle.
-    [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return region_.opaque_depth_is_cleared_; }
+    // What the tile draws of the list, with the values that `needs` names; nothing where that is not recorded or has no order.
+    [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
 
     // Words a pixel that the region's targets have by now, samples and all.
     [[nodiscard]] std::uint64_t target_words() const;
-    [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
-    void book(const PassCount& passes);     // that something stood in for
+    void book(const PassCount& passes);  // that something stood in for
     void count(const Counters& counters) noexcept { region_.count(counters); }
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
     [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }

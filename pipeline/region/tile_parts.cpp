@@ -30,10 +30,7 @@ std::uint64_t sorted_words(const Rect& rect, const Depths& of) {
 }
 
 bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
-    constexpr std::uint64_t least_columns = 16;  // of a block
-    const std::uint64_t columns = std::max(least_columns, static_cast<std::uint64_t>(rect.width()));
-    return of.all * replay.bytes_a_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes ||
-           (replay.bytes_in_columns > 0 && columns * of.deepest * replay.bytes_in_columns <= replay.bytes);
+    return of.all * replay.bytes_a_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes;
 }
 
 // A triangle has a fragment at most for each pixel of its box, which is seldom asked for: most tiles fit if all had as many as there are triangles.

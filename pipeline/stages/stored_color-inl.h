@@ -5,7 +5,7 @@
 //          denormals where the device flushes them.
 // Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so that no product or sum of them is
 //          a denormal of binary32, which flushing would make 0.
-// Tests    tests/peeling/closed/block_passes_test.cpp
+// Tests    tests/peeling/loops/block_passes_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/half-inl.h"
 #include "pipeline/formats/unorm8-inl.h"

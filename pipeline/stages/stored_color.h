@@ -7,7 +7,7 @@
 //          8 bits are blended as the values that they stand for, in binary32; so they are by BlendRounding::unrounded_source, for a
 //          layer that was stored is a code.
 // Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
-// Tests    tests/peeling/closed/block_passes_test.cpp
+// Tests    tests/peeling/loops/block_passes_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>

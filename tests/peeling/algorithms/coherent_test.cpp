@@ -1,5 +1,5 @@
 // Coherent layer peeling pass by pass: the paper's Figure 2, its limits of 128 and 255, and how many iterations it takes.
-#include "peeling/algorithms/coherent.h"
+#include "peeling/loops/coherent.h"
 
 #include <catch2/catch.hpp>
 #include <numeric>

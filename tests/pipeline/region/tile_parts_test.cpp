@@ -36,10 +36,7 @@ struct Room {
         return std::min(16 * all, (rect.area() + 15) / 16 * 16 * deepest);
     }
     [[nodiscard]] bool fits(const Replay& replay, const Rect& rect) const {
-        const auto columns = static_cast<std::uint64_t>(std::max(16, rect.width()));
-        const bool in_columns =
-            replay.bytes_in_columns > 0 && columns * deepest * replay.bytes_in_columns <= replay.bytes;
-        return in_columns || all * replay.bytes_a_fragment + 8 * words(rect) <= replay.bytes;
+        return all * replay.bytes_a_fragment + 8 * words(rect) <= replay.bytes;
     }
 };
 
@@ -56,10 +53,7 @@ TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits i
     for (int round = 0; round < 40; ++round) {
         const FragmentScene scene = uneven_scene(random);
         TestFrame test{scene, "ideal", 16};
-        test.frame.replay = {.bytes = 512 << 10,
-                             .bytes_a_fragment = static_cast<std::uint64_t>(random_int(random, 1, 12000)),
-                             .bytes_in_columns = static_cast<std::uint64_t>(
-                                 random_int(random, -600, 600) < 0 ? 0 : random_int(random, 1, 700))};
+        test.frame.replay = {.bytes = 512 << 10, .bytes_a_fragment = std::uint64_t{1} << random_int(random, 3, 16)};
         const auto parts = tile_parts(test.frame, 1 + round % 3);
         std::vector<int> covered(scene.pixels.size());
         bool is_right = true;

@@ -1,17 +1,15 @@
-// peeling/closed/block_passes.h - the passes of a peel over a block of columns: the scalar twins of block_passes_simd.cpp.
+// peeling/loops/block_passes.h - the passes of a peel over a block of columns: the scalar twins of block_passes_simd.cpp.
 //
-// Rule     Pass i takes depth i of a column from the front, dual peeling also depth i from its back, until they meet.
+// Rule     Pass i takes depth i of a column from the front and depth i from its back, until they meet.
 //          Columns do not meet: the twins go from column to column, the vectors through many side by side. Dual front:
 //          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
-//          the code of the far colour, OVER what is there, where its alpha is not 0. Front to back: the code of the
-//          colour times alpha, UNDER what is there; where no limit ends it, one layer more, which is empty.
-// Ties     Fragments of one depth are one group. Dual keeps MAX over what each of them would leave; front to back takes
-//          the first.
-// Tests    tests/peeling/closed/block_passes_test.cpp; tests/peeling/execution_test.cpp
+//          the code of the far colour, OVER what is there, where its alpha is not 0.
+// Ties     Fragments of one depth are one group: MAX over what each of them would leave.
+// Tests    tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>
 
-#include "peeling/closed/columns.h"
+#include "peeling/loops/columns.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/under.h"
 #include "pipeline/stages/stored_color.h"
@@ -37,8 +35,7 @@ using Codes = std::array<std::uint32_t, 4>;
 
 // Straight, as the rasterizer gave it.
 [[nodiscard]] inline Color color_at(const ColumnBlock& block, std::size_t lane, std::size_t k) noexcept {
-    const std::uint32_t place = block.place(lane, k);
-    return {block.color[0][place], block.color[1][place], block.color[2][place], block.color[3][place]};
+    return block.color[block.place(lane, k)];
 }
 
 [[nodiscard]] inline Codes column(const BlockCodes& codes, std::size_t lane) noexcept {
@@ -76,14 +73,6 @@ class ColumnPasses {
         }
     }
 
-    // blend_mode::under.
-    void front_alone(Codes& front) const {
-        const std::uint32_t end = block_.visible[lane_];
-        std::uint32_t layers = 0;
-        for (std::uint32_t k = 0; k < end && layers < most_; k = block_.end_of_depth(lane_, k, end), ++layers)
-            blend_under(color_at(block_, lane_, k), front);
-        if (layers < most_) blend_under({}, front);
-    }
     [[nodiscard]] bool has_plain_colors() const {
         for (std::uint32_t k = 0; k < block_.visible[lane_]; ++k)
             if (!is_plain(color_at(block_, lane_, k))) return false;
@@ -118,15 +107,6 @@ class ColumnPasses {
             back[c] = target_.add(target_.operand(dump[c]), alpha, target_.operand(back[c]), rest);
     }
 
-    void blend_under(const Color& color, Codes& front) const {
-        const float alpha = target_.operand(target_.code(color[3])), let = target_.operand(front[3]);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float layer = target_.operand(target_.code(color[c] * color[3]));
-            front[c] = target_.add(layer, let, target_.operand(front[c]), target_.one);
-        }
-        front[3] = target_.add(alpha, 0.0f, let, target_.rest(alpha));
-    }
-
     const ColumnBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
@@ -151,21 +131,11 @@ class ColumnPasses {
     return is_plain;
 }
 
-inline void peel_front(const ColumnBlock& block, BlockCodes& codes, const BlockRules& rules) {
-    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-            Codes front = column(codes, lane);
-            ColumnPasses<Rules>{block, lane, rules}.front_alone(front);
-            put_column(front, lane, codes);
-        }
-    });
-}
-
 template <class Rules>
 void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCodes& front, const BlockCodes& back,
-               FrontAlpha meaning, std::uint32_t* words) noexcept {
+               std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const float through = through_front(meaning, target.value(front[3][lane]));
+        const float through = let_through(OneFloat{}, target.value(front[3][lane]));
         words[lane] = 0xff000000u;
         for (std::size_t c = 0; c < 3; ++c) {
             const float behind = target.value(back[c][lane]);
@@ -178,10 +148,9 @@ void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCo
 }  // namespace strict
 
 // All passes of the block. `front` and `back` hold what was there before. False if MAX does not order the colours: the
-// codes are then of no use. Front to back, nothing is blended onto what lies behind, and all colours will do.
+// codes are then of no use.
 [[nodiscard]] bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back,
                                   const BlockRules& rules);
-bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules);
 // Sixteen words of an rgba8 target, red lowest.
 [[nodiscard]] inline BlockCodes codes_of(const std::uint32_t* words) noexcept {
     BlockCodes codes;
@@ -190,7 +159,6 @@ bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, c
     return codes;
 }
 // Stores in an rgba8 target what the last quad of a peel stores: the front over the colour behind it, alpha 1.
-void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
-                     std::uint32_t* words);
+void composite_block(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words);
 
 }  // namespace strata::peeling

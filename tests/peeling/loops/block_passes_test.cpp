@@ -1,5 +1,5 @@
 // Model: the passes themselves, one depth after the other, fragment by fragment, on the colour targets of color_machine.h.
-#include "peeling/closed/block_passes.h"
+#include "peeling/loops/block_passes.h"
 
 #include <bit>
 #include <catch2/catch.hpp>
@@ -49,15 +49,16 @@ float random_value(Random& random, const BlockRules& rules, Colors colors) {
 // Sixteen columns of `depth` fragments or fewer; half of the scenes have depths of several fragments.
 struct PassScene {
     std::vector<std::uint64_t> levels;
-    std::array<std::vector<float>, 4> color;
+    std::vector<Color> color;
     ColumnBlock block;
 
     PassScene(Random& random, std::uint32_t depth, bool full, bool ties, const BlockRules& rules, Colors colors)
         : levels(depth * block_lanes, ~std::uint64_t{0}) {
+        color.resize(levels.size() + 2 * block_lanes);
         for (std::size_t c = 0; c < 4; ++c)
-            for (std::size_t i = 0; i <= levels.size() + block_lanes; ++i) {
+            for (Color& to : color) {
                 const float value = random_value(random, rules, colors);
-                color[c].push_back(c == 3 && colors == Colors::plain ? std::min(value, 1.0f) : value);
+                to[c] = c == 3 && colors == Colors::plain ? std::min(value, 1.0f) : value;
             }
         block.height = depth;
         block.count = block_lanes;
@@ -75,7 +76,7 @@ struct PassScene {
             }
         }
         block.levels = levels.data();
-        for (std::size_t c = 0; c < 4; ++c) block.color[c] = color[c].data();
+        block.color = color.data();
     }
 
     // A column's colours, depth by depth.
@@ -85,7 +86,7 @@ struct PassScene {
             const std::uint64_t word = levels[k * block_lanes + lane];
             if (k == 0 || word >> 32 != levels[(k - 1) * block_lanes + lane] >> 32) all.emplace_back();
             const auto place = static_cast<std::size_t>(word & 0xffffffffu);
-            all.back().push_back({color[0][place], color[1][place], color[2][place], color[3][place]});
+            all.back().push_back(color[place]);
         }
         return all;
     }
@@ -110,19 +111,6 @@ struct PassScene {
             for (const Color& c : all[--far])
                 for (std::size_t i = 0; i < 4; ++i) dump[i] = machine.max(c[i], dump[i]);
             for (std::size_t i = 0; i < 3 && dump[3] != 0; ++i) back[i] = machine.over(dump[i], dump[3], back[i]);
-        }
-    }
-
-    void peel_front_to_back(const BlockRules& rules, std::size_t lane, Codes& front) const {
-        const ColorMachine machine{rules.color};
-        auto all = depths(lane);
-        all.push_back({Color{}});
-        if (all.size() > rules.most_passes) all.resize(rules.most_passes);
-        for (const auto& depth : all) {
-            const Color& c = depth.front();
-            for (std::size_t i = 0; i < 3; ++i)
-                front[i] = machine.under(machine.write(product(c[i], c[3])), front[i], front[3]);
-            front[3] = machine.through(machine.write(c[3]), front[3]);
         }
     }
 };
@@ -171,36 +159,6 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "a block is peeled from the front like its passes, by every rule and of any colours, on every instruction set") {
-    Random random{93};
-    for (BlockRules rules : all_rules()) {
-        std::uint64_t wrong = 0;
-        for (std::uint32_t depth = 0; depth <= 24; ++depth)
-            for (const bool ties : {false, true})
-                for (const Colors colors : {Colors::plain, Colors::any}) {
-                    rules.most_passes = any_limit(random, depth);
-                    const PassScene scene{random, depth, depth % 3 == 0, ties, rules, colors};
-                    BlockCodes cleared{}, front{};
-                    cleared[3].fill(ColorMachine{rules.color}.write(1.0f));
-                    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-                        Codes f = scalar::column(cleared, lane);
-                        scene.peel_front_to_back(rules, lane, f);
-                        scalar::put_column(f, lane, front);
-                    }
-                    for (const Simd simd : available_simd()) {
-                        const SimdScope kernels{simd};
-                        BlockCodes f = cleared, b{};
-                        wrong += peel_front(scene.block, f, b, rules) && f == front && b == BlockCodes{} ? 0 : 1;
-                    }
-                }
-        INFO("type " << static_cast<int>(rules.color.type) << ", half " << static_cast<int>(rules.color.rounding.half)
-                     << ", unorm " << static_cast<int>(rules.color.rounding.unorm) << ", blend "
-                     << static_cast<int>(rules.color.blend) << ", flushes " << rules.color.flushes);
-        CHECK(wrong == 0);
-    }
-}
-
 TEST_CASE("colours that MAX does not order are told on float targets, wherever they stand, on every instruction set") {
     Random random{94};
     const std::array<float, 6> foreign{-0.0f,  -0.5f, 1024.5f, std::nanf(""), std::numeric_limits<float>::infinity(),
@@ -212,7 +170,7 @@ TEST_CASE("colours that MAX does not order are told on float targets, wherever t
                 for (const bool ties : {false, true})
                     for (const float value : foreign) {
                         PassScene scene{random, 5, true, ties, rules, Colors::plain};
-                        scene.color[c][k * block_lanes + random() % block_lanes] =
+                        scene.color[k * block_lanes + random() % block_lanes][c] =
                             c == 3 && value > 1024 ? 1.0000001f : value;
                         for (const Simd simd : available_simd()) {
                             const SimdScope kernels{simd};
@@ -230,35 +188,32 @@ TEST_CASE("the last quad puts a front over what is behind it, and leaves every c
     for (const BlockRules& rules : all_rules()) {
         if (rules.color.type != ChannelType::unorm8) continue;
         const ColorMachine machine{rules.color};
-        for (int trial = 0; trial < 64; ++trial)
-            for (const FrontAlpha meaning : {FrontAlpha::covers, FrontAlpha::lets_through}) {
-                const bool is_empty = trial < 16;
-                BlockCodes front{}, back{};
-                LaneWords expected;
-                for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-                    expected[lane] = 0xff000000u;
-                    for (std::size_t c = 0; c < 4; ++c) {
-                        const auto code = static_cast<std::uint32_t>(random_int(random, 0, 255));
-                        const bool lets = c == 3 && meaning == FrontAlpha::lets_through;
-                        front[c][lane] = !is_empty ? code : lets ? 255u : 0u;
-                        back[c][lane] = static_cast<std::uint32_t>(trial % 16) * 16 + static_cast<std::uint32_t>(lane);
-                    }
-                    const float alpha = machine.read(front[3][lane]);
-                    const float through = meaning == FrontAlpha::covers ? sum(1, -alpha) : alpha;
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        const float behind = product(through, machine.read(back[c][lane]));
-                        const std::uint32_t code =
-                            is_empty ? back[c][lane] : machine.write(sum(machine.read(front[c][lane]), behind));
-                        expected[lane] |= code << (8 * c);
-                    }
+        for (int trial = 0; trial < 64; ++trial) {
+            const bool is_empty = trial < 16;
+            BlockCodes front{}, back{};
+            LaneWords expected;
+            for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+                expected[lane] = 0xff000000u;
+                for (std::size_t c = 0; c < 4; ++c) {
+                    const auto code = static_cast<std::uint32_t>(random_int(random, 0, 255));
+                    front[c][lane] = is_empty ? 0u : code;
+                    back[c][lane] = static_cast<std::uint32_t>(trial % 16) * 16 + static_cast<std::uint32_t>(lane);
                 }
-                for (const Simd simd : available_simd()) {
-                    const SimdScope kernels{simd};
-                    LaneWords words{};
-                    composite_block(front, back, meaning, rules, words.data());
-                    wrong += words == expected ? 0 : 1;
+                const float through = sum(1, -machine.read(front[3][lane]));
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const float behind = product(through, machine.read(back[c][lane]));
+                    const std::uint32_t code =
+                        is_empty ? back[c][lane] : machine.write(sum(machine.read(front[c][lane]), behind));
+                    expected[lane] |= code << (8 * c);
                 }
             }
+            for (const Simd simd : available_simd()) {
+                const SimdScope kernels{simd};
+                LaneWords words{};
+                composite_block(front, back, rules, words.data());
+                wrong += words == expected ? 0 : 1;
+            }
+        }
     }
     CHECK(wrong == 0);
 }

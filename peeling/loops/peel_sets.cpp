@@ -1,9 +1,9 @@
-// peeling/algorithms/peel_sets.cpp - the loop of Algorithm 1 and its three passes (algorithms.md 9).
+// peeling/loops/peel_sets.cpp - the loop of Algorithm 1 and its three passes (algorithms.md 9).
 //
 // Needs      fragment programs with discard, separate alpha blending.
 // Passes     3 an iteration where a set is ordered, else 2; the first iteration has no layer to composite.
 // Invariant  before an iteration everything up to `peeled` is composited; `layer` is found, and composited by it.
-#include "peeling/algorithms/peel_sets.h"
+#include "peeling/loops/peel_sets.h"
 
 #include <utility>
 

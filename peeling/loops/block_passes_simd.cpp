@@ -1,11 +1,11 @@
-// peeling/closed/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at
+// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at
 // a time.
-// How kernels are written: kernels.md. Tests: tests/peeling/closed/columns_test.cpp
+// How kernels are written: kernels.md. Tests: tests/peeling/loops/block_passes_test.cpp
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "peeling/closed/block_passes_simd.cpp"
+#define HWY_TARGET_INCLUDE "peeling/loops/block_passes_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-#include "peeling/closed/block_passes.h"
+#include "peeling/loops/block_passes.h"
 #include "pipeline/stages/stored_color-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,30 +81,6 @@ class Columns {
         return is_at_most(most_color, most_plain_color) && is_at_most(most_alpha, 1.0f);
     }
 
-    HWY_INLINE void front_alone(BlockCodes& front_codes, bool has_ties) const {
-        Held front[4];
-        load(front_codes, front);
-        const WordVec most = hn::Set(Words{}, most_);
-        WordVec layers = visible_, key_before = hn::Zero(Words{});
-        if (has_ties) layers = key_before;
-        const std::uint32_t end = has_ties ? block_.height : std::min(block_.height, most_);
-        for (std::uint32_t pass = 0; pass < end; ++pass) {
-            WordVec key;
-            const WordVec place = level(pass, key);
-            WordMask has = hn::Lt(hn::Set(Words{}, pass), visible_);
-            if (has_ties) {
-                if (pass > 0) has = hn::And(has, hn::Ne(key, key_before));
-                has = hn::And(has, hn::Lt(layers, most));
-                layers = hn::Add(layers, hn::IfThenElseZero(has, hn::Set(Words{}, 1)));
-            }
-            key_before = key;
-            blend_front(take(place, has), has, front);
-        }
-        const WordMask all = hn::Eq(visible_, visible_);
-        blend_front(take(visible_, hn::Not(all)), hn::Lt(layers, most), front);
-        store(all, front, 4, front_codes);
-    }
-
   private:
     struct Color {
         FloatVec channel[4];
@@ -130,21 +106,24 @@ class Columns {
         return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.levels), hn::BitCast(Signed{}, word));
     }
 
-    // With gathers, or where the places are one or follow each other, without.
+    // With gathers, or where the places follow each other, without.
     HWY_INLINE Color take(WordVec place, WordMask has) const {
         const Words d;
         const Floats df;
         place = hn::IfThenElseZero(has, place);
         const std::uint32_t first = hn::GetLane(place);
         const bool is_run = hn::AllTrue(d, hn::Eq(place, hn::Add(hn::Set(d, first), hn::Iota(d, 0))));
-        const bool is_one = hn::AllTrue(d, hn::Eq(place, hn::Set(d, first)));
         Color color;
-        for (std::size_t c = 0; c < 4; ++c) {
-            color.channel[c] = is_one   ? hn::Set(df, block_.color[c][first])
-                               : is_run ? hn::LoadU(df, block_.color[c] + first)
-                                        : hn::GatherIndex(df, block_.color[c], hn::BitCast(Signed{}, place));
-            color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
+        const float* const channels = block_.color[0].data();
+        if (is_run) {
+            hn::LoadInterleaved4(df, channels + 4 * std::size_t{first}, color.channel[0], color.channel[1],
+                                 color.channel[2], color.channel[3]);
+        } else {
+            const auto index = hn::BitCast(Signed{}, hn::ShiftLeft<2>(place));
+            for (std::size_t c = 0; c < 4; ++c) color.channel[c] = hn::GatherIndex(df, channels + c, index);
         }
+        for (std::size_t c = 0; c < 4; ++c)
+            color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
         return color;
     }
 
@@ -173,19 +152,6 @@ class Columns {
         return is_there;
     }
 
-    // As the twin's blend_under. An 8-bit column that has ended takes colour 0, which is neutral; a float one is kept.
-    HWY_INLINE void blend_front(const Color& color, WordMask has, Held (&front)[4]) const {
-        const FloatVec let_through = target_.operand(front[3]);
-        const auto keep = [&](Held next, Held old)
-                              HWY_ATTR { return Target::is_float ? choose(has, next, old) : next; };
-        for (std::size_t c = 0; c < 3; ++c) {
-            const FloatVec layer = target_.operand(target_.stored(hn::Mul(color.channel[c], color.channel[3])));
-            front[c] = keep(target_.add(layer, let_through, target_.operand(front[c]), target_.one()), front[c]);
-        }
-        const FloatVec alpha = target_.operand(target_.stored(color.channel[3]));
-        front[3] = keep(target_.add(alpha, hn::Zero(Floats{}), let_through, target_.rest(alpha)), front[3]);
-    }
-
     const ColumnBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
@@ -203,25 +169,16 @@ bool both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, co
     return is_plain;
 }
 
-void front_alone(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules) {
-    const bool has_ties = block.has_any_tie();
-    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) HWY_ATTR {
-        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-            Columns<Rules>{block, lane, rules}.front_alone(front, has_ties);
-    });
-}
-
 // algorithms.md 0.4, with the codes packed to a word a pixel, red lowest.
 template <pipeline::UnormRounding to_code>
-void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+void last_quad_by(const BlockCodes& front, const BlockCodes& back, std::uint32_t* words) {
     using Target =
         StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // nothing is blended here
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const auto value = [lane](const LaneWords& codes)
                                HWY_ATTR { return Target::value(hn::LoadU(Words{}, &codes[lane])); };
-        const FloatVec alpha = value(front[3]);
-        const FloatVec through = meaning == FrontAlpha::covers ? let_through(AllLanes{}, alpha) : alpha;
+        const FloatVec through = let_through(AllLanes{}, value(front[3]));
         WordVec word = hn::Set(d, 0xff000000u);
         for (std::size_t c = 0; c < 3; ++c) {
             const WordVec code = Target::stored(composited(value(front[c]), through, value(back[c])));
@@ -231,13 +188,12 @@ void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha me
     }
 }
 
-void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
-               std::uint32_t* words) {
+void last_quad(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words) {
     using enum pipeline::UnormRounding;
     switch (rules.color.rounding.unorm) {
-        case half_up: return last_quad_by<half_up>(front, back, meaning, words);
-        case product_even: return last_quad_by<product_even>(front, back, meaning, words);
-        case product_even_wide: return last_quad_by<product_even_wide>(front, back, meaning, words);
+        case half_up: return last_quad_by<half_up>(front, back, words);
+        case product_even: return last_quad_by<product_even>(front, back, words);
+        case product_even_wide: return last_quad_by<product_even_wide>(front, back, words);
     }
 }
 
@@ -249,7 +205,6 @@ HWY_AFTER_NAMESPACE();
 
 namespace strata::peeling {
 STRATA_EXPORT(both_ends);
-STRATA_EXPORT(front_alone);
 STRATA_EXPORT(last_quad);
 
 // Tied columns are rare, and left to the twin.
@@ -268,19 +223,10 @@ bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& bac
     return is_plain;
 }
 
-bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes&, const BlockRules& rules) {
-    if (simd_is_scalar())
-        scalar::peel_front(block, front, rules);
-    else
-        kernel_of(HWY_DISPATCH_TABLE(front_alone))(block, front, rules);
-    return true;
-}
-
-void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
-                     std::uint32_t* words) {
-    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, meaning, rules, words);
+void composite_block(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words) {
+    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, rules, words);
     pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
-        scalar::composite(pipeline::scalar::StoredColor<Rules>{rules.color}, front, back, meaning, words);
+        scalar::composite(pipeline::scalar::StoredColor<Rules>{rules.color}, front, back, words);
     });
 }
 

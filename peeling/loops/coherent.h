@@ -1,4 +1,4 @@
-// peeling/algorithms/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend) share.
+// peeling/loops/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend) share.
 // Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
 //
 // Rule     An iteration composites, in arrival order, the run of fragments that starts at the nearest one not yet composited

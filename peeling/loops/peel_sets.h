@@ -1,4 +1,4 @@
-// peeling/algorithms/peel_sets.h - Algorithm 1: unordered geometry peeled layer by layer, ordered geometry composited between two peels.
+// peeling/loops/peel_sets.h - Algorithm 1: unordered geometry peeled layer by layer, ordered geometry composited between two peels.
 // Carr, Mech and Miller 2008, section 3; algorithms.md 9, errata E23 and E24.
 //
 // Rule     An iteration: the nearest unordered layer behind the last one (`peeled`, strict) is found; the ordered fragments up

@@ -1,4 +1,4 @@
-#include "peeling/algorithms/coherent.h"
+#include "peeling/loops/coherent.h"
 
 #include "peeling/programs/region_programs.h"
 

@@ -1,0 +1,26 @@
+// pipeline/fragments/record_rows.h - fragments recorded row by row instead of batch by batch.
+//
+// Rule     The record is that of TileFragments::append for the batches of TileRasterizer::draw: the same fragments in the same order with
+//          the same values. Rows have depths, codes and colours by exact planes, and know neither texture nor MASK.
+// Tests    tests/pipeline/fragments/record_rows_test.cpp
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "pipeline/fragments/tile_fragments.h"
+#include "rasterizer/set_up/geometry.h"
+
+namespace strata::pipeline {
+
+// Whether rows have the values that `needs` names.
+[[nodiscard]] constexpr bool rows_have(const rasterizer::FragmentNeeds& needs) noexcept {
+    return !needs.exact_code && !needs.reference && !needs.texcoord && !needs.facing && needs.units == 0;
+}
+
+// Adds the fragments of `triangles` in `region` to a record that has been started, and returns their number. Only where
+// rasterizer::row_walk_suits, and rows have what is recorded.
+std::uint64_t record_rows(TileFragments& to, const rasterizer::Geometry& geometry,
+                          std::span<const std::uint32_t> triangles, const rasterizer::DepthRequest& depth,
+                          const rasterizer::Rect& region);
+
+}  // namespace strata::pipeline
