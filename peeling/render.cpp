@@ -90,6 +90,21 @@ struct Renderer::State {
         return algorithm.whole_frame || counts_across || options.counters ? Execution::literal : options.execution;
     }
 
+    // What the executor does not know. An algorithm of one pass has nothing to gain from a record.
+    void note_path(const Algorithm& algorithm, const Instruments& instruments, Work& work) const {
+        if (work.path == Path::tiled && !algorithm.replayed) work.why.clear();
+        if (work.path != Path::literal) return;
+        if (options.counters)
+            work.why = "--counters counts in literal execution";
+        else if (options.execution == Execution::literal)
+            work.why = "--execution literal";
+        else if (execution(algorithm, instruments) == Execution::replay)
+            work.why = "a lookup, a depth or a cached block beyond a tile needs the whole frame";
+        else
+            work.why = algorithm.whole_frame ? "queries nest, so that no tile may end by itself"
+                                             : "a limit of passes counts across loops";
+    }
+
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
 
     // The depth paths that the algorithm stores and compares.
@@ -265,6 +280,7 @@ struct Renderer::State {
             result.frame =
                 run(f, body, execution(algorithm, instruments), options.threads, progress, instruments, watch);
         }
+        note_path(algorithm, instruments, result.frame.work);
         result.seconds.audit = result.frame.watched * result.seconds.passes;
         result.seconds.passes -= result.seconds.audit;
         if (!algorithm.compares_own_codes) note_endless(f, options, result.frame);

@@ -25,12 +25,16 @@ using namespace pipeline;
 
 namespace {
 
-bool suits(const Frame& frame) {
+// Null where it may be tried.
+const char* why_not(const Frame& frame) {
     using enum TerminationRule;
     const auto rule = frame.termination.rule;
     const bool is_known = frame.color_format == Format::rgba8 || frame.color_format == Format::rgba16f ||
                           frame.color_format == Format::rgba32f;
-    return is_known && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() && !frame.keep_layers;
+    if (!is_known) return "the colour format is none of rgba8, rgba16f and rgba32f";
+    if (rule != exact && rule != any && rule != fixed) return "--termination asks after every pass how many are left";
+    if (!frame.is_invariant()) return "passes compare other depths than they store, or draw other vertices";
+    return frame.keep_layers ? "layers are kept" : nullptr;
 }
 
 // Limits count the first pass, too, which peels nothing.
@@ -189,12 +193,20 @@ bool peel_region(Region& region, const SortedRecord& record) {
 }  // namespace
 
 bool dual_closed(Region& region) {
-    if (!suits(region.frame())) return false;
-    const auto record = RegionShortcuts{region}.sorted_record(
+    RegionShortcuts shortcuts{region};
+    const auto declines = [&](const char* reason) {
+        shortcuts.note_resolved(reason);
+        return reason != nullptr;
+    };
+    if (declines(why_not(region.frame()))) return false;
+    const auto record = shortcuts.sorted_record(
         {.shader_z = true, .code = false, .exact_code = false, .color = true, .texcoord = false, .facing = false});
-    if (!record || has_foreign_depths(record->fragments, region.profile())) return false;
-    return region.frame().color_format == Format::rgba8 ? peel_region<Rgba8Course>(region, *record)
-                                                        : peel_region<FloatCourse>(region, *record);
+    if (declines(record ? nullptr : "a tile's fragments are not recorded, or their depths have no order")) return false;
+    if (has_foreign_depths(record->fragments, region.profile()))
+        return !declines("MAX does not keep every depth as it is");
+    const bool is_done = region.frame().color_format == Format::rgba8 ? peel_region<Rgba8Course>(region, *record)
+                                                                      : peel_region<FloatCourse>(region, *record);
+    return !declines(is_done ? nullptr : "MAX does not order the colours of this float target");
 }
 
 }  // namespace strata::peeling

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/frame/region_books.h"
@@ -13,6 +14,8 @@ struct Work {                     // what was really done; may differ by executi
     std::uint64_t visited = 0;    // by programs of geometry passes, in the last run of every region
     std::uint64_t regions = 0, reruns = 0;
     int tile_size = 0;
+    Path path = Path::literal;  // the slowest of all regions
+    std::string why;            // not a faster one; empty where there is none
 };
 
 struct FrameResult {

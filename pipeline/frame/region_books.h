@@ -35,6 +35,21 @@ struct KeptLayer {
     Side side = Side::front;  // from which end the peel took it
 };
 
+// How a run came by the fragments that its geometry passes look at, from the slowest way on: the frame is one region, and every pass
+// rasterizes; so it does in each tile; passes read what was recorded of the tile; and a whole loop was computed from that, without passes.
+enum class Path : std::uint8_t { literal, tiled, recorded, resolved };
+
+// Of a region, and why it did not go a faster way: sentences, null where nothing was in the way.
+struct PathTaken {
+    bool rasterizes = false, reads_record = false, is_resolved = false;
+    const char *why_rasterized = nullptr, *why_unresolved = nullptr;
+
+    [[nodiscard]] Path path() const noexcept {
+        return rasterizes ? Path::tiled : is_resolved ? Path::resolved : reads_record ? Path::recorded : Path::tiled;
+    }
+    [[nodiscard]] const char* why() const noexcept { return rasterizes ? why_rasterized : why_unresolved; }
+};
+
 struct RegionBooks {
     Answers script;  // the frame's that are known already; further ones are guessed from the region's own counts
     std::vector<LoopBooks> loops = std::vector<LoopBooks>(1);  // one, unless the body says that a further one begins
@@ -48,6 +63,7 @@ struct RegionBooks {
     PassLog pass_log;
     std::uint64_t fragments_drawn = 0;
     std::uint64_t fragments_visited = 0;  // by programs of geometry passes
+    PathTaken taken;
     int geometry_passes = 0;
     bool counts = true;  // false during the emulator's own work (opaque priming, capture)
     Counters counters;   // which only literal execution tells

@@ -279,6 +279,7 @@ class FrameRun {
             result_.passes += longest.passes;
         }
         if (extent_ == Extent::frame) result_.counters = regions_[0].books.counters;
+        gather_path();
         for (const RegionRun& region : regions_) {
             for (const Diagnostic& d : region.books.diagnostics) merge(result_.diagnostics, d);
             gather_log(region.books.pass_log);
@@ -288,6 +289,14 @@ class FrameRun {
         const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
         result_.watched = watched > 0 ? watched / (watched + bodies) : 0;
         if (frame_.keep_layers) gather_layers();
+    }
+
+    void gather_path() {
+        if (extent_ == Extent::frame) return;
+        const auto path = [](const RegionRun& region) { return region.books.taken.path(); };
+        const RegionRun& slowest = *std::ranges::min_element(regions_, {}, path);
+        result_.work.path = path(slowest);
+        if (const char* const why = slowest.books.taken.why(); why != nullptr) result_.work.why = why;
     }
 
     void gather_log(const PassLog& log) {

@@ -188,6 +188,7 @@ class Region {
     [[nodiscard]] bool may_record(const PreparedDraw& list) const;
     [[nodiscard]] bool record(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs);
     void visit_all(const rasterizer::FragmentNeeds& needs, rasterizer::BatchSink sink);
+    void note_rasterized(const PassState& state, const rasterizer::FragmentNeeds& needs);
     void require_range(const FragmentBatch& batch) const;
     // Whether depths beyond the range have codes of their own (depth.md 2.9).
     [[nodiscard]] bool wraps_depths() const noexcept {

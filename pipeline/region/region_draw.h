@@ -42,6 +42,7 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
 
 template <FragmentProgram P>
 Drawn Region::draw_visits(const PassState& state, P& program) {
+    books_.taken.reads_record = true;
     const bool is_routed = state.selection.keeps == Keeps::arrivals;
     if (is_routed) route_arrivals(state);
     open_cache(state);

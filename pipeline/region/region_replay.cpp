@@ -140,6 +140,19 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }
 
+// Of passes over the list that may be recorded.
+void Region::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
+    PathTaken& taken = books_.taken;
+    taken.rasterizes = true;
+    if (taken.why_rasterized != nullptr) return;
+    taken.why_rasterized = frame_.effects == Effects::all ? "--effects all simulates every effect in every pass"
+                           : frame_.replay.bytes == 0     ? "--fragment-memory 0 records nothing"
+                           : !TileFragments::records(needs)
+                               ? "a pass looks at texture coordinates or facing, which are not recorded"
+                           : !state.primitives.empty() ? "a pass looks at all fragments of a part of the list"
+                                                       : "a tile's fragments take more than --fragment-memory";
+}
+
 // A list that did not fit is rasterized every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     depth_ = depth_outcome(state, list);
@@ -153,10 +166,13 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     FragmentNeeds looked_at = needs;
     looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with their texture and shadow
     looked_at.units = state.needs.units;
-    if (may_record(list) && state.primitives.empty() && record(list, looked_at))
+    if (may_record(list) && state.primitives.empty() && record(list, looked_at)) {
+        books_.taken.reads_record = true;
         visit_all(looked_at, sink);
-    else
+    } else {
+        if (books_.counts && &list == frame_.repeated()) note_rasterized(state, looked_at);
         rasterize(list, needs, state.primitives, sink);
+    }
 }
 
 }  // namespace strata::pipeline

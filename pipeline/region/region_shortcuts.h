@@ -45,6 +45,11 @@ class RegionShortcuts {
     // Words a pixel that the region's targets have by now, samples and all.
     [[nodiscard]] std::uint64_t target_words() const;
     void book(const PassCount& passes);  // that something stood in for
+    // Whether a whole loop was computed from the record: null, or why not, in a sentence.
+    void note_resolved(const char* why_not) noexcept {
+        region_.books_.taken.is_resolved = why_not == nullptr;
+        region_.books_.taken.why_unresolved = why_not;
+    }
     void count(const Counters& counters) noexcept { region_.count(counters); }
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
     [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }

@@ -148,8 +148,11 @@ RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, 
                    const Writer& write) {
     Progress progress(algorithm.name);
     peeling::RenderResult result = renderer.render(algorithm, [&](double share) { progress.show(share); });
-    if (result.outcome == peeling::Outcome::done) write({session, algorithm, renderer, result});
-    return summarize(algorithm, std::move(result));
+    const bool is_done = result.outcome == peeling::Outcome::done;
+    if (is_done) write({session, algorithm, renderer, result});
+    RunSummary summary = summarize(algorithm, std::move(result));
+    if (is_done) say_detail(path_sentence(summary));
+    return summary;
 }
 
 // The table is the result of a run that writes no picture, and a note on the picture beside one.

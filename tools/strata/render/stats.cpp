@@ -38,11 +38,20 @@ ordered_json to_json(const std::optional<pipeline::Counters>& counted) {
             {"bytes_written", c.bytes_written}};
 }
 
+std::string_view name_of(pipeline::Path path) {
+    switch (path) {
+        case pipeline::Path::literal: return "literal";
+        case pipeline::Path::tiled: return "tiled";
+        case pipeline::Path::recorded: return "recorded";
+        case pipeline::Path::resolved: return "resolved";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
 ordered_json to_json(const pipeline::Work& work) {
-    return {{"fragments", work.fragments},
-            {"regions", work.regions},
-            {"reruns", work.reruns},
-            {"tile_size", work.tile_size}};
+    return {{"fragments", work.fragments}, {"regions", work.regions},
+            {"reruns", work.reruns},       {"tile_size", work.tile_size},
+            {"path", name_of(work.path)},  {"why", work.why.empty() ? ordered_json(nullptr) : ordered_json(work.why)}};
 }
 
 ordered_json to_json(const std::vector<pipeline::Diagnostic>& diagnostics) {
@@ -88,6 +97,11 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
 }
 
 }  // namespace
+
+std::string path_sentence(const RunSummary& run) {
+    const pipeline::Work& work = run.result.frame.work;
+    return fmt::format("{}: {}{}", run.algorithm->name, name_of(work.path), work.why.empty() ? "" : ": " + work.why);
+}
 
 ordered_json to_row(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;

@@ -31,6 +31,9 @@ struct RunContext {
 // A refused run has empty digests, zeros for counts, and says why in "refusal", which is null for every other run.
 [[nodiscard]] nlohmann::ordered_json to_row(const RunSummary& run, const RunContext& context);
 
+// How a run came by its fragments, and why not by a faster way.
+[[nodiscard]] std::string path_sentence(const RunSummary& run);
+
 // The document of --stats (reports.md 1), with its newline.
 [[nodiscard]] std::string to_json(const std::vector<RunSummary>& runs, const RunContext& context);
 
