@@ -5,13 +5,13 @@
 // Passes     1. Equal depths: the first arrival in front, none lost.
 // Invariant  a pixel's fragments are in submission order until they are sorted by the code of DepthPath::exact, first
 //            arrivals first.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"
 #include "peeling/programs/tie_order.h"
 #include "pipeline/region/region_shortcuts.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::a_buffer {
 
 using namespace pipeline;
 
@@ -46,7 +46,7 @@ void count_pass(Region& region) {
 
 }  // namespace
 
-void a_buffer(Region& region) {
+void run(Region& region) {
     const Target result = region.make_color();
     region.call(result, "result");
     region.begin_iteration();
@@ -67,4 +67,21 @@ void a_buffer(Region& region) {
     region.publish(result);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{
+        .name = "a_buffer",
+        .listed = 170,
+        .paper = "Carpenter 1984",
+        .section = "the oracle",
+        .summary =
+            "every fragment sorted by exact depth and composited in binary64; what the others are measured against",
+        .pass_formula = "1",
+        .ties = TiePolicy::first,
+        .key = DepthKey::stored_code,
+        .exact = true,
+        .is_oracle = true,
+        .geometry_passes = one_pass,
+        .run = run}};
+}
+
+}  // namespace strata::peeling::listing::a_buffer

@@ -26,6 +26,7 @@ enum class ListOrder : std::uint8_t {
 
 struct Algorithm {
     std::string name;
+    int listed = 0;            // where lists show it: ten times its section of algorithms.md, or between two
     std::string paper;         // author and year
     std::string section;       // where in it
     std::string summary;       // one sentence

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/layer_target.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::batched {
 
 using namespace pipeline;
 
@@ -100,7 +100,7 @@ Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool
 
 }  // namespace
 
-void batched(Region& region) {
+void run(Region& region) {
     LayerTargets t{region.make_color(), region.make_depth(), region.make_depth(), region.make_color()};
     region.call(t.layer, "layer");
     region.call(t.peeled, "nearest");
@@ -120,4 +120,21 @@ void batched(Region& region) {
     publish_over_background(region, t.accumulated, region.opaque_color());
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "batched",
+                      .listed = 150,
+                      .paper = "Wexler et al. 2005",
+                      .section = "",
+                      .summary = "objects taken in batches by depth, each batch's interval of depth peeled by itself",
+                      .pass_formula = "sum of L + 1 over intervals",
+                      .ties = TiePolicy::unique,
+                      .exact = true,
+                      .order = ListOrder::objects,
+                      .runs_loops = true,
+                      .compares_own_codes = true,
+                      .run = run,
+                      .replayed = code_and_color,
+                      .features = {fragment_programs, separate_alpha_blend}}};
+}
+
+}  // namespace strata::peeling::listing::batched

@@ -5,11 +5,11 @@
 // Passes     5 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2).
 //            Equal depths: all, the first arrival in front.
 // Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test stores.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 #include "peeling/programs/depth_float.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::coherent_blend {
 
 using namespace pipeline;
 
@@ -55,8 +55,24 @@ void find_previous(CoherentPeel& peel) {
 
 }  // namespace
 
-const FirstPasses blend_passes{.geometry_passes = 1, .find_nearest = find_nearest, .find_previous = find_previous};
+const FirstPasses passes{.geometry_passes = 1, .find_nearest = find_nearest, .find_previous = find_previous};
 
-void coherent_blend(Region& region) { peel_coherently(region, blend_passes); }
+void run(Region& region) { peel_coherently(region, passes); }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "coherent_blend",
+                      .listed = 110,
+                      .paper = "Carr, Mech and Miller 2008",
+                      .section = "section 6 (B)",
+                      .summary = "the same runs, with the depth before the nearest shifted into the colour by blending",
+                      .pass_formula = "1 + 5 an iteration",
+                      .ties = TiePolicy::first,
+                      .exact = true,
+                      .compares_own_codes = true,
+                      .has_published_form = true,
+                      .run = run,
+                      .replayed = code_and_color,
+                      .features = {float_targets, fragment_programs, separate_alpha_blend}}};
+}
+
+}  // namespace strata::peeling::listing::coherent_blend

@@ -5,12 +5,12 @@
 // Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, the first in front.
 // Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; what lies exactly
 //            there is composited by that pass.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::coherent_ideal {
 
 using namespace pipeline;
 
@@ -146,6 +146,24 @@ class IdealPeel {
 
 }  // namespace
 
-void coherent_ideal(Region& region) { IdealPeel{region}.run(); }
+void run(Region& region) { IdealPeel{region}.run(); }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {
+        Algorithm{.name = "coherent_ideal",
+                  .listed = 120,
+                  .paper = "Carr, Mech and Miller 2008",
+                  .section = "Algorithm 2",
+                  .summary = "the same runs in two passes, by depths and a flag that the rasterizer reads and writes",
+                  .pass_formula = "2 an iteration - 1",
+                  .ties = TiePolicy::first,
+                  .exact = true,
+                  .compares_own_codes = true,
+                  .has_published_form = true,
+                  .run = run,
+                  .replayed = code_and_color,
+                  .features = {ordered_rmw, float_targets, fragment_programs, separate_alpha_blend},
+                  .render_targets = 2}};
+}
+
+}  // namespace strata::peeling::listing::coherent_ideal

@@ -5,10 +5,10 @@
 // Passes     6 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2) for n <= 255.
 //            Equal depths: all, the first arrival in front.
 // Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost time (E19).
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::coherent_stencil {
 
 using namespace pipeline;
 
@@ -44,8 +44,24 @@ void find_previous(CoherentPeel& peel) {
 
 }  // namespace
 
-const FirstPasses stencil_passes{.geometry_passes = 2, .find_nearest = find_nearest, .find_previous = find_previous};
+const FirstPasses passes{.geometry_passes = 2, .find_nearest = find_nearest, .find_previous = find_previous};
 
-void coherent_stencil(Region& region) { peel_coherently(region, stencil_passes); }
+void run(Region& region) { peel_coherently(region, passes); }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "coherent_stencil",
+                      .listed = 100,
+                      .paper = "Carr, Mech and Miller 2008",
+                      .section = "section 5 (A)",
+                      .summary = "runs of fragments in order, found by counting in the stencil buffer",
+                      .pass_formula = "1 + 6 an iteration",
+                      .ties = TiePolicy::first,
+                      .exact = true,
+                      .compares_own_codes = true,
+                      .has_published_form = true,
+                      .run = run,
+                      .replayed = code_and_color,
+                      .features = {fragment_programs, separate_alpha_blend}}};
+}
+
+}  // namespace strata::peeling::listing::coherent_stencil

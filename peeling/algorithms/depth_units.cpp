@@ -3,11 +3,11 @@
 // Needs      STRATA_depth_units, an emulator extension: no device had sequential depth units.
 // Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
 // Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/layer_quads.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::depth_units {
 
 using namespace pipeline;
 
@@ -37,7 +37,7 @@ Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool fir
 
 }  // namespace
 
-void depth_units(Region& region) {
+void run(Region& region) {
     SavedLayers layers;
     Target peeled;
     while (!region.limit_reached()) {
@@ -65,4 +65,21 @@ void depth_units(Region& region) {
     region.publish(result);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "depth_units",
+                      .listed = 20,
+                      .paper = "Everitt 2001",
+                      .section = "Multiple Depth Tests, Listing 1",
+                      .summary = "one layer a pass by two sequential depth units; layers composited back to front",
+                      .pass_formula = "N + 1",
+                      .ties = TiePolicy::unique,
+                      .key = DepthKey::stored_code,
+                      .exact = true,
+                      .makes_layers = true,
+                      .geometry_passes = every_layer_and_one,
+                      .run = run,
+                      .replayed = code_and_color,
+                      .features = {sequential_depth_units}}};
+}
+
+}  // namespace strata::peeling::listing::depth_units

@@ -9,12 +9,14 @@
 //            peeling/loops/dual_closed.cpp finds what they leave from each pixel's sorted fragments.
 //            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and
 //            trace. Where the closed form declines (its head says when), they run.
+#include <algorithm>
 #include <utility>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
+#include "peeling/loops/dual_closed.h"
 #include "peeling/programs/min_max.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::dual {
 
 using namespace pipeline;
 
@@ -80,7 +82,7 @@ void trace_peel(Region& region, const DualTargets& t) {
 
 }  // namespace
 
-void dual(Region& region) {
+void run(Region& region) {
     const auto rg = Format::rg32f;
     DualTargets t{region.make(rg),     region.make(rg),     region.make_color(),
                   region.make_color(), region.make_color(), region.make_color()};
@@ -110,4 +112,24 @@ void dual(Region& region) {
     publish_over(region, t.front, FrontAlpha::covers, t.back);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "dual",
+                      .listed = 50,
+                      .paper = "Bavoil and Myers 2008",
+                      .section = "Dual Depth Peeling",
+                      .summary = "nearest and farthest layer of every pass, blended on the fly under one MAX equation",
+                      .pass_formula = "1 + max(1, ceil(N/2))",
+                      .ties = TiePolicy::merged,
+                      .key = DepthKey::shader_z,
+                      .exact = true,
+                      .makes_layers = true,
+                      .takes_both_ends = true,
+                      .geometry_passes = [](int layers) { return 1 + std::max(1, (layers + 1) / 2); },
+                      .run = run,
+                      .closed_form = dual_closed,
+                      .replayed = z_and_color,
+                      .features = {float_targets, fragment_programs},
+                      .render_targets = 3}};
+}
+
+}  // namespace strata::peeling::listing::dual

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/min_max.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::dual_independent {
 
 using namespace pipeline;
 
@@ -58,7 +58,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
 
 }  // namespace
 
-void dual_independent(Region& region) {
+void run(Region& region) {
     Target min_max = region.make(Format::rg32f), next_min_max = region.make(Format::rg32f);
     const Target front = region.make_color(), back = region.make_color();
     region.call(min_max, "min_max");
@@ -80,4 +80,23 @@ void dual_independent(Region& region) {
     publish_over_background(region, front, back);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "dual_independent",
+                      .listed = 60,
+                      .paper = "Bavoil and Myers 2008",
+                      .section = "Blending on the Fly (DirectX 10.1)",
+                      .summary = "dual peeling with a blend equation a target; no tie is lost",
+                      .pass_formula = "ceil(N/2) + 2",
+                      .ties = TiePolicy::first_then_last,
+                      .key = DepthKey::shader_z,
+                      .exact = true,
+                      .makes_layers = true,
+                      .takes_both_ends = true,
+                      .geometry_passes = [](int layers) { return (layers + 1) / 2 + 2; },
+                      .run = run,
+                      .replayed = z_and_color,
+                      .features = {independent_blend, separate_alpha_blend, float_targets, fragment_programs},
+                      .render_targets = 3}};
+}
+
+}  // namespace strata::peeling::listing::dual_independent

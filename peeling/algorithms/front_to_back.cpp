@@ -7,11 +7,11 @@
 //            and `peeled` = the depth of layer i-1.
 #include <utility>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/layer_target.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::front_to_back {
 
 using namespace pipeline;
 
@@ -38,19 +38,7 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
 
 }  // namespace
 
-void composite_layer(Region& region, Target layer, Target depth, Target accumulated) {
-    PassState state;
-    state.color[0] = accumulated;
-    state.blend[0] = blend_mode::under;
-    state.reads[0] = layer;
-    const bool is_traced = trace_layer(state, region, depth);
-    static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone
-        if (is_traced) trace_layer(own, lanes(in), Side::front, out);
-    }));
-}
-
-void front_to_back(Region& region) {
+void run(Region& region) {
     const Target accumulated = region.make_color();
     const Target layer = region.make_color();
     Target peeled = region.make_depth();
@@ -76,4 +64,22 @@ void front_to_back(Region& region) {
     publish_over_background(region, accumulated, region.opaque_color());
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "front_to_back",
+                      .listed = 40,
+                      .paper = "Bavoil and Myers 2008",
+                      .section = "Depth Peeling; Under Blending",
+                      .summary = "one layer a pass, nearest first, blended UNDER",
+                      .pass_formula = "N + 1",
+                      .ties = TiePolicy::unique,
+                      .key = DepthKey::stored_code,
+                      .exact = true,
+                      .makes_layers = true,
+                      .premultiplied_layers = true,
+                      .geometry_passes = every_layer_and_one,
+                      .run = run,
+                      .replayed = code_and_color,
+                      .features = {fragment_programs, separate_alpha_blend}}};
+}
+
+}  // namespace strata::peeling::listing::front_to_back

@@ -6,12 +6,12 @@
 // Invariant  a pixel's entries are sorted by depth, ties as they came, and behind all that is composited unless a fault says so.
 #include <array>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::k_buffer {
 
 using namespace pipeline;
 
@@ -121,6 +121,22 @@ class KBuffer {
 
 }  // namespace
 
-void k_buffer(Region& region) { KBuffer{region}.run(); }
+void run(Region& region) { KBuffer{region}.run(); }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {
+        Algorithm{.name = "k_buffer",
+                  .listed = 140,
+                  .paper = "Bavoil et al. 2007",
+                  .section = "",
+                  .summary = "the four nearest fragments so far, sorted as they come; the fifth pushes the nearest out",
+                  .pass_formula = "1",
+                  .ties = TiePolicy::first,
+                  .compares_own_codes = true,
+                  .geometry_passes = one_pass,
+                  .run = run,
+                  .features = {ordered_rmw, float_targets, fragment_programs, separate_alpha_blend},
+                  .render_targets = 6}};
+}
+
+}  // namespace strata::peeling::listing::k_buffer

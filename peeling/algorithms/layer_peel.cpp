@@ -4,11 +4,29 @@
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
 // Passes     2 N + 1 in N + 1 iterations: the last one finds nothing. Equal depths: all, the first arrival in front.
 // Invariant  before iteration i the layers 0 .. i-1 are composited or, the last of them, found.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/loops/peel_sets.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::layer_peel {
 
-void layer_peel(pipeline::Region& region) { peel_sets(region, {}); }
+void run(pipeline::Region& region) { peel_sets(region, {}); }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {
+        Algorithm{.name = "layer_peel",
+                  .listed = 90,
+                  .paper = "Carr, Mech and Miller 2008",
+                  .section = "section 2, Table 1",
+                  .summary = "a pass finds the nearest layer left, another composites it: the baseline of Carr's paper",
+                  .pass_formula = "2 N + 1",
+                  .ties = TiePolicy::first,
+                  .exact = true,
+                  .compares_own_codes = true,
+                  .has_published_form = true,
+                  .geometry_passes = [](int layers) { return 2 * layers + 1; },
+                  .run = run,
+                  .replayed = code_and_color,
+                  .features = {fragment_programs, separate_alpha_blend}}};
+}
+
+}  // namespace strata::peeling::listing::layer_peel

@@ -7,11 +7,11 @@
 // Invariant  what is composited lies, at every pixel, in front of all objects that remain, unless a fault says so.
 #include <vector>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::object_sorted {
 
 using namespace pipeline;
 
@@ -61,7 +61,7 @@ std::size_t front_object(Region& region, const Objects& remaining, Target neares
 
 }  // namespace
 
-void object_sorted(Region& region) {
+void run(Region& region) {
     const Target accumulated = region.make_color(), nearest = region.make_depth();
     region.call(accumulated, "accumulated");
     region.call(nearest, "nearest");
@@ -79,4 +79,21 @@ void object_sorted(Region& region) {
     publish_over_background(region, accumulated, region.opaque_color());
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{
+        .name = "object_sorted",
+        .listed = 160,
+        .paper = "Govindaraju et al. 2005",
+        .section = "",
+        .summary = "objects ordered by occlusion queries, then composited; wrong where objects or their own triangles "
+                   "overlap out of order",
+        .pass_formula = "3 n - 2 to n^2 + 2 n - 2, n objects",
+        .ties = TiePolicy::first,
+        .order = ListOrder::objects,
+        .whole_frame = true,
+        .compares_own_codes = true,
+        .run = run,
+        .features = {fragment_programs, separate_alpha_blend}}};
+}
+
+}  // namespace strata::peeling::listing::object_sorted

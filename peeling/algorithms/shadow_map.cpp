@@ -5,11 +5,11 @@
 // Passes     N + 1 for N distinct depths if the compared depth R is the stored one (depth_replace writes, perspective_rq
 //            compares). Where R is another path's, a fragment may lie behind itself, and its layer never goes.
 // Invariant  before pass i, `map` = the copied depth buffer of pass i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/layer_quads.h"
 #include "peeling/programs/region_programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::shadow_map {
 
 using namespace pipeline;
 
@@ -57,7 +57,7 @@ Drawn peel(Region& region, const Buffers& to) {
 
 }  // namespace
 
-void shadow_map(Region& region) {
+void run(Region& region) {
     Buffers buffers{region.make_color(), region.make_depth(), {}};
     region.call(buffers.color, "color");
     region.call(buffers.depth, "depth");
@@ -85,4 +85,42 @@ void shadow_map(Region& region) {
     region.publish(result);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {
+        Algorithm{
+            .name = "shadow_map",
+            .listed = 30,
+            .paper = "Everitt 2001",
+            .section = "Shadow Mapping as Depth Test; An Invariance Issue",
+            .summary =
+                "one layer a pass by shadow comparison and alpha test; its two depths may differ in their last bits",
+            .pass_formula = "N + 1 where the compared depth is the stored one",
+            .ties = TiePolicy::unique,
+            .key = DepthKey::stored_code,
+            .makes_layers = true,
+            .kills_alpha_zero = true,
+            .geometry_passes = every_layer_and_one,
+            .run = run,
+            .replayed = code_and_color,
+            .compares = DepthPath::perspective_rq},
+        Algorithm{
+            .name = "shadow_map_depth_replace",
+            .listed = 30,
+            .paper = "Everitt 2001",
+            .section = "An Invariance Issue, Listing 2",
+            .summary = "the same with a depth replaced by a texture shader: stored and compared depth are one quotient",
+            .pass_formula = "N + 1",
+            .ties = TiePolicy::unique,
+            .key = DepthKey::stored_code,
+            .exact = true,
+            .makes_layers = true,
+            .kills_alpha_zero = true,
+            .geometry_passes = every_layer_and_one,
+            .run = run,
+            .replayed = code_and_color,
+            .features = {depth_replace},
+            .stores = DepthPath::depth_replace,
+            .compares = DepthPath::perspective_rq}};
+}
+
+}  // namespace strata::peeling::listing::shadow_map

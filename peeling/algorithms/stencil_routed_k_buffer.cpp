@@ -7,12 +7,12 @@
 //            where more have come.
 #include <vector>
 
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/sample_columns.h"
 #include "pipeline/region/region_shortcuts.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::stencil_routed_k_buffer {
 
 using namespace pipeline;
 
@@ -113,7 +113,7 @@ void report_overflow(Region& region, Target stencil) {
 
 }  // namespace
 
-void stencil_routed_k_buffer(Region& region) {
+void run(Region& region) {
     const Target stencil = region.make(Format::s8, pass_samples);
     region.call(stencil, "stencil");
     std::vector<Capture> captures;
@@ -126,4 +126,20 @@ void stencil_routed_k_buffer(Region& region) {
     region.publish(resolve(region, captures));
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "stencil_routed_k_buffer",
+                      .listed = 130,
+                      .paper = "Myers and Bavoil 2007",
+                      .section = "",
+                      .summary = "eight fragments a pass, routed by the stencil test into samples, sorted afterwards",
+                      .pass_formula = "ceil(M/8), M fragments",
+                      .ties = TiePolicy::first,
+                      .exact = true,
+                      .compares_own_codes = true,
+                      .run = run,
+                      .replayed = code_and_color,
+                      .features = {fragment_programs, separate_alpha_blend},
+                      .samples = 8}};
+}
+
+}  // namespace strata::peeling::listing::stencil_routed_k_buffer

@@ -4,14 +4,14 @@
 // Needs      nothing.
 // Passes     1.
 // Invariant  the target holds OVER of what has arrived; right exactly where every pixel's fragments arrive back to front.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::unsorted {
 
 using namespace pipeline;
 
-void unsorted(Region& region) {
+void run(Region& region) {
     const Target color = region.make_color();
     region.call(color, "color");
     region.copy(region.opaque_color(), color);
@@ -34,4 +34,28 @@ void unsorted(Region& region) {
     region.publish(color);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "unsorted",
+                      .listed = 10,
+                      .paper = "Everitt 2001",
+                      .section = "Figure 1 (b)",
+                      .summary = "OVER in submission order; right where every pixel's fragments arrive back to front",
+                      .pass_formula = "1",
+                      .ties = TiePolicy::none,
+                      .key = DepthKey::stored_code,
+                      .geometry_passes = one_pass,
+                      .run = run},
+            Algorithm{.name = "painter",
+                      .listed = 10,
+                      .paper = "Everitt 2001",
+                      .section = "Introduction",
+                      .summary = "OVER of triangles sorted by centroid, far first; fails where triangles cross",
+                      .pass_formula = "1",
+                      .ties = TiePolicy::last,
+                      .key = DepthKey::stored_code,
+                      .order = ListOrder::back_to_front,
+                      .geometry_passes = one_pass,
+                      .run = run}};
+}
+
+}  // namespace strata::peeling::listing::unsorted

@@ -8,11 +8,11 @@
 //            textured, the rasterizer's rows add straight into fp16 and binary32 targets (pipeline/stages/sum_rows.h;
 //            Region::draw_sums chooses); the stored words of an 8-bit frame are resolved by average_words.h. Both need
 //            AVX2 and half conversion, both are proved equal to the programs by tests/peeling/execution_test.cpp.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
 #include "peeling/programs/average_words.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::weighted_average {
 
 using namespace pipeline;
 
@@ -58,7 +58,7 @@ StuckPixels resolve(Region& region, const PassState& state) {
 
 }  // namespace
 
-void weighted_average(Region& region) {
+void run(Region& region) {
     const bool wide = region.frame().color_format == Format::rgba32f;
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Format count_format = wide ? Format::r32f : region.frame().average_count;
@@ -75,4 +75,19 @@ void weighted_average(Region& region) {
     region.publish(result);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "weighted_average",
+                      .listed = 70,
+                      .paper = "Bavoil and Myers 2008",
+                      .section = "Weighted Average",
+                      .summary = "every colour replaced by the average weighted by alpha; an approximation",
+                      .pass_formula = "1",
+                      .ties = TiePolicy::none,
+                      .key = DepthKey::shader_z,
+                      .geometry_passes = one_pass,
+                      .run = run,
+                      .features = {float_targets, fragment_programs},
+                      .render_targets = 2}};
+}
+
+}  // namespace strata::peeling::listing::weighted_average

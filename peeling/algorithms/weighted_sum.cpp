@@ -5,14 +5,14 @@
 // Passes     1. An approximation: the background's weight 1 - sum a goes negative where alphas add up to more than 1, and the
 //            picture darkens; it is clamped by nothing but the final store.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, in submission order and in the target's precision.
-#include "peeling/algorithms/runs.h"
+#include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"
 
-namespace strata::peeling {
+namespace strata::peeling::listing::weighted_sum {
 
 using namespace pipeline;
 
-void weighted_sum(Region& region) {
+void run(Region& region) {
     const Target sums = region.make(region.frame().color_format == Format::rgba32f ? Format::rgba32f : Format::rgba16f);
     const Target result = region.make_color();
     region.call(sums, "sums");
@@ -40,4 +40,18 @@ void weighted_sum(Region& region) {
     region.publish(result);
 }
 
-}  // namespace strata::peeling
+std::vector<Algorithm> entries() {
+    return {Algorithm{.name = "weighted_sum",
+                      .listed = 80,
+                      .paper = "Bavoil and Myers 2008",
+                      .section = "Weighted Sum",
+                      .summary = "order-dependent terms ignored; darkens where alphas add up to more than 1",
+                      .pass_formula = "1",
+                      .ties = TiePolicy::none,
+                      .key = DepthKey::shader_z,
+                      .geometry_passes = one_pass,
+                      .run = run,
+                      .features = {float_targets, fragment_programs}}};
+}
+
+}  // namespace strata::peeling::listing::weighted_sum

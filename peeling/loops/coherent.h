@@ -75,7 +75,12 @@ inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::Fragment
     return state;
 }
 
-extern const FirstPasses stencil_passes, blend_passes;  // coherent_stencil.cpp, coherent_blend.cpp
+namespace listing::coherent_stencil {
+extern const FirstPasses passes;
+}
+namespace listing::coherent_blend {
+extern const FirstPasses passes;
+}
 
 // Passes 3 to 6, with the bound between them; in this order, after the first passes.
 void count_run(CoherentPeel& peel);

@@ -24,4 +24,16 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     }
 }
 
+void composite_layer(Region& region, Target layer, Target depth, Target accumulated) {
+    PassState state;
+    state.color[0] = accumulated;
+    state.blend[0] = blend_mode::under;
+    state.reads[0] = layer;
+    const bool is_traced = trace_layer(state, region, depth);
+    static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone
+        if (is_traced) trace_layer(own, lanes(in), Side::front, out);
+    }));
+}
+
 }  // namespace strata::peeling

@@ -80,17 +80,17 @@ const Machine stencil{"geforce8", "coherent_stencil"}, blend{"geforce8", "cohere
 
 // s1 .. s10 arrive at 90, 80, 20, 10, 30, 40, 70, 95, 60, 50; s4 at 10 is peeled; the opaque surface lies at 100.
 TEST_CASE("Figure 2: every stencil and depth value of the passes, the inverted count of 4 included") {
-    for (const FirstPasses* first : {&stencil_passes, &blend_passes}) {
+    for (const FirstPasses* first : {&listing::coherent_stencil::passes, &listing::coherent_blend::passes}) {
         Passes passes{one_pixel({90, 80, 20, 10, 30, 40, 70, 95, 60, 50}, 100)};
         CoherentPeel& peel = passes.peel;
         passes.region.clear(peel.reached, {.depth = 10.0f / 128});
         peel.from_the_start = false;
         static_cast<void>(first->find_nearest(peel));
-        CHECK(passes.depth(peel.nearest) == 20);                     // D(s3)
-        if (first == &stencil_passes) CHECK(passes.stencil() == 3);  // s1, s2, s3
+        CHECK(passes.depth(peel.nearest) == 20);                                        // D(s3)
+        if (first == &listing::coherent_stencil::passes) CHECK(passes.stencil() == 3);  // s1, s2, s3
         first->find_previous(peel);
         CHECK(passes.depth(peel.previous) == 80);  // D(s2)
-        if (first == &stencil_passes) CHECK(passes.stencil() == 1);
+        if (first == &listing::coherent_stencil::passes) CHECK(passes.stencil() == 1);
         count_run(peel);
         CHECK(passes.depth(peel.last_in_order) == 70);  // D(s7): s9 fails the depth test and writes nothing (E17)
         CHECK(passes.stencil() == 251);                 // s3, s5, s6, s7 count 4; s9 inverts it
@@ -109,8 +109,8 @@ TEST_CASE("Figure 2: every stencil and depth value of the passes, the inverted c
 TEST_CASE("regression: A, arrival 1, 1, 2: pass 3 leaves 254, the run ends at 1, pass 6 composites both") {
     Passes passes{one_pixel({1, 1, 2})};
     CoherentPeel& peel = passes.peel;
-    static_cast<void>(stencil_passes.find_nearest(peel));
-    stencil_passes.find_previous(peel);
+    static_cast<void>(listing::coherent_stencil::passes.find_nearest(peel));
+    listing::coherent_stencil::passes.find_previous(peel);
     CHECK(passes.depth(peel.previous) == 128);  // none
     count_run(peel);
     CHECK(passes.stencil() == 254);

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
-#include "peeling/algorithms/runs.h"
 #include "peeling/audit/audit.h"
 #include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/input_error.h"
@@ -35,7 +34,7 @@ Algorithm forgetful() {
     Algorithm a = *find_algorithm("front_to_back");
     a.closed_form = nullptr;
     a.run = [](Region& region) {
-        front_to_back(region);
+        find_algorithm("front_to_back")->run(region);
         Trace& trace = RegionShortcuts{region}.trace();
         for (std::size_t i = 0; i < trace.size(); ++i)
             if (trace[i].key % 3 == 0) trace[i].side = Side::none;
@@ -133,7 +132,7 @@ TEST_CASE("what a blank tile is found to have done is counted in every tile that
     scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});  // the first tile is not blank
     Algorithm busy = *find_algorithm("front_to_back");
     busy.run = [](Region& region) {
-        front_to_back(region);
+        find_algorithm("front_to_back")->run(region);
         if (region.rect().width() > 2) region.trace({2, 7, 0, Side::front, false});  // a layer that is none
     };
     const AuditResult found = audit(scene, busy, {.execution = Execution::replay, .tile_size = 8}).result;
@@ -146,7 +145,7 @@ TEST_CASE("a blank tile whose trace does not fit is looked at again in its own p
     scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});
     Algorithm busy = *find_algorithm("front_to_back");
     busy.run = [](Region& region) {
-        front_to_back(region);
+        find_algorithm("front_to_back")->run(region);
         for (std::uint32_t p = 0; p < region.rect().area(); ++p) region.trace({p, 7, 0, Side::front, false});
     };
     for (const std::uint64_t bytes : {std::uint64_t{1} << 30, std::uint64_t{1300}}) {
@@ -175,7 +174,7 @@ TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence nam
 TEST_CASE("a pixel whose trace has no end is told with the memory doubled") {
     Algorithm endless = *find_algorithm("front_to_back");
     endless.run = [](Region& region) {
-        front_to_back(region);
+        find_algorithm("front_to_back")->run(region);
         for (int i = 0; i < 1000; ++i) region.trace({0, 7, 0, Side::front, false});
     };
     const std::string found = sentence(deep_pixel(1), endless, 8192);

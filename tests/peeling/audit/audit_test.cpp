@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "peeling/algorithms/runs.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/tie_order.h"
 #include "tests/peeling/rendering.h"
