@@ -16,6 +16,7 @@
 #include "pipeline/region/executor.h"
 #include "pipeline/region/region.h"
 #include "pipeline/vertices/prepare.h"
+#include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/rules/depth_key.h"
 

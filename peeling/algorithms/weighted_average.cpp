@@ -6,11 +6,10 @@
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
 // By default the programs below are the definition and do not run. Outside literal execution, and where nothing is
 //            textured, the rasterizer's rows add straight into fp16 and binary32 targets (pipeline/stages/sum_rows.h;
-//            Region::draw_sums chooses); the stored words of an 8-bit frame are resolved by average_words.h. Both need
-//            AVX2 and half conversion, both are proved equal to the programs by tests/peeling/execution_test.cpp.
+//            Region::draw_sums chooses). They need AVX2 and half conversion, and are proved equal to the programs by
+//            tests/peeling/execution_test.cpp.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
-#include "peeling/programs/average_words.h"
 
 namespace strata::peeling::listing::weighted_average {
 
@@ -35,12 +34,13 @@ Target accumulate(Region& region, Target sums, Target count) {
     return sums;
 }
 
+struct StuckPixels {
+    std::uint64_t pixels = 0;
+    std::uint32_t first = ~0u;
+};
+
 // Reads sums, count and background.
 StuckPixels resolve(Region& region, const PassState& state) {
-    constexpr std::array reads{Format::rgba16f, Format::r16f, Format::rgba8};
-    if (resolves_words() && region.profile().rounds_codes_once())
-        if (const auto words = RegionShortcuts{region}.full_screen_words(state, reads, Format::rgba8))
-            return resolve_average_words(*words);
     const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;
     StuckPixels stuck;
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {

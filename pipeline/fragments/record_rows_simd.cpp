@@ -6,7 +6,6 @@
 #include "hwy/highway.h"
 #include "pipeline/fragments/record_rows.h"
 #include "pipeline/stages/color_planes-inl.h"
-#include "pipeline/stages/tiny_colors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
@@ -38,46 +37,10 @@ struct RecordState {
     }
 };
 
-// Pixels of tiny triangles.
-template <bool unsnapped>
-class TinyRecord {
-  public:
-    using Triangles = raster::TinyTriangles<unsnapped>;
-
-    HWY_INLINE TinyRecord(RecordState& state, const Triangles& triangles)
-        : state_{state}, triangles_{triangles}, color_{triangles}, depth_{z(0), z(1), z(2)} {
-        for (std::size_t k = 0; k < raster::tiny_lanes; ++k)
-            primitive_[k] = triangles.geometry().triangles[triangles.triangles()[k]].primitive;
-    }
-    HWY_INLINE bool suits() const { return !color_.has_flat(); }
-
-    HWY_INLINE void operator()(const raster::TinyPixels& pixels) {
-        const raster::Weights b = triangles_.weights(pixels);
-        const V32 z = depth_.at(pixels, b, triangles_.geometry(), triangles_.triangles());
-        V32 color[4];
-        color_.at(pixels, b, color);
-        const WordVec primitive =
-            hn::TableLookupLanes(hn::Load(U32{}, primitive_), hn::IndicesFromVec(U32{}, pixels.lane));
-        state_.put(pixels.pixel, primitive, z, color, pixels.count);
-    }
-    HWY_INLINE void finish(std::uint64_t pixels) { state_.fragments += pixels; }
-
-  private:
-    HWY_INLINE raster::V64 z(std::size_t i) const { return hn::PromoteTo(F64{}, triangles_.z(i)); }
-
-    RecordState& state_;
-    const Triangles& triangles_;
-    const TinyColors<unsnapped> color_;
-    const raster::TinyPlane<unsnapped> depth_;
-    alignas(64) std::uint32_t primitive_[raster::tiny_lanes];
-};
-
 // One a triangle; covered pixels are its first lanes.
 template <bool unsnapped>
 class RecordShade {
   public:
-    using Tiny = TinyRecord<unsnapped>;
-
     HWY_INLINE RecordShade(RecordState& state, const DrawnTriangle& triangle)
         : state_{state},
           triangle_{triangle},

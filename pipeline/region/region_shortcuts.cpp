@@ -52,25 +52,6 @@ std::optional<SortedRecord> RegionShortcuts::sorted_record(const FragmentNeeds& 
     return SortedRecord{region_.scratch_->fragments, region_.scratch_->sorted};
 }
 
-// Literal execution and --effects all run the program: it is the definition that the kernel is compared with.
-std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& state, std::span<const Format> reads,
-                                                              Format color) {
-    const auto is = [&](Target t, Format format) {
-        return region_.is_one_sample(t) && region_.storage(t).format() == format;
-    };
-    const auto first_read = state.reads.begin();
-    if (region_.extent_ != Extent::tile || region_.frame_.effects != Effects::needed || !is(state.color[0], color) ||
-        !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
-        return {};
-    region_.begin_pass(state, PassKind::full_screen);
-    ScreenWords words{{}, region_.at(state.color[0]).texels(0), region_.rect_.area()};
-    for (std::size_t r = 0; r < reads.size(); ++r) {
-        words.reads[r] = region_.at(state.reads[r]).texels(0);
-        region_.count(of_loads(static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel), words.pixels));
-    }
-    return words;
-}
-
 // LESS with a write over a copy of the opaque depth, in the form of the algorithm's key (execution.md 9).
 Target RegionShortcuts::nearest_depth() {
     const UncountedWork look{region_.books_};

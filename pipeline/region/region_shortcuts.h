@@ -22,13 +22,6 @@ struct SortedRecord {
     const SortedColumns& sorted;
 };
 
-// The targets of a full-screen pass as they are stored: for kernels that leave by themselves what the pass would leave.
-struct ScreenWords {
-    std::array<Texels, max_reads> reads;  // as PassState::reads; sample 0
-    Texels color;                         // target 0
-    std::size_t pixels = 0;
-};
-
 class RegionShortcuts {
   public:
     explicit RegionShortcuts(Region& region) noexcept : region_{region} {}
@@ -54,10 +47,6 @@ class RegionShortcuts {
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
     [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }
 
-    // A full-screen pass without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands
-    // out its words. Nothing, and nothing counted, where a kernel must not stand in for the pass.
-    [[nodiscard]] std::optional<ScreenWords> full_screen_words(const PassState& state, std::span<const Format> reads,
-                                                               Format color);
     // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
     [[nodiscard]] Word* words(Target target) { return region_.at(target).depth_plane(0).words; }
     // Consecutive pixels, all channels, sample 0.

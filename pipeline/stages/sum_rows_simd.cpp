@@ -7,16 +7,10 @@
 #include "pipeline/formats/half-inl.h"
 #include "pipeline/stages/color_planes-inl.h"
 #include "pipeline/stages/sum_rows.h"
-#include "pipeline/stages/tiny_colors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
-
-// One pixel's r g b a.
-using Pixel = hn::CappedTag<float, 4>;
-using VPixel = hn::Vec<Pixel>;
-using PixelWords = hn::RebindToUnsigned<Pixel>;
 
 // State of a pass of sums over all its triangles: the planes it adds to, the conversion of depths to codes, the counts.
 struct SumState {
@@ -87,25 +81,6 @@ struct HalfSums {
         if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum)))) sum = canonical(U32{}, sum);
         hn::BlendedStore(half_codes(U32{}, sum), hn::RebindMask(U32{}, covered), U32{}, words);
     }
-
-    // The same of one pixel, whose source has been flushed.
-    static HWY_INLINE void add_one(VPixel source, const SumPlanes& planes, std::size_t pixel) {
-        using Halves = hn::Rebind<hwy::float16_t, Pixel>;
-        using Word = hn::Rebind<std::uint64_t, hn::CappedTag<double, 1>>;
-        std::uint32_t &low = planes.sums[0][pixel], &high = planes.sums[1][pixel];
-        const auto stored = hn::BitCast(Halves{}, hn::Set(Word{}, std::uint64_t{high} << 32 | low));
-        VPixel sum = hn::Add(source, hn::PromoteTo(Pixel{}, stored));
-        if (HWY_UNLIKELY(!hn::AllTrue(Pixel{}, hn::Eq(sum, sum)))) sum = canonical(PixelWords{}, sum);
-        const std::uint64_t word = hn::GetLane(hn::BitCast(Word{}, hn::DemoteTo(Halves{}, sum)));
-        low = static_cast<std::uint32_t>(word);
-        high = static_cast<std::uint32_t>(word >> 32);
-    }
-    static HWY_INLINE void count_one(const SumPlanes& planes, std::size_t pixel) {
-        std::uint32_t& word = planes.count[pixel];
-        VPixel sum = hn::Add(half_values(PixelWords{}, hn::Set(PixelWords{}, word)), hn::Set(Pixel{}, 1.0f));
-        if (HWY_UNLIKELY(!hn::AllTrue(Pixel{}, hn::Eq(sum, sum)))) sum = canonical(PixelWords{}, sum);
-        word = hn::GetLane(half_codes(PixelWords{}, sum));
-    }
 };
 
 // How they lie in words of their own: combine<add> of blend_float.h on each.
@@ -124,87 +99,14 @@ struct FloatSums {
     static HWY_INLINE void count(raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
         add_to(hn::Set(F32{}, 1.0f), covered, planes.flushes, planes.count + pixel);
     }
-
-    static HWY_INLINE void flush_negative(V32 (&)[4], raster::RowMask, const SumPlanes&) {}  // as it is added
-    // One pixel's, from the first lane of vectors.
-    static HWY_INLINE void add_one(VPixel source, const SumPlanes& planes, std::size_t pixel) {
-        alignas(16) float values[4];
-        hn::Store(source, Pixel{}, values);
-        for (std::size_t c = 0; c < 4; ++c)
-            add_to(hn::Set(F32{}, values[c]), hn::FirstN(F32{}, 1), planes.flushes, planes.sums[c] + pixel);
-    }
-    static HWY_INLINE void count_one(const SumPlanes& planes, std::size_t pixel) {
-        count(hn::FirstN(F32{}, 1), planes, pixel);
-    }
 };
 
 template <bool is_tested, class Sums>
 struct SumOf {
-    // Pixels of tiny triangles are added one after the other: the same one may come again.
-    template <bool unsnapped>
-    class TinyOf {
-      public:
-        using Triangles = raster::TinyTriangles<unsnapped>;
-
-        HWY_INLINE TinyOf(SumState& state, const raster::TinyTriangles<unsnapped>& triangles)
-            : state_{state},
-              planes_{state.planes},
-              to_code_{state.to_code},
-              triangles_{triangles},
-              color_{triangles},
-              depth_{z(0), z(1), z(2)} {}
-        HWY_INLINE bool suits() const { return true; }
-
-        HWY_INLINE void operator()(const raster::TinyPixels& pixels) {
-            const raster::Weights b = triangles_.weights(pixels);
-            raster::RowMask covered = pixels.covered();
-            if constexpr (is_tested) {
-                covered = hn::And(covered, nearer(pixels, b));
-                if (hn::AllFalse(F32{}, covered)) return;
-                passed_ += hn::CountTrue(F32{}, covered);
-            }
-            V32 color[4];
-            color_.at(pixels, b, color);
-            for (std::size_t c = 0; c < 3; ++c) color[c] = hn::Mul(color[c], color[3]);
-            Sums::flush_negative(color, covered, planes_);
-            alignas(64) std::uint32_t pixel[raster::tiny_lanes];
-            alignas(64) float source[4 * raster::tiny_lanes];
-            hn::Store(pixels.pixel, U32{}, pixel);
-            hn::StoreInterleaved4(color[0], color[1], color[2], color[3], F32{}, source);
-            for (std::uint32_t left = raster::bits_of(covered); left != 0; left &= left - 1) {
-                const int i = std::countr_zero(left);
-                Sums::add_one(hn::Load(Pixel{}, source + 4 * i), planes_, pixel[i]);
-                if (planes_.count != nullptr) Sums::count_one(planes_, pixel[i]);
-            }
-        }
-        HWY_INLINE void finish(std::uint64_t pixels) {
-            state_.drawn.fragments += pixels;
-            state_.drawn.passed += is_tested ? passed_ : pixels;
-        }
-
-      private:
-        HWY_INLINE raster::V64 z(std::size_t i) const { return hn::PromoteTo(F64{}, triangles_.z(i)); }
-        HWY_INLINE raster::RowMask nearer(const raster::TinyPixels& pixels, const raster::Weights& b) const {
-            const V32 z = depth_.at(pixels, b, triangles_.geometry(), triangles_.triangles());
-            const auto opaque = hn::GatherIndex(U32{}, planes_.opaque, hn::BitCast(raster::I32{}, pixels.pixel));
-            return raster::nearer(raster::codes(z, to_code_), opaque, to_code_.is_fixed());
-        }
-
-        SumState& state_;
-        const SumPlanes planes_;
-        const rasterizer::DepthConversion<float> to_code_;
-        const raster::TinyTriangles<unsnapped>& triangles_;
-        const TinyColors<unsnapped> color_;
-        const raster::TinyPlane<unsnapped> depth_;
-        std::uint64_t passed_ = 0;
-    };
-
     // The planes of one triangle. Where nothing is tested no depth is computed: is_tested is a constant of the pass.
     template <bool unsnapped>
     class Shade {
       public:
-        using Tiny = TinyOf<unsnapped>;
-
         HWY_INLINE Shade(SumState& state, const DrawnTriangle& triangle)
             : state_{state}, planes_{state.planes}, to_code_{state.to_code}, triangle_{triangle}, color_{triangle} {
             // Without opaque surfaces nothing is tested, and the plane of depth is not needed.

@@ -6,7 +6,6 @@
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"
 #include "rasterizer/walk/rows.h"
-#include "rasterizer/walk/tiny_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
@@ -18,55 +17,16 @@ struct DepthState {
     DepthConversion<float> to_code;
     double z_units;
     std::uint32_t* codes;
-    std::size_t pixels;  // of the region; spare words stand behind them
     DepthDrawn drawn;
 };
 
 template <bool is_fixed>
 struct DepthOf {
-    template <bool unsnapped>
-    class TinyOf {
-      public:
-        using Triangles = TinyTriangles<unsnapped>;
-
-        HWY_INLINE TinyOf(DepthState& state, const TinyTriangles<unsnapped>& triangles)
-            : state_{state},
-              to_code_{state.to_code},
-              codes_{state.codes},
-              spare_{static_cast<std::uint32_t>(state.pixels)},
-              triangles_{triangles},
-              plane_{z(0), z(1), z(2)} {}
-        HWY_INLINE bool suits() const { return true; }
-
-        HWY_INLINE void operator()(const TinyPixels& pixels) {
-            const V32 depth =
-                plane_.at(pixels, triangles_.weights(pixels), triangles_.geometry(), triangles_.triangles());
-            passed_ += test_in_turn<is_fixed>(pixels, codes<is_fixed>(depth, to_code_), codes_, spare_);
-        }
-        HWY_INLINE void finish(std::uint64_t pixels) {
-            state_.drawn.fragments += pixels;
-            state_.drawn.passed += passed_;
-        }
-
-      private:
-        HWY_INLINE V64 z(std::size_t i) const { return hn::PromoteTo(F64{}, triangles_.z(i)); }
-
-        DepthState& state_;
-        const DepthConversion<float> to_code_;
-        std::uint32_t* const codes_;
-        const std::uint32_t spare_;
-        const TinyTriangles<unsnapped>& triangles_;
-        const TinyPlane<unsnapped> plane_;
-        std::size_t passed_ = 0;
-    };
-
     // The planes of one triangle. Members are copies and const, so
     // that stores of codes cannot make the compiler read them again.
     template <bool unsnapped>
     class Shade {
       public:
-        using Tiny = TinyOf<unsnapped>;
-
         HWY_INLINE Shade(DepthState& state, const DrawnTriangle& triangle)
             : state_{state},
               to_code_{state.to_code},
@@ -108,7 +68,7 @@ void draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, co
 
 DepthDrawn draw_depth(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                       const DepthConversion<float>& to_code, double units, const Rect& region, std::uint32_t* codes) {
-    DepthState state{to_code, units, codes, region.area(), {}};
+    DepthState state{to_code, units, codes, {}};
     if (to_code.is_fixed())
         draw<true>(geometry, triangles, region, state);
     else

@@ -6,8 +6,6 @@
 //          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
 //          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
 //          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
-//          One that has a class Tiny is given tiny triangles, and larger ones among them, side by side (Tiny::Triangles, of
-//          tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and finish() as above, if it suits(); none under polygon offset.
 //          One that `takes_edges` is given edge values of the snapped corners in the place of weights, whatever z is counted in.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
 //          constants of an edge are below 2^50 there (row_walk_suits).
@@ -127,11 +125,6 @@ concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b)
 template <class Shade>
 concept takes_edges = Shade::takes_edges;
 
-template <class Shade>
-concept takes_tiny = requires {
-    typename Shade::Tiny;
-};
-
 // Draws the triangles of a list in a region. `State` is what the pass keeps; a Shade is made for each triangle (or
 // each max_span_rows rows of a large one) and dies after its finish().
 template <template <bool> class Shade, class State>
@@ -142,9 +135,7 @@ class RowWalk {
           geometry_{geometry},
           region_{region},
           rules_{group_rules(geometry, region)},
-          kernels_{small_kernels()},
-          has_tiny_{geometry.offset_z.empty() &&
-                    (takes_edges<Shade<true>> || geometry.rules.window_z == WindowZ::unit_interval)} {}
+          kernels_{small_kernels()} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
         if constexpr (row_lanes >= row_walk_lanes) draw_groups(triangles);  // for other sets none of it is compiled
@@ -152,67 +143,21 @@ class RowWalk {
 
   private:
     void draw_groups(std::span<const std::uint32_t> triangles) {
-        [[maybe_unused]] const bool is_unsnapped = geometry_.rules.plane_origin == PlaneOrigin::unsnapped;
         for_each_group(geometry_, triangles, [&](std::span<const std::uint32_t> group) HWY_ATTR {
-            if (!takes_tiny<Shade<true>> || !has_tiny_ || group.size() != TriangleGroup::size) return draw_any(group);
-            if constexpr (takes_tiny<Shade<true>> && !takes_edges<Shade<true>>)
-                if (is_unsnapped) return draw_whole<true>(group);
-            if constexpr (takes_tiny<Shade<true>>) draw_whole<false>(group);
+            set_up_group(geometry_, rules_, kernels_, group, group_);
+            draw_group(group);
         });
     }
 
-    HWY_NOINLINE void draw_any(std::span<const std::uint32_t> triangles) {
-        set_up_group(geometry_, rules_, kernels_, triangles, group_);
-        draw_group(triangles, 0);
-    }
-
-    // A whole group; a list's last ones go the other way.
-    template <bool unsnapped>
-    void draw_whole(std::span<const std::uint32_t> group) {
-        std::size_t tiny = 0;
-        for (const std::uint32_t t : group) tiny += geometry_.triangles[t].is_tiny ? 1 : 0;
-        if (HWY_LIKELY(tiny == group.size())) return draw_tiny<unsnapped>(group, nullptr);
-        set_up_group(geometry_, rules_, kernels_, group, group_);
-        if (tiny > 0 && lies_within_8())
-            draw_tiny<unsnapped>(group, &group_);
-        else
-            draw_group(group, 0);
-    }
-    [[nodiscard]] bool lies_within_8() const {
-        std::uint32_t largest = 0, small = 1;
-        for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
-            largest = std::max({largest, group_.width[k], group_.height[k]});
-            small &= group_.small[k];
-        }
-        return small != 0 && largest <= 8;
-    }
-    // `set_up`: the group, if not all of them are tiny.
-    template <bool unsnapped>
-    [[gnu::flatten]] void draw_tiny(std::span<const std::uint32_t> group, const TriangleGroup* set_up) {
-        using Tiny = typename Shade<unsnapped>::Tiny;
-        for (std::size_t at = 0; at < group.size(); at += row_lanes) {
-            const auto own = group.subspan(at, row_lanes);
-            const typename Tiny::Triangles triangles{geometry_, own.data(), rules_.clip, region_, set_up, at};
-            Tiny shade{state_, triangles};
-            if (HWY_UNLIKELY(!triangles.has_weights() || !shade.suits())) {
-                set_up == nullptr ? draw_any(own) : draw_group(own, at);
-                continue;
-            }
-            for (std::uint32_t i = 0; i < triangles.count(); i += row_lanes) shade(triangles.pixels(i));
-            shade.finish(triangles.count());
-        }
-    }
-
-    // They stand in the group from number `at` on.
-    [[gnu::flatten]] HWY_NOINLINE void draw_group(std::span<const std::uint32_t> triangles, std::size_t at) {
-        for (std::size_t i = 0, k = at; i < triangles.size(); ++i, ++k) {
+    [[gnu::flatten]] HWY_NOINLINE void draw_group(std::span<const std::uint32_t> triangles) {
+        for (std::size_t k = 0; k < triangles.size(); ++k) {
             if (group_.reached[k] == 0) continue;
             if (group_.small[k] == 0)
-                draw_large(triangles[i]);
+                draw_large(triangles[k]);
             else if (group_.width[k] <= 8 && group_.height[k] <= 8)
-                draw_small<8>(triangles[i], k);
+                draw_small<8>(triangles[k], k);
             else
-                draw_small<16>(triangles[i], k);
+                draw_small<16>(triangles[k], k);
         }
     }
 
@@ -350,7 +295,6 @@ class RowWalk {
     Rect region_;
     GroupRules rules_;
     const SmallKernels& kernels_;
-    const bool has_tiny_;
     TriangleGroup group_;
     std::array<RowSpan, max_span_rows + 1> spans_;
 };

@@ -11,7 +11,6 @@
 #include "rasterizer/values/chip_lanes-inl.h"
 #include "rasterizer/walk/row_walk-inl.h"
 #include "rasterizer/walk/rows.h"
-#include "rasterizer/walk/tiny_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
@@ -28,94 +27,12 @@ struct WindowZState {
 
 alignas(32) constexpr std::int32_t lane_numbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-// ChipTriangle and NarrowWindowZ of tiny triangles, one a lane. They have one reciprocal each (ChipTriangle::constant_r): where an
-// area is larger they do not suit.
-class TinyWindowZ {
-  public:
-    HWY_INLINE TinyWindowZ(const TinyTriangles<false>& triangles, const DepthHypothesis& h)
-        : z_{flushed(triangles.z(0)), flushed(triangles.z(1)), flushed(triangles.z(2))},
-          last_place_{power_of_two(1 - h.sum_bits)} {
-        const V64 area = triangles.area();
-        Mask64 suits = hn::Lt(area, all(0x1p24));
-        d10_ = narrow_difference(z_[1], z_[0], suits);
-        d20_ = narrow_difference(z_[2], z_[0], suits);
-        d21_ = narrow_difference(z_[2], z_[1], suits);
-        suits_ = hn::AllTrue(F64{}, suits);
-        r_ = cut_inverse(area, triangles.inverse_area(), reciprocal_factor(h), reciprocal_mask(h));
-    }
-    [[nodiscard]] HWY_INLINE bool suits() const { return suits_; }
-    // Whether a corner of one of them lies outside of `low` to `high`.
-    [[nodiscard]] HWY_INLINE bool leaves(double low, double high) const {
-        const V64 nearest = hn::Min(hn::Min(z_[0], z_[1]), z_[2]), farthest = hn::Max(hn::Max(z_[0], z_[1]), z_[2]);
-        return !hn::AllTrue(F64{}, hn::And(hn::Ge(nearest, all(low)), hn::Le(farthest, all(high))));
-    }
-    HWY_INLINE V64 at(const TinyPixels& pixels, const TinyTriangles<false>& triangles) const {
-        const Corners e = edge_values(triangles.edges(pixels), pixels.of(triangles.area()));
-        const V64 d10 = pixels.of(d10_), d20 = pixels.of(d20_), d21 = pixels.of(d21_);
-        const WindowZLanes lanes{pixels.of(z_[0]), pixels.of(z_[1]), pixels.of(z_[2]), d10, d20, d21,
-                                 hn::Neg(d10),     hn::Neg(d20),     hn::Neg(d21)};
-        return lanes.value(e, cut_products(e, pixels.of(r_)), last_place_);
-    }
-
-  private:
-    HWY_INLINE static V64 flushed(V32 z) {
-        const V64 v = hn::PromoteTo(F64{}, z);
-        return hn::IfThenElseZero(hn::Ge(hn::Abs(v), all(least_depth)), v);
-    }
-    HWY_INLINE static V64 narrow_difference(V64 a, V64 b, Mask64& suits) {
-        const TwoLanes d = two_sum_lanes(a, hn::Neg(b));
-        const auto is_cut = hn::Eq(kept(d.high, ~std::uint64_t{0} << (53 - narrow_bits)), d.high);
-        suits = hn::And(suits, hn::And(is_cut, hn::Eq(d.low, hn::Zero(F64{}))));
-        return hn::IfThenElseZero(hn::Ge(hn::Abs(d.high), all(least_depth)), d.high);
-    }
-
-    V64 z_[3], d10_, d20_, d21_, r_;
-    const double last_place_;
-    bool suits_;
-};
-
-template <CodeKind kind>
-class TinyWindowZCodes {
-  public:
-    using Triangles = TinyTriangles<false>;
-
-    HWY_INLINE TinyWindowZCodes(WindowZState& state, const Triangles& triangles)
-        : state_{state},
-          to_code_{state.depth.to_code},
-          codes_{state.codes},
-          spare_{static_cast<std::uint32_t>(state.pixels)},
-          triangles_{triangles},
-          depth_{triangles, triangles.geometry().rules.hypothesis} {}
-    // None that the depth range may cut.
-    [[nodiscard]] HWY_INLINE bool suits() const {
-        return depth_.suits() && !(state_.depth.clips && depth_.leaves(state_.depth.low, state_.depth.high));
-    }
-    HWY_INLINE void operator()(const TinyPixels& pixels) {
-        const auto code = chip_codes<kind>(depth_.at(pixels, triangles_), to_code_);
-        passed_ += test_in_turn<true>(pixels, code, codes_, spare_);
-    }
-    HWY_INLINE void finish(std::uint64_t pixels) {
-        state_.drawn.fragments += pixels;
-        state_.drawn.passed += passed_;
-    }
-
-  private:
-    WindowZState& state_;
-    const ChipConversion to_code_;
-    std::uint32_t* const codes_;
-    const std::uint32_t spare_;
-    const Triangles& triangles_;
-    const TinyWindowZ depth_;
-    std::size_t passed_ = 0;
-};
-
 template <CodeKind kind>
 struct WindowZOf {
     template <bool>
     class Shade {
       public:
         static constexpr bool takes_edges = true;
-        using Tiny = TinyWindowZCodes<kind>;
 
         HWY_INLINE Shade(WindowZState& state, const DrawnTriangle& triangle)
             : Shade{state, triangle,

@@ -15,12 +15,12 @@ import sys
 import book
 
 FIELDS = "pipeline/device/profile_fields.cpp"
-REGISTRY = "peeling/registry.cpp"
 FORMATS = "pipeline/formats/format.h"
 PATHS = "rasterizer/rules/rules.h"
 FAULTS = "pipeline/frame/diagnostics.h"
-SOURCES = (FIELDS, REGISTRY, FORMATS, PATHS, FAULTS)
-# The headers that declare what the fields are; read as one text.
+SOURCES = (FIELDS, FORMATS, PATHS, FAULTS)
+# The files of the algorithms, and the headers that declare what the fields are; each read as one text.
+ALGORITHMS = ("peeling/algorithms/*.cpp",)
 DECLARATIONS = ("rasterizer/rules/*.h", "pipeline/device/*.h", "pipeline/formats/*.h")
 PAGES = ("algorithms.md", "depth.md", "devices.md", "errata.md", "formats.md", "keys-and-counts.md")
 # How many there were when this was written: a parser that finds fewer has gone blind.
@@ -70,7 +70,7 @@ def profile_fields(text, declarations):
 
 
 def everything(sources, errata):
-    registry = re.findall(r'\.name = "([a-z_]+)"', sources[REGISTRY])
+    registry = re.findall(r'\.name = "([a-z_]+)"', sources[ALGORITHMS])
     return {
         "field": profile_fields(sources[FIELDS], sources[DECLARATIONS]),
         "algorithm": registry,
@@ -190,8 +190,9 @@ def load(root):
         if not os.path.isfile(os.path.join(root, name)):
             raise Blind(f"there is no {name}")
         sources[name] = book.read(os.path.join(root, name))
-    headers = [path for pattern in DECLARATIONS for path in sorted(glob.glob(os.path.join(root, pattern)))]
-    sources[DECLARATIONS] = "".join(book.read(path) for path in headers)
+    for patterns in (ALGORITHMS, DECLARATIONS):
+        paths = [path for pattern in patterns for path in sorted(glob.glob(os.path.join(root, pattern)))]
+        sources[patterns] = "".join(book.read(path) for path in paths)
     found = [os.path.relpath(path, root) for path in glob.glob(os.path.join(root, "*", "reference", "*.md"))]
     texts = {name: book.read(os.path.join(root, name)) for name in found if os.path.basename(name) in PAGES}
     return sources, {page.base: page for page in book.pages(book.Given(texts))}

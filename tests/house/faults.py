@@ -59,7 +59,7 @@ BOOK = [
 
 SOURCES = [
     (book_covers.FORMATS, "    s8,", "    s8, y16,", "format y16: the table of formats.md 1 has no row of it"),
-    (book_covers.REGISTRY, '.name = "dual"', '.name = "triple"', "algorithm triple: algorithms.md has no heading with it"),
+    (book_covers.ALGORITHMS, '.name = "dual"', '.name = "triple"', "algorithm triple: algorithms.md has no heading with it"),
     (book_covers.FAULTS, "endless,", "endless, tired,", "fault tired: the table of keys-and-counts.md 7.2 has no row of it"),
     (book_covers.DECLARATIONS, "{ clip, drop }", "{ clip, drop, keep }", "field raster.w_clip: devices.md 3.2 does not say what keep means"),
     (book_covers.FIELDS, "boolean<", "flag<", "field: found"),

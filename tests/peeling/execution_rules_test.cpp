@@ -167,7 +167,8 @@ TEST_CASE(
                     for (const Way& way : chosen) {
                         const RenderResult found = drawn(with(options, way));
                         CHECK(difference(found, expected) == "");
-                        CHECK(found.frame.work.visited == 0);  // no pass has run
+                        if (algorithm == std::string_view{"dual"})
+                            CHECK(found.frame.work.visited == 0);  // no pass has run
                     }
                 }
 }

@@ -45,7 +45,7 @@ TEST_CASE("pictures take a word a channel and one for the depth") {
 
 // A closed form keeps the picture and no targets of passes. Whether denormals are flushed matters to denormal depths alone.
 TEST_CASE("a closed form takes fewer words a pixel than the passes that it stands for, on devices that flush, too") {
-    for (const char* algorithm : {"dual", "front_to_back"}) {
+    for (const char* algorithm : {"dual"}) {
         RenderOptions options = options_of(1024, 512);
         options.tile_size = 32;
         options.threads = 1;

@@ -5,11 +5,12 @@
 #include "tests/peeling/rendering.h"
 #include "tests/pipeline/frames.h"
 
+// A namespace of its own: names of the model are short.
+namespace strata::testing::path_model {
 namespace {
 
-using namespace strata::testing;
-using namespace strata::pipeline;
-using strata::peeling::RenderOptions;
+using namespace pipeline;
+using peeling::RenderOptions;
 
 struct Case {
     Machine machine;
@@ -78,3 +79,5 @@ TEST_CASE("of several tiles the slowest says the frame's way: one whose fragment
     CHECK(work.path == Path::tiled);
     CHECK(work.why == "a tile's fragments take more than --fragment-memory");
 }
+
+}  // namespace strata::testing::path_model

@@ -17,7 +17,8 @@ using namespace strata::peeling;
 
 }  // namespace
 
-TEST_CASE("a new algorithm as the recipe begins it draws, is audited, and is refused by a device that lacks what it names") {
+TEST_CASE(
+    "a new algorithm as the recipe begins it draws, is audited, and is refused by a device that lacks what it names") {
     const std::vector<Algorithm> entries = listing::drawn_by_recipe::entries();
     REQUIRE(entries.size() == 1);
     CHECK(entries[0].name == "drawn_by_recipe");

@@ -151,10 +151,12 @@ TEST_CASE("fragments of equal depth in the wrong arrival order are errors althou
     FragmentScene scene{8, 8};
     for (const float depth : {0.75f, 0.75f, 0.5f, 0.25f, 0.25f, 0.25f})  // back to front: OVER in this order is LAST
         scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
-    CHECK(broken_frame(scene, algorithm(unsorted, TiePolicy::last), Execution::replay).audit.order_errors == 0u);
-    CHECK(broken_frame(scene, algorithm(unsorted, TiePolicy::first), Execution::replay).audit.order_errors ==
-          4u);  // 2 of 2, 2 of 3
-    const RenderResult unique = broken_frame(scene, algorithm(unsorted, TiePolicy::unique), Execution::replay);
+    CHECK(broken_frame(scene, algorithm(find_algorithm("unsorted")->run, TiePolicy::last), Execution::replay)
+              .audit.order_errors == 0u);
+    CHECK(broken_frame(scene, algorithm(find_algorithm("unsorted")->run, TiePolicy::first), Execution::replay)
+              .audit.order_errors == 4u);  // 2 of 2, 2 of 3
+    const RenderResult unique =
+        broken_frame(scene, algorithm(find_algorithm("unsorted")->run, TiePolicy::unique), Execution::replay);
     CHECK(unique.audit.order_errors == 6u);  // three places differ, three are too many
     CHECK(unique.audit.lost_by_ties == 3);
     CHECK(unique.audit.ties == PixelCount{1, 2, 1});
@@ -163,7 +165,8 @@ TEST_CASE("fragments of equal depth in the wrong arrival order are errors althou
 TEST_CASE("unsorted fragments are misordered unless they arrive back to front") {
     FragmentScene scene{8, 8};
     for (const float depth : {0.25f, 0.5f, 0.75f}) scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
-    const RenderResult result = broken_frame(scene, algorithm(unsorted, TiePolicy::last), Execution::literal);
+    const RenderResult result =
+        broken_frame(scene, algorithm(find_algorithm("unsorted")->run, TiePolicy::last), Execution::literal);
     CHECK(result.audit.order_errors == 2u);
     CHECK(result.audit.misordered == PixelCount{1, 2, 1});
 }

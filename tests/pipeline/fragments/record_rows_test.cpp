@@ -63,7 +63,8 @@ TEST_CASE("rows record the fragments of batches, in their order and with their v
         for (const auto& [size, count] : sizes)
             for (const bool is_flat : {false, true})
                 for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{69, 0, 70, 40}}) {
-                    Geometry geometry = random_triangles(811 + static_cast<std::uint64_t>(size), count, size, device);
+                    Geometry geometry =
+                        rasterizer::random_triangles(811 + static_cast<std::uint64_t>(size), count, size, device);
                     for (ClipVertex& v : geometry.vertices)
                         if (is_flat) v.front = v.back = {0.5f, 0.25f, 0.125f, 0.75f};
                     const FragmentNeeds needs = needs_of(size != 8, size != 3, size != 30);
@@ -95,7 +96,7 @@ TEST_CASE("rows record the fragments of batches, in their order and with their v
 TEST_CASE("a record that rows outgrow forgets everything, and its memory does not grow further") {
     if (chosen_simd() < Simd::avx2) return;
     const DepthRequest depth{DepthPath::float32, DepthFormat::d32f};
-    const Geometry geometry = random_triangles(5, 400, 60, {{}, depth});
+    const Geometry geometry = rasterizer::random_triangles(5, 400, 60, {{}, depth});
     const Rect region{0, 0, 70, 40};
     const FragmentNeeds needs = needs_of(true, true, true);
     TileFragments record;
