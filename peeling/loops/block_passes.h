@@ -1,4 +1,4 @@
-// peeling/loops/block_passes.h - the passes of a peel over a block of columns: the scalar twins of block_passes_simd.cpp.
+// peeling/loops/block_passes.h - the passes of a peel over a block of columns: the scalar references of block_passes_simd.cpp.
 //
 // Rule     Pass i takes depth i of a column from the front and depth i from its back, until they meet.
 //          Columns do not meet: the twins go from column to column, the vectors through many side by side. Dual front:

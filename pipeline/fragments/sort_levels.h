@@ -1,4 +1,4 @@
-// pipeline/fragments/sort_levels.h - sixteen columns of words sorted side by side: the scalar twins of sort_levels_simd.cpp.
+// pipeline/fragments/sort_levels.h - sixteen columns of words sorted side by side: the scalar references of sort_levels_simd.cpp.
 //
 // Rule     A level is sixteen words, one a column; levels follow each other. A word is a key, above, and a place: ~0 stands above a column's
 //          end and sorts last. No two words of a column are equal but these.

@@ -1,4 +1,4 @@
-// Model: the scalar twins' batches, appended one after the other.
+// Model: the scalar references' batches, appended one after the other.
 #include "pipeline/fragments/record_rows.h"
 
 #include <catch2/catch.hpp>
@@ -71,7 +71,7 @@ TEST_CASE("rows record the fragments of batches, in their order and with their v
                     TileFragments expected;
                     std::uint64_t fragments = 0;
                     {
-                        const SimdScope twins{Simd::scalar};
+                        const SimdScope reference{Simd::scalar};
                         expected.start(needs, plenty);
                         fragments = by_batches(expected, geometry, device.depth, region);
                         expected.finish();

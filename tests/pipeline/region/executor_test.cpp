@@ -288,7 +288,7 @@ TEST_CASE("two queries an iteration, one for a branch, are answered by the whole
     CHECK(result.passes == PassCount{2 * 6 + 3 + 1, 6, 0});
 }
 
-TEST_CASE("passes behind a branch's answer are the frame's, whoever is idle") {
+TEST_CASE("passes behind a branch's answer are the frame's, whichever tile is idle") {
     const auto scene = [](int first, float alpha) {
         return spots({{static_cast<std::size_t>(first), {0}, alpha}, {3, {0, 1, 2, 3, 4}}, {28, {0, 1}}, {300, {0}}});
     };

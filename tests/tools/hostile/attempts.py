@@ -1,4 +1,4 @@
-"""What somebody might try with a file: by kind of file, each with the runs that would fall for it."""
+"""What a hostile user might try with a file: by kind of file, each with the runs that would fall for it."""
 import os
 import socket
 import struct
@@ -40,7 +40,7 @@ def gltf_attempts():
     attempt("glTF", "a link that leaves the folder", model("link.bin", lambda p: link(p, "link.bin", "../outside/triangle.bin")), RENDER,
             must_fail=True)
     attempt("glTF", "a folder that is a link", model("up/triangle.bin", lambda p: link(p, "up", "../outside")), RENDER, must_fail=True)
-    attempt("glTF", "a pipe that nobody writes to", model("pipe.bin", lambda p: pipe(p, "pipe.bin")), RENDER, must_fail=True)
+    attempt("glTF", "a pipe without a writer", model("pipe.bin", lambda p: pipe(p, "pipe.bin")), RENDER, must_fail=True)
 
     class Network:
         def __init__(self):
@@ -135,7 +135,7 @@ def json_attempts():
     plan = ["invariance", "--plan", "file.json", "-o", "out"]
     for kind, command in (("camera", camera), ("profile", profile), ("plan", plan), ("triangles", ["scene", "file.json"]),
                           ("baseline of bench", ["bench", "planes:count=1", *SIZE, "--algorithm", "dual", "--repeat", "1", "--baseline", "file.json"])):
-        for what, make in (("arrays without end", json_file(deep)), ("a key twice", json_file(twice)), ("a pipe that nobody writes to", pipe_file),
+        for what, make in (("arrays without end", json_file(deep)), ("a key twice", json_file(twice)), ("a pipe without a writer", pipe_file),
                            ("a megabyte for a number", json_file(b'{"near": ' + b"9" * 10**6 + b"}")),
                            ("a megabyte for a key", json_file({LONG: 1})), ("escapes for a key", json_file({ESCAPES: 1}))):
             attempt(kind, what, make, command, must_fail=True)
@@ -175,7 +175,7 @@ def journal_attempts():
                                ("a journal that is a link to a device", "results.jsonl", "/dev/zero"),
                                ("pictures in a folder that is a link", "images", "../../outside")):
         attempt("journal", what, folder(lambda p, name=name, target=target: link(p, "sweep/" + name, target)), sweep, must_fail=True)
-    attempt("journal", "a pipe that nobody writes to", folder(lambda p: pipe(p, "sweep/results.jsonl")), sweep, must_fail=True)
+    attempt("journal", "a pipe without a writer", folder(lambda p: pipe(p, "sweep/results.jsonl")), sweep, must_fail=True)
     attempt("journal", "a merge of links", folder(lambda p: [link(p, f"sweep/results.{i}of2.jsonl", "../../outside/line.txt") for i in (1, 2)]),
             [*sweep, "--merge", "2"], must_fail=True)
 

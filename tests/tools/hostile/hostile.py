@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hands files to the program that somebody made to do harm, and looks whether they did.
+"""Hands files to the program that were made to do harm, and looks whether they did.
 
     tests/tools/hostile/hostile.py build/release/strata           # every attempt, some seconds
     tests/tools/hostile/hostile.py build/release/strata --list    # the attempts by kind of file

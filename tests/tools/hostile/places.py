@@ -1,4 +1,4 @@
-"""An attempt, and the folder that it runs in: here/ with the files from somebody else, outside/ with what is none of theirs."""
+"""An attempt, and the folder that it runs in: here/ with the files of another user, outside/ with what is none of theirs."""
 import dataclasses
 import json
 import os
@@ -45,7 +45,7 @@ def pipe(place, name):
 
 
 def write_outside(place):
-    """Files that would do, were they in the folder, and files that nobody may touch."""
+    """Files that would do, were they in the folder, and files that no run may touch."""
     outside: pathlib.Path = place / "outside"
     for name, content in (("triangle.bin", CORNERS), ("picture.png", png()), ("panes.json", json.dumps(PANES).encode()),
                           ("camera.json", json.dumps(CAMERA).encode()), ("line.txt", b"a line\n"), ("word.txt", b"a word"),

@@ -23,7 +23,7 @@ struct Verdict {
     // Kinds of mistakes in the structure that the picture does not tell from what is found: of a right one, those that would look right, too.
     std::vector<Rule> alike{};
     std::size_t kinds = 0;  // of which so many were tried
-    std::string telling{};  // a command whose scene tells the explanations apart, for whoever knows one
+    std::string telling{};  // a command whose scene shows the explanations apart, if one is known
 };
 
 class SceneFragments;

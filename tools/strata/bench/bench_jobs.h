@@ -63,7 +63,7 @@ struct BenchResult {
                                                   const pipeline::Instruments& instruments = {});
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
-// Literal execution's of this job, in a run that nobody times.
+// Literal execution's of this job, in a run that is not timed.
 [[nodiscard]] std::optional<pipeline::Counters> count(const BenchJob& job);
 
 // Of each job.

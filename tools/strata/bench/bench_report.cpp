@@ -53,7 +53,7 @@ std::string name_of_words(const ordered_json& words) {
 
 std::string name_of_job(const BenchJob& job) { return name_of_words(words_of(job)); }
 
-// The passes' fragments in literal execution: the same work for every way of running. 0 where nobody has counted.
+// The passes' fragments in literal execution: the same work for every way of running. 0 where they were not counted.
 double fragments(const BenchResult& r) {
     return r.last.counters ? static_cast<double>(r.last.counters->fragments_rasterized) : 0;
 }

@@ -62,7 +62,7 @@ pid_t start(const std::string& line, const Pipe& go) {
     return child;
 }
 
-// The child stays a zombie, so that its number is nobody else's while its group is ended.
+// The child stays a zombie, so that its number is given to no other process while its group is ended.
 void wait_without_reaping(pid_t child) {
     siginfo_t info{};
     while (::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {

@@ -24,7 +24,7 @@ std::string_view outcome_name(peeling::Outcome outcome) {
 }
 
 // The objects of a row, with the keys of reports.md 1 in their order.
-// Null unless somebody has counted.
+// Null unless they were counted.
 ordered_json to_json(const std::optional<pipeline::Counters>& counted) {
     if (!counted) return nullptr;
     const pipeline::Counters& c = *counted;
