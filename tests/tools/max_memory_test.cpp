@@ -25,6 +25,18 @@ double predicted(const Folder& folder, std::vector<std::string> words) {
     return std::stod(found[1]) * bytes_of_a_mebibyte;
 }
 
+struct Peak {
+    double told, measured;  // bytes
+};
+
+Peak peak_of(const Folder& folder, const std::string& job, const char* threads) {
+    std::istringstream in(job + " --threads " + threads);
+    const std::vector<std::string> words{std::istream_iterator<std::string>{in}, {}};
+    const auto measured = static_cast<double>(peak_of_strata(folder, words));
+    REQUIRE(measured > 0);
+    return {predicted(folder, words), measured};
+}
+
 }  // namespace
 
 TEST_CASE("what a picture will take is told within a quarter of what it takes") {
@@ -42,14 +54,13 @@ TEST_CASE("what a picture will take is told within a quarter of what it takes") 
     const Folder folder;
     double worst = 0;
     for (const std::string& job : jobs) {
-        std::istringstream in(job + " --threads 2");
-        const std::vector<std::string> words{std::istream_iterator<std::string>{in}, {}};
-        const auto measured = static_cast<double>(peak_of_strata(folder, words));
-        REQUIRE(measured > 0);
-        INFO(job << ": " << measured / bytes_of_a_mebibyte << " MiB");
-        const double told = predicted(folder, words);
-        CHECK(told == Approx(measured).epsilon(0.25));
-        worst = std::max(worst, std::abs(told / measured - 1));
+        const Peak one = peak_of(folder, job, "1"), two = peak_of(folder, job, "2");
+        INFO(job << ": " << one.measured / bytes_of_a_mebibyte << " and " << two.measured / bytes_of_a_mebibyte
+                 << " MiB");
+        CHECK(one.told == Approx(one.measured).epsilon(0.25));
+        // Two threads may take their tiles by turns and then need less; they never need a quarter more than told.
+        CHECK(two.measured < 1.25 * two.told);
+        worst = std::max(worst, std::abs(one.told / one.measured - 1));
     }
     std::cout << jobs.size() << " pictures: memory told within " << std::ceil(100 * worst) << " %" << std::endl;
 }
