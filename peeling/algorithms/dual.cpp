@@ -1,7 +1,7 @@
 // peeling/algorithms/dual.cpp - two layers a pass, the nearest and the farthest, blended on the fly under one shared MAX equation.
 // Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
 //
-// Needs      RG32F and float MAX blending, three render targets, separate alpha blending.
+// Needs      RG32F and float MAX blending, three render targets.
 // Passes     1 + max(1, ceil(N/2)) with the min-max exit; the paper's exit: floor(N/2) + 2. Ties at a peeled depth merge.
 // Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 - transmittance),
 //            back = what lies behind far, over the background.

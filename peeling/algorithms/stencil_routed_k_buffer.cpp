@@ -138,7 +138,7 @@ std::vector<Algorithm> entries() {
                       .compares_own_codes = true,
                       .run = run,
                       .replayed = code_and_color,
-                      .features = {fragment_programs, separate_alpha_blend},
+                      .features = {fragment_programs},
                       .samples = 8}};
 }
 

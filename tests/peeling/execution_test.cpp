@@ -3,6 +3,7 @@
 
 #include "peeling/registry.h"
 #include "tests/peeling/execution_ways.h"
+#include "tests/peeling/expectations.h"
 #include "tests/support/host_environment.h"
 
 namespace {
@@ -30,17 +31,11 @@ const std::vector<Ending> endings{{"exact", {}, 0},
                                   {"max_passes", {}, 3},
                                   {"the first pass", {}, 1}};
 
-const std::vector<Machine> machines{{"geforce3", "unsorted"},
-                                    {"geforce3", "painter"},
-                                    {"geforce3", "depth_units"},
-                                    {"geforce3", "shadow_map_depth_replace"},
-                                    {"geforce8", "front_to_back"},
-                                    {"geforce8", "dual"},
-                                    {"geforce8_dx101", "dual_independent"},
-                                    {"geforce8", "weighted_average"},
-                                    {"geforce8", "weighted_sum"},
-                                    {"ideal", "a_buffer"},
-                                    {"ideal", "dual"}};
+const std::vector<Machine> machines = [] {
+    auto all = machines_of(Kind::loop);
+    all.push_back({"ideal", "dual"});
+    return all;
+}();
 
 // Every machine, ended in each of these ways.
 void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen) {
@@ -56,13 +51,7 @@ void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen
 }
 
 // The algorithms of a partial order, whose queries stand inside an iteration.
-const std::vector<Machine> partial_order{{"geforce8", "layer_peel"},
-                                         {"geforce8", "hybrid"},
-                                         {"geforce8", "coherent_stencil"},
-                                         {"geforce8", "coherent_blend"},
-                                         {"ideal", "coherent_ideal"},
-                                         {"ideal", "k_buffer"},
-                                         {"geforce8", "stencil_routed_k_buffer"}};
+const std::vector<Machine> partial_order = machines_of(Kind::partial_order);
 
 }  // namespace
 

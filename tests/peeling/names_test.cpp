@@ -1,42 +1,84 @@
-// Model: the names, typed a second time.
+// What the entry of an algorithm says beside what its passes do. Models: tests/peeling/expectations.h, and the passes by themselves on a
+// device that lacks one feature.
 #include <catch2/catch.hpp>
 #include <set>
 #include <string>
 
 #include "pipeline/frame/instruments.h"
 #include "pipeline/frame/observer.h"
+#include "tests/peeling/expectations.h"
 #include "tests/peeling/rendering.h"
 
-TEST_CASE("an algorithm tells what people call its targets, and how many it renders to at once") {
-    using namespace strata::testing;
-    using Names = std::set<std::string>;
-    struct NamesOf {
-        const char* algorithm;
-        Names names;
-        int render_targets = 1;  // of its widest pass
-    };
-    const NamesOf expected[]{{"front_to_back", {"accumulated", "layer", "nearest", "result"}},
-                             {"depth_units", {"layer", "nearest", "result"}},
-                             {"unsorted", {"color"}},
-                             {"object_sorted", {"accumulated", "nearest", "result"}},
-                             {"weighted_average", {"sums", "count", "result"}, 2},
-                             {"weighted_sum", {"sums", "result"}},
-                             {"batched", {"layer", "nearest", "accumulated", "result"}},
-                             {"dual", {"min_max", "front", "back_layer", "back", "result"}, 3},
-                             {"dual_independent", {"min_max", "front", "back", "result"}, 3},
-                             {"k_buffer", {"accumulated", "depths", "entry", "result"}, 6},
-                             {"a_buffer", {"result"}}};
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::peeling::Algorithm;
+using strata::peeling::Outcome;
+
+FragmentScene two_layers() {
     FragmentScene scene{2, 2};
     for (GivenPixel& pixel : scene.pixels) pixel.fragments = {{0.25f, {1, 0, 0, 0.5f}}, {0.5f, {0, 1, 0, 0.5f}}};
-    for (const NamesOf& each : expected) {
-        Names heard;
-        const strata::pipeline::Observer observer{
-            .named = [&](strata::pipeline::Target, std::string_view name) { heard.emplace(name); }};
-        const auto result =
-            render(draw_list(scene), {}, {"ideal", each.algorithm}, options_for(scene), {.observer = &observer});
-        INFO(each.algorithm);
-        CHECK(result.outcome == strata::peeling::Outcome::done);
-        CHECK(heard == each.names);
-        CHECK(strata::peeling::find_algorithm(each.algorithm)->render_targets == each.render_targets);
+    return scene;
+}
+
+// Whether a pass of the algorithm is refused on a device that has everything but this; its entry names no needs.
+bool passes_need(Algorithm algorithm, bool DeviceProfile::*has) {
+    algorithm.features.clear();
+    DeviceProfile profile = *find_profile("ideal");
+    profile.*has = false;
+    const DrawList list = draw_list(two_layers());
+    strata::peeling::RenderOptions options = options_for(two_layers());
+    options.execution = Execution::literal;
+    options.color_format = Format::rgba8;
+    strata::peeling::Renderer renderer{list, {}, profile, options};
+    return renderer.render(algorithm).outcome == Outcome::refused;
+}
+
+}  // namespace
+
+TEST_CASE("each algorithm has a row of expectations, renders to the targets that its entry counts, and names them") {
+    CHECK(expectations().size() == strata::peeling::algorithms().size());
+    for (const Algorithm& algorithm : strata::peeling::algorithms()) {
+        INFO(algorithm.name);
+        REQUIRE(std::ranges::count(expectations(), algorithm.name, &Expectation::algorithm) == 1);
+        const Expectation& expected = expected_of(algorithm.name);
+        std::set<std::string> names;
+        int render_targets = 1, samples = 1;
+        const Observer observer{.named = [&](Target, std::string_view name) { names.emplace(name); },
+                                .step =
+                                    [&](const Region& region, const StepEvent& step) {
+                                        if (step.state == nullptr) return;
+                                        int targets = 0;
+                                        for (const Target target : step.state->color)
+                                            if (target.exists()) {
+                                                ++targets;
+                                                samples = std::max(samples, region.storage(target).samples());
+                                            }
+                                        render_targets = std::max(render_targets, targets);
+                                    }};
+        const auto result = render(draw_list(two_layers()), {}, {"ideal", algorithm.name}, options_for(two_layers()),
+                                   {.observer = &observer});
+        CHECK(result.outcome == Outcome::done);
+        CHECK(names == expected.targets);
+        CHECK(render_targets == expected.render_targets);
+        CHECK(samples == expected.samples);
+        CHECK(algorithm.render_targets == expected.render_targets);
+        CHECK(algorithm.samples == expected.samples);
     }
+}
+
+TEST_CASE("an entry lists each feature that a pass of its algorithm is refused without") {
+    constexpr std::pair<Feature, bool DeviceProfile::*> checked_by_passes[]{
+        {Feature::float_targets, &DeviceProfile::has_float_targets},
+        {Feature::separate_alpha_blend, &DeviceProfile::has_separate_alpha_blend},
+        {Feature::independent_blend, &DeviceProfile::has_independent_blend},
+        {Feature::sequential_depth_units, &DeviceProfile::has_sequential_depth_units},
+        {Feature::ordered_rmw, &DeviceProfile::has_ordered_rmw}};
+    for (const Algorithm& algorithm : strata::peeling::algorithms())
+        for (const auto& [feature, has] : checked_by_passes) {
+            const bool is_listed = std::ranges::find(algorithm.features, feature) != algorithm.features.end();
+            INFO(algorithm.name << ", feature " << static_cast<int>(feature));
+            CHECK(is_listed == passes_need(algorithm, has));
+        }
 }

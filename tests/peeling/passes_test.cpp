@@ -1,6 +1,7 @@
 // How many passes each algorithm takes, and what is seen when they end too early.
 #include <catch2/catch.hpp>
 
+#include "tests/peeling/expectations.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/composite_model.h"
 #include "tests/support/random_numbers.h"
@@ -70,20 +71,10 @@ std::uint64_t peel_once(const std::vector<GivenFragment>& fragments, float& peel
 
 TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 layers", "[slow]") {
     for (int n = 0; n <= 9; ++n) {
-        const int half = (n + 1) / 2;
-        const std::vector<std::pair<Machine, int>> formulas{{{"geforce3", "unsorted"}, 1},
-                                                            {{"geforce3", "painter"}, 1},
-                                                            {{"geforce3", "depth_units"}, n + 1},
-                                                            {{"geforce3", "shadow_map_depth_replace"}, n + 1},
-                                                            {{"geforce8", "front_to_back"}, n + 1},
-                                                            {{"geforce8", "dual"}, 1 + std::max(1, half)},
-                                                            {{"geforce8_dx101", "dual_independent"}, half + 2},
-                                                            {{"geforce8", "weighted_average"}, 1},
-                                                            {{"geforce8", "weighted_sum"}, 1},
-                                                            {{"geforce8", "layer_peel"}, 2 * n + 1},
-                                                            {{"ideal", "k_buffer"}, 1},
-                                                            {{"geforce8", "a_buffer"}, 1}};
-        for (const auto& [machine, passes] : formulas)
+        for (const Expectation& expected : expectations()) {
+            if (expected.passes == nullptr) continue;
+            const Machine machine{expected.profile(), expected.algorithm};
+            const int passes = expected.passes(n);
             for (const TerminationRule rule : {TerminationRule::exact, TerminationRule::any}) {
                 const RenderResult result = render_with(stairs(n), machine, rule);
                 INFO(machine.algorithm << ", " << n << " layers");
@@ -91,6 +82,7 @@ TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 laye
                 CHECK(result.frame.passes.geometry == passes);
                 CHECK(strata::peeling::find_algorithm(machine.algorithm)->geometry_passes(n) == passes);
             }
+        }
     }
 }
 

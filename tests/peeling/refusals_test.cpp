@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "rasterizer/base/input_error.h"
+#include "tests/peeling/expectations.h"
 #include "tests/peeling/rendering.h"
 
 namespace {
@@ -40,26 +41,9 @@ const std::string no_programs =
 }  // namespace
 
 TEST_CASE("the table of algorithms and profiles is that of devices.md 10") {
-    const std::vector<std::string> geforce3{
-        "unsorted", "painter", "depth_units", "shadow_map", "shadow_map_depth_replace", "a_buffer"};
-    const std::vector<std::string> geforce8{
-        "unsorted",         "painter",    "depth_units",   "front_to_back",           "dual",
-        "shadow_map",       "layer_peel", "hybrid",        "coherent_stencil",        "coherent_blend",
-        "weighted_average", "batched",    "object_sorted", "stencil_routed_k_buffer", "weighted_sum",
-        "a_buffer"};
-    const std::vector<std::string> ideal_alone{"k_buffer", "coherent_ideal", "shadow_map_depth_replace"};
     for (const DeviceProfile& profile : builtin_profiles())
         for (const auto& algorithm : strata::peeling::algorithms()) {
-            const auto& runs = profile.name == "geforce3" ? geforce3 : geforce8;
-            const auto is_in = [&](const std::vector<std::string>& list) {
-                return std::ranges::find(list, algorithm.name) != list.end();
-            };
-            const bool is_software = profile.name == "llvmpipe" || profile.name == "llvmpipe_sse" ||
-                                     profile.name == "softpipe" || profile.name == "swiftshader";
-            const bool lacks_samples = is_software && algorithm.name == "stencil_routed_k_buffer";
-            const bool everything = profile.name != "geforce3" && profile.name != "geforce8";
-            const bool expected =
-                (is_in(runs) || (everything && (profile.name == "ideal" || !is_in(ideal_alone)))) && !lacks_samples;
+            const bool expected = expected_of(algorithm.name).runs_on(profile.name);
             INFO(algorithm.name << " on " << profile.name);
             CHECK(sentence({profile.name, algorithm.name}).empty() == expected);
         }

@@ -2,6 +2,7 @@
 // tests/support/composite_model.h.
 #include <catch2/catch.hpp>
 
+#include "tests/peeling/expectations.h"
 #include "tests/peeling/rendering.h"
 #include "tests/peeling/short_sequences.h"
 #include "tests/support/composite_model.h"
@@ -68,17 +69,6 @@ Rgba model(const std::string& algorithm, const TargetModel& target, const DepthG
     return oracle;
 }
 
-int passes(const std::string& algorithm, int layers) {
-    if (algorithm == "dual") return 1 + std::max(1, (layers + 1) / 2);
-    if (algorithm == "dual_independent") return (layers + 1) / 2 + 2;
-    return algorithm == "a_buffer" ? 1 : layers + 1;
-}
-
-bool loses_ties(const std::string& algorithm) {
-    return algorithm == "depth_units" || algorithm.starts_with("shadow_map") || algorithm == "front_to_back" ||
-           algorithm == "dual";
-}
-
 // What an alpha test GREATER 0 leaves: on 8-bit targets, alphas below half a code are 0.
 FragmentScene without_alpha_zero(FragmentScene scene, Format format) {
     const float least = format == Format::rgba8 ? 0.5f / 255.0f : 0x1p-149f;
@@ -142,11 +132,11 @@ void check_scene(const FragmentScene& given, const Machine& machine, strata::pee
     const FragmentScene scene = tests_alpha ? without_alpha_zero(arriving, result.frame.color.format) : arriving;
     const Statistics expected = statistics(scene);
     CHECK(result.audit.order_errors == 0u);
-    CHECK(result.audit.lost_by_ties == (loses_ties(machine.algorithm) ? expected.lost : 0));
+    CHECK(result.audit.lost_by_ties == (expected_of(machine.algorithm).loses_ties ? expected.lost : 0));
     CHECK(result.audit.ties.pixels == expected.pixels_with_ties);
     CHECK(result.audit.layers_max == static_cast<int>(expected.layers_max));
     CHECK(result.audit.fragments_max == static_cast<int>(expected.fragments_max));
-    CHECK(result.frame.passes.geometry == passes(machine.algorithm, static_cast<int>(expected.layers_max)));
+    CHECK(result.frame.passes.geometry == expected_of(machine.algorithm).passes(static_cast<int>(expected.layers_max)));
     check_image(scene, machine, result);
     if (machine.profile == "ideal") check_accuracy(scene, result);
 }

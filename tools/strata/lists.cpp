@@ -97,6 +97,8 @@ int list_algorithms(const ListOptions& options) {
                             {"link", link_of(a.paper)},
                             {"summary", a.summary},
                             {"needs", needs_of(a)},
+                            {"render_targets", a.render_targets},
+                            {"samples", a.samples},
                             {"pass_formula", a.pass_formula},
                             {"ties", peeling::name(a.ties)},
                             {"key", key_name(a.key)},
