@@ -6,6 +6,7 @@
 
 #include "pipeline/frame/instruments.h"
 #include "pipeline/frame/observer.h"
+#include "pipeline/region/region.h"
 #include "tests/peeling/expectations.h"
 #include "tests/peeling/rendering.h"
 
