@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdlib>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 namespace strata::port {
 
@@ -28,15 +30,31 @@ void choose(const std::string& driver, int threads) {
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
-// A GPU's own platform where there is one: Mesa's surfaceless one, else the first device that EGL lists.
-EGLDisplay display_of(const std::string& driver) {
-    const EGLDisplay surfaceless = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (surfaceless != EGL_NO_DISPLAY || is_software(driver)) return surfaceless;
+// The first device of EGL's that is not Mesa's software one. A proprietary driver has no other way without a window.
+EGLDisplay first_gpu() {
     const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
-    EGLDeviceEXT device = nullptr;
+    const auto query_text =
+        reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
+    std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
-    if (query_devices == nullptr || query_devices(1, &device, &count) == EGL_FALSE || count == 0) return EGL_NO_DISPLAY;
-    return eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+    if (query_devices == nullptr || query_text == nullptr ||
+        query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_FALSE)
+        return EGL_NO_DISPLAY;
+    for (const EGLDeviceEXT device : std::span{devices}.first(static_cast<std::size_t>(count))) {
+        const char* const extensions = query_text(device, EGL_EXTENSIONS);
+        if (extensions != nullptr &&
+            std::string_view{extensions}.find("EGL_MESA_device_software") != std::string_view::npos)
+            continue;
+        return eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+    }
+    return EGL_NO_DISPLAY;
+}
+
+// Mesa's surfaceless platform draws on the processor when told so (choose()), and on a GPU of Mesa's otherwise.
+EGLDisplay display_of(const std::string& driver) {
+    const EGLDisplay gpu = is_software(driver) ? EGL_NO_DISPLAY : first_gpu();
+    return gpu != EGL_NO_DISPLAY ? gpu
+                                 : eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
 }
 
 }  // namespace
