@@ -12,101 +12,19 @@
 #include "tools/port/npy.h"
 #include "tools/port/probe/kit.h"
 #include "tools/port/probe/operations.h"
-
-// Deprecated since OpenGL 3.0, so that glcorearb.h lacks it; libOpenGL has it.
-extern "C" void glAlphaFunc(GLenum func, GLclampf ref);
+#include "tools/port/probe/painter.h"
+#include "tools/port/probe/samples.h"
 
 namespace strata::port {
 
 namespace {
-
-constexpr GLenum alpha_test = 0x0BC0;  // GL_ALPHA_TEST
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct Options {
     std::string kit, output, driver = "llvmpipe";
-};
-
-// Positions are in clip space already, and the colour goes through as it is: the shaders compute nothing.
-constexpr auto vertex_text = R"(
-layout(location = 0) in vec4 clip;
-layout(location = 1) in vec4 corner_color;
-out vec4 color;
-void main() {
-    gl_Position = clip;
-    color = corner_color;
-}
-)";
-constexpr auto fragment_text = R"(
-in vec4 color;
-layout(location = 0) out vec4 drawn;
-void main() { drawn = color; }
-)";
-
-class Painter {
-  public:
-    Painter() : program_{make_program({.head = "", .vertex = vertex_text, .fragment = fragment_text, .samplers = {}})} {
-        glGenVertexArrays(1, &layout_);
-        glGenBuffers(1, &buffer_);
-        glBindVertexArray(layout_);
-        glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-        for (GLuint i = 0; i < 2; ++i) {
-            glEnableVertexAttribArray(i);
-            glVertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, 32, reinterpret_cast<const void*>(std::uintptr_t{i * 16}));
-        }
-        glDisable(GL_DITHER);
-        glDisable(GL_CULL_FACE);
-    }
-    Painter(const Painter&) = delete;
-    Painter& operator=(const Painter&) = delete;
-    ~Painter() {
-        glDeleteBuffers(1, &buffer_);
-        glDeleteVertexArrays(1, &layout_);
-    }
-
-    // The whole item into the framebuffer that is bound.
-    void draw(const KitItem& item) const {
-        glViewport(0, 0, item.size.width, item.size.height);
-        glDepthRange(double{item.depth_range[0]}, double{item.depth_range[1]});
-        glDepthMask(GL_TRUE);
-        glDepthFunc(GL_ALWAYS);
-        (item.depth ? glEnable : glDisable)(GL_DEPTH_TEST);
-        glClearColor(0, 0, 0, 0);
-        glClearDepth(1.0);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        glUseProgram(program_.name());
-        glBindVertexArray(layout_);
-        glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-        // As peels are drawn: where no query counts, softpipe steps D16 along its spans (mesa-rasterizers.md 3.3).
-        glBeginQuery(GL_SAMPLES_PASSED, query_.name());
-        for (const KitDraw& one : item.draws) draw(one);
-        glEndQuery(GL_SAMPLES_PASSED);
-        glDisable(GL_BLEND);
-        glDisable(GL_POLYGON_OFFSET_FILL);
-    }
-
-  private:
-    static void draw(const KitDraw& one) {
-        (one.blend ? glEnable : glDisable)(GL_BLEND);
-        if (one.blend) {
-            glBlendEquation(one.blend->equation);
-            glBlendFunc(one.blend->source, one.blend->destination);
-        }
-        (one.polygon_offset ? glEnable : glDisable)(GL_POLYGON_OFFSET_FILL);
-        if (one.polygon_offset) glPolygonOffset((*one.polygon_offset)[0], (*one.polygon_offset)[1]);
-        // Once on it stays: where it can be asked for, all items have it.
-        if (one.alpha_above) {
-            glEnable(alpha_test);
-            glAlphaFunc(GL_GREATER, *one.alpha_above);
-        }
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(one.words.size() * 4), one.words.data(), GL_STREAM_DRAW);
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(one.words.size() / 8));
-    }
-
-    Handle program_, query_ = make_query();
-    GLuint layout_ = 0, buffer_ = 0;
+    std::vector<int> samples;
 };
 
 // Draws one item and writes its targets.
@@ -142,10 +60,6 @@ ordered_json device() {
     features["max_viewport_px"] = limit(GL_MAX_VIEWPORT_DIMS);
     features["max_samples"] = limit(GL_MAX_SAMPLES);
     return features;
-}
-
-bool has_alpha_test(const KitItem& item) {
-    return std::ranges::any_of(item.draws, [](const KitDraw& draw) { return draw.alpha_above.has_value(); });
 }
 
 // The items that have an alpha test, or those that have none, in both orientations.
@@ -185,6 +99,16 @@ void answer_operations(const Kit& kit, const fs::path& folder, ordered_json& mis
     }
 }
 
+// What was asked for of several samples a pixel, by number.
+void answer_multisampled(const Kit& kit, const std::vector<int>& numbers, const fs::path& folder) {
+    if (numbers.empty()) return;
+    const Painter painter;
+    ordered_json answers = ordered_json::array();
+    for (const int samples : numbers)
+        answers.push_back(answer_samples(kit, painter, samples, (folder / std::to_string(samples)).string()));
+    std::ofstream(folder / "samples.json") << answers.dump(1) << "\n";
+}
+
 int run(const Options& options) {
     if (fs::exists(options.output)) throw std::runtime_error(options.output + ": expected no such folder, found one");
     const Kit kit = read_kit(options.kit);
@@ -195,6 +119,7 @@ int run(const Options& options) {
     const HeadlessContext context(options.driver, 2);
     answer_items(kit, false, made / "probe");
     answer_operations(kit, made / "probe" / "operations", missing);
+    answer_multisampled(kit, options.samples, made / "samples");
     ordered_json probe{{"kit", kit.digest}, {"device", device()}, {"missing", missing}};
     if (!kit.operations_digest.empty()) probe["operations"] = kit.operations_digest;
     const ordered_json document{{"format", "strata-candidate"},
@@ -218,6 +143,10 @@ int main(int count, char** words) {
     app.add_option("--driver", options.driver,
                    "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
         ->check(CLI::IsMember(strata::port::driver_names()));
+    app.add_option("--samples", options.samples,
+                   "also draw with so many samples a pixel, numbers with commas between: ANSWERS/samples")
+        ->delimiter(',')
+        ->check(CLI::Range(2, 32));
     try {
         app.parse(count, words);
         return strata::port::run(options);

@@ -1,0 +1,39 @@
+// tools/port/probe/samples.h - what a device does with several samples a pixel: where they lie, and which ones triangles cover.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/port/probe/kit.h"
+#include "tools/port/probe/painter.h"
+
+namespace strata::port {
+
+// A texture of several samples a pixel, RGBA8 with a D32F depth, bound for drawing; contents undefined.
+class SampledTarget {
+  public:
+    // Throws std::runtime_error if OpenGL has no such target.
+    SampledTarget(Size size, int samples);
+
+    // Samples a pixel: at least as many as were asked for.
+    [[nodiscard]] int samples() const noexcept { return samples_; }
+    // x and y of each sample in pixels, from the pixel's corner at the least window coordinates; multiples of 1/16 on most devices.
+    [[nodiscard]] nlohmann::ordered_json positions() const;
+    // The codes of one sample of each pixel.
+    [[nodiscard]] Image color(int sample) const;
+    [[nodiscard]] Image depth(int sample) const;
+
+  private:
+    [[nodiscard]] Image read(GLuint texture, int sample, const Format& format) const;
+
+    Size size_;
+    int samples_ = 0;
+    Handle color_, depth_, framebuffer_;
+};
+
+// Draws those of the kit's scenes that blend nothing and have no alpha test, with so many samples a pixel and both orientations, into
+// FOLDER/ORIENTATION/SCENE/sample.K.color.npy and .depth.npy. Returns {"samples": n, "positions": [[x, y], ...]}.
+[[nodiscard]] nlohmann::ordered_json answer_samples(const Kit& kit, const Painter& painter, int samples,
+                                                    const std::string& folder);
+
+}  // namespace strata::port
