@@ -46,7 +46,7 @@ ROWS = [
      "BUILD/tests/tools/tools_test 'what a picture will take*'",
      r"(\d+) pictures: memory told within (\d+) %", "{0} pictures, within {1} %", "nothing"),
     ("what people hand to the program is refused in a sentence or keeps its promise: profiles, cameras, plans, packs, EXR files, sequences of calls, glTF",
-     "BUILD/tests/fuzz/replay_inputs tests/fuzz/corpus",
+     "ctest --test-dir BUILD -R fuzz-kept-inputs -V",
      r"\w+: (\d+) inputs, 0 bad", "{0} kept inputs of what `tools/fuzz.sh` found",
      "an EXR of a kilobyte makes OpenEXR ask for 2 GB, which it never touches"),
     ("a second engine, which chooses its inputs by other means, finds no fault either",

@@ -3,13 +3,15 @@
 #   tools/fuzz.sh TARGET SECONDS         by libFuzzer under the address and undefined-behaviour sanitizers (preset fuzz, needs clang)
 #   tools/fuzz.sh --afl TARGET SECONDS   by AFL++ (preset afl, needs afl-fuzz), another engine on the same targets; it begins with the kept inputs
 #   tools/fuzz.sh --keep                 takes what was found into tests/fuzz/corpus: few files that together reach all the code that all reach
+#   tools/fuzz.sh --unpack FOLDER        the kept inputs as files, FOLDER/TARGET/*; --pack FOLDER makes the archives of them again, the same bytes
 # Targets: profile, camera, plan, pack, exr, calls or gltf. What is found stays in build/fuzz/inputs/TARGET, from which --keep takes it, and
 # bytes of a fault in build/fuzz/faults; a fault gives status 1 (libFuzzer ends with the first). The corpora of AFL++ lie in build/afl/out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 targets=(profile camera plan pack exr calls gltf)
-kept=tests/fuzz/corpus
+archives=tests/fuzz/corpus  # TARGET.tar.xz
+kept=build/fuzz/kept
 # An EXR of a kilobyte may claim an attribute of 2 GB, for which OpenEXR asks at once: slow under the address sanitizer, whose shadow is
 # an eighth of that.
 limits=(-timeout=60 -rss_limit_mb=6000 -malloc_limit_mb=6000 -print_funcs=0 -close_fd_mask=3)
@@ -19,6 +21,16 @@ is_target() { local one; for one in "${targets[@]}"; do [ "$one" = "$1" ] && ret
 # The longest input, bytes: longer ones take time and reach nothing new.
 length_of() { case "$1" in exr|gltf) echo 8192 ;; calls) echo 1536 ;; *) echo 4096 ;; esac; }
 quietly() { mkdir -p build; "$@" >build/fuzz.log 2>&1 || { tail -n 30 build/fuzz.log >&2; echo "tools/fuzz.sh: failed: $*" >&2; exit 3; }; }
+
+unpack() { cmake -D FROM="$archives" -D TO="$1" -P tests/fuzz/unpack.cmake; }
+# Names in order and no times, so that the same files are the same archive.
+pack() {
+    local target
+    for target in "${targets[@]}"; do [ -d "$1/$target" ] || fail "$1: expected a folder $target, found none"; done
+    for target in "${targets[@]}"; do
+        tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=0644 --format=ustar -C "$1/$target" -cf - . | xz -9e >"$archives/$target.tar.xz"
+    done
+}
 
 build_fuzz() {
     quietly cmake --preset fuzz
@@ -33,10 +45,10 @@ command_of() { if [ "$1" = gltf ]; then echo "build/${2:-fuzz}/tests/fuzz/load_r
 fuzz() {
     local target=$1 seconds=$2 status=0
     build_fuzz
+    unpack "$kept"
     mkdir -p "build/fuzz/inputs/$target" build/fuzz/faults
-    # shellcheck disable=SC2046
     "$(command_of "$target")" "${limits[@]}" -max_len="$(length_of "$target")" -max_total_time="$seconds" -print_final_stats=1 \
-        -artifact_prefix="build/fuzz/faults/$target-" "build/fuzz/inputs/$target" "build/fuzz/seeds/$target" $([ -d "$kept/$target" ] && echo "$kept/$target") \
+        -artifact_prefix="build/fuzz/faults/$target-" "build/fuzz/inputs/$target" "build/fuzz/seeds/$target" "$kept/$target" \
         >"build/fuzz/$target.log" 2>&1 || status=1
     echo "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "build/fuzz/$target.log") inputs in $seconds s, status $status; build/fuzz/$target.log"
     return $status
@@ -52,6 +64,7 @@ fuzz_by_afl() {
     quietly cmake --preset afl
     quietly cmake --build --preset afl --target input_fuzz load_render_fuzz
     program=$(command_of "$target" afl)
+    unpack "$kept"
     rm -rf "build/afl/out/$target"
     mkdir -p "build/afl/out" build/fuzz/faults "build/fuzz/inputs/$target"
     AFL_NO_UI=1 AFL_NO_AFFINITY=1 AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 \
@@ -66,6 +79,7 @@ fuzz_by_afl() {
 
 keep() {
     build_fuzz
+    unpack "$kept"
     local target
     for target in "${targets[@]}"; do
         local from=() folder
@@ -78,12 +92,14 @@ keep() {
         rm -rf "${kept:?}/$target" && mkdir -p "$kept/$target" && mv build/fuzz/minimal/* "$kept/$target/"
         echo "$target: $(find "$kept/$target" -type f | wc -l) inputs"
     done
-    echo "$(du -sb "$kept" | cut -f1) bytes in all"
+    pack "$kept"
+    echo "$(du -cb "$archives"/*.tar.xz | tail -n 1 | cut -f1) bytes in all"
 }
 
 engine=fuzz
 case "${1:-}" in
     --keep) keep; exit 0 ;;
+    --pack | --unpack) [ $# = 2 ] || fail "$1 needs a folder"; "${1#--}" "$2"; exit 0 ;;
     --afl) engine=fuzz_by_afl; shift ;;
 esac
 is_target "${1:-}" && [[ "${2:-}" =~ ^[0-9]+$ ]] || fail "expected TARGET SECONDS with TARGET one of ${targets[*]}, found '$*'"

@@ -3,7 +3,7 @@
 // Rule     profile, camera  what is read and written reads back as it is. plan  its cells are there, none twice. pack  a manifest beside the
 //          arrays of a small scene: what is read can be drawn. exr  its targets have the digests that are told without reading them whole.
 //          calls  a sequence of calls on one renderer answers what each call answers on a renderer of its own.
-// Tests    tests/fuzz/corpus holds inputs that reach different code; tests/fuzz/replay_inputs.cpp asks each.
+// Tests    tests/fuzz/corpus holds archives of inputs that reach different code; tests/fuzz/replay_inputs.cpp asks each.
 #pragma once
 #include <cstdint>
 #include <filesystem>

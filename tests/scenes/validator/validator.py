@@ -3,7 +3,7 @@
 
     tests/scenes/validator/validator.py build/release/strata [--count 600] [--seed 1] [--table FILE]
 
-Both get each file: changes of one step to two sound files, damaged containers, and the files of tests/fuzz/corpus/gltf. A kind of difference
+Both get each file: changes of one step to two sound files, damaged containers, and the files of tests/fuzz/corpus/gltf.tar.xz. A kind of difference
 is who refuses and by which code; each kind must stand in tests/scenes/validator/README.md with its reason, and a kind that
 does not is exit status 1, as is a run of ours that ends in anything but 0 or 2. The validator is the package gltf-validator of npm, put into a
 temporary folder, or the folder that STRATA_GLTF_VALIDATOR names; without node or the package exit status 77.
@@ -18,6 +18,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -59,6 +60,12 @@ def ours(strata, file):
     return ended.returncode, code.group(1) if code else "" if ended.returncode == 0 else "without a code", ended.stderr.strip()
 
 
+def kept_inputs():
+    """Name and bytes of each glTF file that fuzzing has kept."""
+    with tarfile.open(HERE.parent.parent / "fuzz/corpus/gltf.tar.xz") as archive:
+        return [(pathlib.PurePath(member.name).name, archive.extractfile(member).read()) for member in archive if member.isfile()]
+
+
 def reasons():
     """(who refuses, code) of the page's table."""
     rows = re.findall(r"^\| (they|we) \| `?([A-Za-z0-9_ ]+?)`? \|", (HERE / "README.md").read_text(), re.M)
@@ -79,11 +86,10 @@ def main():
             place = pathlib.Path(folder) / f"{number:04}.{pathlib.PurePath(name).suffix[1:]}"
             place.write_bytes(data)
             files.append((name, place))
-        for kept in sorted((HERE.parent.parent / "fuzz/corpus/gltf").glob("*")):
-            data = kept.read_bytes()
-            place = pathlib.Path(folder) / f"{kept.name}.{'glb' if data.startswith(b'glTF') else 'gltf'}"
+        for name, data in kept_inputs():
+            place = pathlib.Path(folder) / f"{name}.{'glb' if data.startswith(b'glTF') else 'gltf'}"
             place.write_bytes(data)
-            files.append((f"corpus/{kept.name}", place))
+            files.append((f"corpus/{name}", place))
         (pathlib.Path(folder) / "empty.bin").write_bytes(b"")
         verdicts = theirs(module, [place for _, place in files])
         with concurrent.futures.ThreadPoolExecutor(2) as pool:

@@ -1,0 +1,11 @@
+# Unpacks FROM/NAME.tar.xz into TO/NAME, each of them; what was in TO goes.
+file(GLOB archives "${FROM}/*.tar.xz")
+if(NOT archives)
+  message(FATAL_ERROR "${FROM}: expected archives *.tar.xz, found none")
+endif()
+file(REMOVE_RECURSE "${TO}")
+foreach(archive ${archives})
+  get_filename_component(name "${archive}" NAME)
+  string(REPLACE .tar.xz "" name "${name}")
+  file(ARCHIVE_EXTRACT INPUT "${archive}" DESTINATION "${TO}/${name}")
+endforeach()
