@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "peeling/as_shown.h"
 #include "peeling/audit/audit.h"
 #include "peeling/audit/region_trace.h"
 #include "peeling/check_options.h"
 #include "peeling/prepared_lists.h"
+#include "peeling/raster_state.h"
 #include "peeling/render_diagnostics.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
@@ -18,7 +20,6 @@
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
-#include "rasterizer/rules/depth_key.h"
 
 namespace strata::peeling {
 
@@ -37,21 +38,7 @@ Body body_of(const Algorithm& algorithm) {
     };
 }
 
-void turn_keys_round(FrameFragments& fragments) {
-    for (CapturedFragment& fragment : fragments.all) {
-        fragment.shader_z = rasterizer::depth_key(fragment.shader_z);
-        fragment.code = rasterizer::depth_key(fragment.code);
-        fragment.exact_code = rasterizer::depth_key(fragment.exact_code);
-    }
-    for (std::uint32_t& code : fragments.opaque) code = rasterizer::depth_key(code);
-}
-
 }  // namespace
-
-void turn_keys_round(Image& image) {
-    if (!is_depth(image.format)) return;
-    for (std::uint32_t& code : image.codes) code = rasterizer::depth_key(code);
-}
 
 bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     return algorithm.closed_form != nullptr && !options.keep_layers;
@@ -250,12 +237,7 @@ struct Renderer::State {
         return options.raster.depth_order == rasterizer::DepthOrder::greater;
     }
 
-    // Keys become depths where they leave the machine.
-    void show_depths(FrameResult& result) const {
-        if (!is_reversed()) return;
-        for (Image* image : {&result.color, &result.depth}) turn_keys_round(*image);
-        for (KeptLayer& layer : result.layers) turn_keys_round(layer.depth);
-    }
+    [[nodiscard]] AsShown shown() const noexcept { return {options, profile}; }
 
     // By the options alone: every pass of a peel sees the same fragments and compares what it stores.
     [[nodiscard]] bool is_invariant() const {
@@ -304,7 +286,6 @@ struct Renderer::State {
             result.outcome = Outcome::refused;
             return result;
         }
-        show_depths(result.frame);
         // By the numbers of the list as given, which is prepared for them alone where it was not drawn.
         if (lists_for(algorithm).transparent(algorithm.order).geometry.counters.non_finite > 0)
             note_set_up(lists.transparent(ListOrder::given).geometry.counters, result.frame.diagnostics);
@@ -312,6 +293,9 @@ struct Renderer::State {
         if (options.audit && traces == nullptr)
             add_audit_diagnostics(algorithm, options, {was_invariant, flushes_depths(profile, options.raster)},
                                   result.audit, result.frame.diagnostics);
+        shown().turn(result.frame);
+        shown().turn(result.audit);
+        if (traces != nullptr) shown().turn(*traces);
         return result;
     }
 };
@@ -326,9 +310,7 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     depth.reference = options.reference_path;
     View first = view;
     first.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
-    rasterizer::RasterState raster = options.raster;
-    raster.viewport = {0, 0, options.width, options.height};
-    raster.depth_format = depth.format;
+    const rasterizer::RasterState raster = raster_state(options, profile);
     auto light = light_map(list, profile, raster, options.threads);
     state_ = std::unique_ptr<State>(
         new State{.profile = profile,
@@ -377,7 +359,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     const Execution execution = state_->options.counters ? Execution::literal : state_->options.execution;
     result.frame = run(frame, draw_depth, execution, state_->options.threads, progress, instruments);
     std::swap(result.frame.depth, result.frame.color);
-    state_->show_depths(result.frame);
+    state_->shown().turn(result.frame);
     result.seconds.geometry = state_->lists.seconds();
     return result;
 }
@@ -401,7 +383,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
         region.publish(region.opaque_color());
     };
     static_cast<void>(run(frame, capture, Execution::literal, 1));
-    if (state_->is_reversed()) turn_keys_round(found);
+    state_->shown().turn(found);
     return found;
 }
 

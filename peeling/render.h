@@ -45,9 +45,6 @@ struct RenderResult {
     Seconds seconds;
 };
 
-// Keys of a D32F target become depths, and the other way round (rasterizer/rules/depth_key.h); other targets stay.
-void turn_keys_round(pipeline::Image& image);
-
 struct FrameFragments {
     std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
     std::vector<std::uint32_t> opaque;            // of each pixel: the opaque surface's depth in the algorithm's key

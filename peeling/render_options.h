@@ -69,7 +69,8 @@ struct RenderOptions {
     bool nearest_depth = true;  // make the Z image
     // The viewport's corner on its surface, in pixels; positions move with it exactly.
     std::array<int, 2> window_origin{0, 0};
-    // Conventions; the viewport is set from width, height and window_origin.
+    // Conventions, as the picture shows them: raster_state.h makes them those of memory. The viewport is set from width, height and
+    // window_origin.
     rasterizer::RasterState raster{};
     const pipeline::VertexAlteration* vertex_alteration = nullptr;  // outlives the renderer; null: none
 };

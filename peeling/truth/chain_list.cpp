@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "peeling/prepared_lists.h"
+#include "peeling/raster_state.h"
 #include "peeling/truth/real_geometry.h"
 #include "peeling/truth/real_texture.h"
 #include "pipeline/stages/alpha_test.h"
@@ -59,12 +60,7 @@ Format ChainScene::color_format() const {
     return options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
 }
 
-rasterizer::RasterState ChainScene::raster() const {
-    rasterizer::RasterState state = options.raster;
-    state.viewport = {0, 0, options.width, options.height};
-    state.depth_format = depth().format;
-    return state;
-}
+rasterizer::RasterState ChainScene::raster() const { return raster_state(options, profile); }
 
 ChainList::ChainList(const ChainScene& scene, const Chain& chain, Selection selection)
     : scene_{scene},

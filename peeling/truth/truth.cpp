@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "peeling/as_shown.h"
 #include "peeling/audit/image_error.h"
 #include "pipeline/formats/convert.h"
 #include "pipeline/stages/blend.h"
@@ -189,6 +190,7 @@ RealImage render_chain(const ChainScene& scene, const Chain& chain) {
                 image.rgb[3 * (y * static_cast<std::size_t>(image.width) + x) + c] = shown[c];
         }
     });
+    AsShown{scene.options, scene.profile}.turn_rows(image.rgb);
     return image;
 }
 

@@ -186,6 +186,20 @@ const std::vector<DeviceProfile>& builtin_profiles() {
     return profiles;
 }
 
+DeviceProfile with_origin(DeviceProfile profile, Origin origin) {
+    if (profile.origin == origin) return profile;
+    profile.origin = origin;
+    if (profile.raster.y_axis == YAxis::clip) return profile;  // ties named by clip space's y
+    TieRule& ties = profile.raster.tie_rule;
+    switch (ties) {
+        case TieRule::top_left: ties = TieRule::bottom_left; return profile;
+        case TieRule::bottom_left: ties = TieRule::top_left; return profile;
+        case TieRule::top_right: ties = TieRule::bottom_right; return profile;
+        case TieRule::bottom_right: ties = TieRule::top_right; return profile;
+    }
+    return profile;  // unreachable: the enum is closed
+}
+
 const DeviceProfile* find_profile(std::string_view name) {
     const auto& all = builtin_profiles();
     const auto found = std::find_if(all.begin(), all.end(), [&](const DeviceProfile& p) { return p.name == name; });

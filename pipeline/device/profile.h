@@ -29,6 +29,10 @@ enum class Depth24 : std::uint8_t { codes, binary32 };
 // The result of a filtered lookup: a multiple of 1/255, or binary32 (texturing.md 3). Nearest lookups and pass-through
 // coordinates go by it, too (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single };
+// The corner of the picture at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT), lower_left as
+// OpenGL without that call draws into framebuffer objects. All rules hold in memory order (devices.md 3.8); pictures leave the machine
+// with the upper row first.
+enum class Origin : std::uint8_t { upper_left, lower_left };
 
 // A device. Everything that differs between devices is a field here, and no code asks for the name (devices.md 1);
 // profile.cpp writes the built-in ones.
@@ -37,6 +41,7 @@ struct DeviceProfile {
     std::string name;
     std::string description;
     rasterizer::RasterRules raster;
+    Origin origin = Origin::upper_left;
 
     // Stages
     AlphaTestPrecision alpha_test = AlphaTestPrecision::by_target;
@@ -121,6 +126,10 @@ struct DeviceProfile {
 
 // geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader; in that order.
 [[nodiscard]] const std::vector<DeviceProfile>& builtin_profiles();
+
+// The same device drawing from another corner: its ties fall on the same sides of the picture, hence on the other of memory unless
+// raster.y_axis is clip.
+[[nodiscard]] DeviceProfile with_origin(DeviceProfile profile, Origin origin);
 
 // Null if there is no such name.
 [[nodiscard]] const DeviceProfile* find_profile(std::string_view name);

@@ -211,6 +211,10 @@ constexpr std::array fields{
     choice<&Interpolation::perspective_coordinates>(
         "raster.perspective_coordinates",
         {"[A] attributes.md 3.3: captures cannot show it", "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
+    choice<&Profile::origin>("origin", {"[M] coverage.md 1.1: the first row of a capture is the upper one",
+                                        "[S] coverage.md 1.1: D3D 11.3 3.3.1", ours,
+                                        "[M] mesa-rasterizers.md 1.1: measured under GL_UPPER_LEFT",
+                                        "[M] swiftshader-rasterizer.md 1.3: either, for y_axis is clip"}),
     choice<&Profile::alpha_test>("alpha_test", {"[M] chip-fragment.md 2: 16 of 16 pictures",
                                                 "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
     choice<&Profile::blend_rounding>("blend_rounding", {"[M] chip-fragment.md 1.2: 1,673 of 1,673",

@@ -153,6 +153,26 @@ TEST_CASE(
                              Catch::Contains("the candidate is grey, which counts as equal red, green and blue"));
 }
 
+TEST_CASE("a picture that was drawn from the lower left corner is right as such") {
+    const Folder folder;
+    const std::vector<std::string> scene{"random:triangles=60", "--size", "40x31", "--profile", "llvmpipe"};
+    const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+        words.insert(words.end(), scene.begin(), scene.end());
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    REQUIRE(run_strata(folder, run({"render"}, {"--origin", "lower-left", "-o", "gl.png"})).status == 0);
+    const auto compared = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"compare", scene[0], "gl.png", "--profile", "llvmpipe"});
+        return run_strata(folder, more);
+    };
+    const Ended right = compared({"--origin", "lower-left"});
+    INFO(right.out << right.err);
+    CHECK(right.status == 0);
+    CHECK(compared({"--exact", "--algorithm", "dual", "--origin", "lower-left"}).out == "equal\n");
+    CHECK(compared({"--exact", "--algorithm", "dual"}).status == 1);
+}
+
 TEST_CASE("codes of 32 bits are compared bit by bit: the least one of them is a difference") {
     const Folder folder;
     std::string bytes(16, '\x7f');

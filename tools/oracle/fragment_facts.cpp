@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "peeling/prepared_lists.h"
+#include "peeling/raster_state.h"
 #include "pipeline/device/check.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/float_environment.h"
@@ -24,8 +25,7 @@ pipeline::View first_view(const RunInput& input) {
 
 // The same triangles with r and q, which two of the depth paths take.
 peeling::PreparedLists prepared(const RunInput& input, pipeline::DepthFormat format) {
-    rasterizer::RasterState raster = input.options.raster;
-    raster.viewport = {0, 0, input.options.width, input.options.height};
+    rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     raster.depth_format = format;
     return peeling::PreparedLists{{.list = input.list,
                                    .view = first_view(input),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "peeling/as_shown.h"
 #include "peeling/programs/programs.h"
 #include "pipeline/region/region.h"
 #include "rasterizer/base/input_error.h"
@@ -297,13 +298,15 @@ std::vector<History> empty_histories(const RunInput& input, const peeling::Algor
 
 std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
                              const rasterizer::Rect& pixels) {
+    const peeling::AsShown shown{input.options, input.profile};
+    const rasterizer::Rect in_memory = shown.rect(pixels);
     const int w = input.options.width, h = input.options.height;
     if (pixels.x0 < 0 || pixels.y0 < 0 || pixels.x1 > w || pixels.y1 > h || pixels.x0 >= pixels.x1 ||
         pixels.y0 >= pixels.y1)
         throw InputError("explain", "pixel", fmt::format("one from 0,0 to {},{}", w - 1, h - 1),
                          fmt::format("{},{}", pixels.x0, pixels.y0));
-    std::vector<History> histories = empty_histories(input, algorithm, pixels);
-    Recorder recorder{pixels, w, algorithm.key, histories};
+    std::vector<History> histories = empty_histories(input, algorithm, in_memory);
+    Recorder recorder{in_memory, w, algorithm.key, histories};
     RunInput everything = input;
     everything.options.effects = pipeline::Effects::all;
     pipeline::DepthFormat format{};
@@ -321,7 +324,9 @@ std::vector<History> explain(const RunInput& input, const peeling::Algorithm& al
         history.depth_format = format;
         history.is_reversed = input.options.raster.depth_order == rasterizer::DepthOrder::greater;
     }
-    add_facts(input, algorithm, pixels, histories);
+    add_facts(input, algorithm, in_memory, histories);
+    for (History& history : histories) history.y = shown.row(history.y);
+    std::ranges::stable_sort(histories, {}, &History::y);
     return histories;
 }
 

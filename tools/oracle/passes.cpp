@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "peeling/as_shown.h"
 #include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "pipeline/region/region.h"
@@ -52,8 +53,8 @@ namespace {
 
 class Collector {
   public:
-    Collector(const std::function<void(PassShown&&)>& on_pass, bool is_reversed)
-        : on_pass_{on_pass}, is_reversed_{is_reversed} {}
+    Collector(const std::function<void(PassShown&&)>& on_pass, const peeling::AsShown& shown)
+        : on_pass_{on_pass}, shown_{shown} {}
 
     void name(pipeline::Target target, std::string_view name) { names_.add(target, name); }
 
@@ -104,15 +105,13 @@ class Collector {
         else
             for (int id = 0; id < region.target_count(); ++id)
                 next_.targets.push_back({names_.of({id}), region.image({id})});
-        // Keys of reversed depth are shown as the depths that they stand for.
-        for (NamedImage& target : next_.targets)
-            if (is_reversed_) peeling::turn_keys_round(target.image);
+        for (NamedImage& target : next_.targets) shown_.turn(target.image);
         flush();
         ended_ = std::exchange(next_, {});
     }
 
     const std::function<void(PassShown&&)>& on_pass_;
-    bool is_reversed_;
+    peeling::AsShown shown_;
     TargetNames names_;
     PassShown next_{};
     std::optional<PassShown> ended_{};
@@ -123,7 +122,7 @@ class Collector {
 
 void passes(const RunInput& input, const peeling::Algorithm& algorithm, const std::function<void(PassShown&&)>& on_pass,
             const pipeline::Alteration* alteration) {
-    Collector collector{on_pass, input.options.raster.depth_order == rasterizer::DepthOrder::greater};
+    Collector collector{on_pass, {input.options, input.profile}};
     const pipeline::Observer observer{
         .named = [&](pipeline::Target target, std::string_view name) { collector.name(target, name); },
         .step = [&](const Region& region, const StepEvent& event) { collector.step(region, event); }};

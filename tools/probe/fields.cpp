@@ -117,14 +117,15 @@ bool can_change(std::string_view key, const Item& item) {
     return true;
 }
 
+bool is_said(std::string_view key) { return key.starts_with("has_") || key.starts_with("max_") || key == "origin"; }
+
 std::span<const Unprobed> unprobed_fields() { return unprobed; }
 
 std::vector<const ProfileField*> probed_fields() {
     std::vector<const ProfileField*> fields;
     for (const ProfileField& f : pipeline::profile_fields()) {
-        const bool is_feature = f.key.starts_with("has_") || f.key.starts_with("max_");
         const bool is_unprobed = std::ranges::find(unprobed, f.key, &Unprobed::key) != std::end(unprobed);
-        if (!is_feature && !is_unprobed) fields.push_back(&f);
+        if (!is_said(f.key) && !is_unprobed) fields.push_back(&f);
     }
     return fields;
 }

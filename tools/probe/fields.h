@@ -26,7 +26,10 @@ using pipeline::ProfileField;
 // Whether the field can change a pixel of the scene at all. What is said to change none is not drawn again (scores.h).
 [[nodiscard]] bool can_change(std::string_view key, const Item& item);
 
-// Fields that no scene of the kit decides, with the reason. Features and limits are not among them: a driver says those.
+// Fields that no picture shows: features and limits, which a driver says, and the origin, which its client says (--y).
+[[nodiscard]] bool is_said(std::string_view key);
+
+// Other fields that no scene of the kit decides, with the reason.
 struct Unprobed {
     std::string_view key, reason;
 };

@@ -185,8 +185,8 @@ std::vector<FieldFinding> findings(Evidence& evidence, const ProbePack& pack, co
                        .state = FieldState::unprobed,
                        .reason = std::string{f.reason}});
     for (const ProfileField& f : pipeline::profile_fields()) {
-        if (!f.key.starts_with("has_") && !f.key.starts_with("max_")) continue;
-        const bool is_stated = pack.device.contains(std::string{f.key});
+        if (!is_said(f.key)) continue;
+        const bool is_stated = f.key == "origin" || pack.device.contains(std::string{f.key});
         all.push_back({.key = std::string{f.key},
                        .value = pipeline::text_of(f, profile),
                        .state = is_stated ? FieldState::stated : FieldState::open,
@@ -219,6 +219,7 @@ std::vector<Unexplained> unexplained(const Comparison& device, const Evidence& e
 Inference infer(const ProbePack& pack, const std::vector<Item>& items, YDirection y) {
     const Comparison device{pack, items, y};
     Inference result{.profile = searched(device, pack), .orientation = y};
+    result.profile.origin = origin_of(y);
     result.profile.name = "inferred";
     result.profile.description = fmt::format("inferred from the answers of: {}", pack.made_by).substr(0, 1000);
     Evidence evidence{device, result.profile};

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/device/profile.h"
 #include "pipeline/device/state.h"
 #include "pipeline/formats/image.h"
 #include "rasterizer/rules/raster_state.h"
@@ -21,6 +22,14 @@ namespace strata::probe {
 using rasterizer::ClipVertex;
 using rasterizer::DepthFormat;
 using rasterizer::YDirection;
+
+// The origin of a device that draws with clip-space +y there.
+[[nodiscard]] constexpr pipeline::Origin origin_of(YDirection y) noexcept {
+    return y == YDirection::up ? pipeline::Origin::upper_left : pipeline::Origin::lower_left;
+}
+[[nodiscard]] constexpr YDirection direction_of(pipeline::Origin origin) noexcept {
+    return origin == pipeline::Origin::upper_left ? YDirection::up : YDirection::down;
+}
 
 // Triangles that are drawn with one state, three corners each. The depth test is ALWAYS with a write.
 struct Draw {

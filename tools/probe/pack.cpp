@@ -111,7 +111,8 @@ ProbePack answer(const pipeline::DeviceProfile& profile, const std::vector<Item>
                    .kit_digest = digest(items),
                    .device = features_of(profile)};
     for (const YDirection y : orientations)
-        for (const Item& item : items) pack.answers[y][item.name] = draw_item(profile, item, y);
+        for (const Item& item : items)
+            pack.answers[y][item.name] = draw_item(with_origin(profile, origin_of(y)), item, y);
     return pack;
 }
 

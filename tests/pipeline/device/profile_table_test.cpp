@@ -86,6 +86,8 @@ constexpr FieldOfDevices device_table[] = {
     {"raster.perspective_coordinates",
      {"cut_products", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane",
       "exact_plane"}},
+    {"origin",
+     {"upper_left", "upper_left", "upper_left", "upper_left", "upper_left", "upper_left", "upper_left", "upper_left"}},
     {"alpha_test",
      {"unorm8", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target"}},
     {"blend_rounding",
@@ -164,6 +166,7 @@ const std::vector<NamesOfField> choice_names{
     {"raster.perspective_color", {"edge_products", "weight_products", "cut_products"}},
     {"raster.texture_coordinates", {"exact_plane", "cut_weights"}},
     {"raster.perspective_coordinates", {"exact_plane", "cut_products"}},
+    {"origin", {"upper_left", "lower_left"}},
     {"alpha_test", {"unorm8", "by_target"}},
     {"blend_rounding", {"nearest", "truncate", "each_product", "unrounded_source"}},
     {"blend_storage", {"target", "cached_tiles"}},
@@ -273,6 +276,7 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
            p.raster.interpolation.perspective_color == PerspectiveColor::weight_products));
     CHECK((set("raster.texture_coordinates", "cut_weights") &&
            p.raster.interpolation.texture_coordinates == CoordinateRule::cut_weights));
+    CHECK((set("origin", "lower_left") && p.origin == Origin::lower_left));
     CHECK((set("alpha_test", "unorm8") && p.alpha_test == AlphaTestPrecision::unorm8));
     CHECK((set("blend_rounding", "truncate") && p.blend_rounding == BlendRounding::truncate));
     CHECK((set("blend_storage", "cached_tiles") && p.blend_storage == BlendStorage::cached_tiles));

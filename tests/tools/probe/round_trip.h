@@ -19,11 +19,11 @@ struct RoundTrip {
     [[nodiscard]] bool is_equal() const { return unseen.is_none() && refused_by_one == 0; }
 };
 
-// `y` as the device's frame has it.
-inline RoundTrip round_trip(const DeviceProfile& truth, const std::vector<Item>& unseen, YDirection y) {
-    RoundTrip trip{.truth = truth, .found = infer(answer(truth, kit(), {y}), kit(), y)};
+// `y` as the device's frame has it; the device draws from that corner.
+inline RoundTrip round_trip(const DeviceProfile& device, const std::vector<Item>& unseen, YDirection y) {
+    RoundTrip trip{.truth = with_origin(device, origin_of(y)), .found = infer(answer(device, kit(), {y}), kit(), y)};
     for (const Item& item : unseen) {
-        const Reply a = draw_item(truth, item, y), b = draw_item(trip.found.profile, item, y);
+        const Reply a = draw_item(trip.truth, item, y), b = draw_item(trip.found.profile, item, y);
         if (a.answer.has_value() != b.answer.has_value()) ++trip.refused_by_one;
         if (!a.answer || !b.answer) continue;
         ++trip.drawn;

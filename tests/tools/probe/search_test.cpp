@@ -30,6 +30,8 @@ TEST_CASE("three devices that nobody built come back from their answers alone") 
         const RoundTrip trip = round_trip(random_profile(number), unseen, YDirection::down);
         INFO("profile " << number << other_values_of(trip));
         CHECK(trip.is_equal());
+        CHECK(trip.found.profile.origin == pipeline::Origin::lower_left);
+        CHECK(trip.found.profile.raster.tie_rule == trip.truth.raster.tie_rule);
         CHECK(trip.drawn > 0);
         CHECK(trip.found.tally.equal == trip.found.tally.all);
     }
@@ -39,6 +41,7 @@ TEST_CASE("where a device draws comes before what it draws there: the clip that 
     // Cut at the view volume, with the planes of triangles that are not: no profile is like this.
     DeviceProfile device = *pipeline::find_profile("geforce8_dx101");
     device.raster.subpixel_bits = 4;
+    device.origin = pipeline::Origin::lower_left;
     std::vector<Item> items;
     for (const Item& item : kit())
         if (item.name.starts_with("coverage.s") || item.name == "clip.sides" || item.name == "clip.all-d24")

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "peeling/prepared_lists.h"
+#include "peeling/raster_state.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/float_environment.h"
 
@@ -30,9 +31,7 @@ NumberArray rows(Element element, std::size_t columns, const Items& items, Fill 
 
 // The list's prepared lists as a Renderer makes them, but for the light, which changes no position.
 peeling::PreparedLists lists_of(const RunInput& input) {
-    rasterizer::RasterState raster = input.options.raster;
-    raster.viewport = {0, 0, input.options.width, input.options.height};
-    raster.depth_format = input.profile.depth_buffer(input.options.depth);
+    const rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     pipeline::View view = input.view;
     view.vertex_path = input.options.vertex_paths.first.value_or(view.vertex_path);
     const rasterizer::DepthRequest depth{input.options.depth_path.value_or(input.profile.raster.depth_path),

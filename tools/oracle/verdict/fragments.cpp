@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "peeling/as_shown.h"
 #include "peeling/render.h"
 #include "pipeline/region/region.h"
 #include "rasterizer/base/parallel.h"
@@ -190,8 +191,9 @@ void SceneFragments::find_coverages() {
 
 PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noexcept {
     const auto width = static_cast<std::size_t>(tile.rect.width());
+    const peeling::AsShown shown{input_.options, input_.profile};  // tiles count in memory
     PixelList list{.x = tile.rect.x0 + static_cast<int>(pixel % width),
-                   .y = tile.rect.y0 + static_cast<int>(pixel / width)};
+                   .y = shown.row(tile.rect.y0 + static_cast<int>(pixel / width))};
     const std::uint32_t first = tile.start[pixel], hidden = tile.hidden[pixel], end = tile.start[pixel + 1];
     list.visible = {tile.fragments.data() + first, hidden - first};
     list.hidden = {tile.fragments.data() + hidden, end - hidden};

@@ -38,8 +38,8 @@ template <class Owner>
 // A picture of an array with one, three or four channels; `meaning` is "color", "depth" or "" (by the array's shape and type).
 [[nodiscard]] Picture picture_of_array(const py::array& array, const std::string& meaning);
 
-// RenderOptions from keywords; TypeError for a name that is none, InputError for a value that is none.
-[[nodiscard]] RenderOptions options_of(const py::kwargs& keywords);
+// RenderOptions from keywords, of which `origin` is the profile's; TypeError for a name that is none, InputError for a value that is none.
+[[nodiscard]] RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile);
 
 void bind_scene(py::module_& module);
 void bind_results(py::module_& module);

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "bindings.h"
 
@@ -21,19 +22,24 @@ Enum named(const std::string& field, const py::handle& value) {
                      scenes::quoted_with_suggestion(text, {enum_names<Enum>.begin(), enum_names<Enum>.end()}));
 }
 
-using Setter = std::function<void(RenderOptions&, const std::string& field, const py::handle& value)>;
+// What keywords are about: the options of a frame, and the corner at which its device's memory begins.
+struct Told {
+    RenderOptions options;
+    std::optional<pipeline::Origin> origin;
+};
+using Setter = std::function<void(Told&, const std::string& field, const py::handle& value)>;
 
 template <auto member>
 Setter number() {
-    return [](RenderOptions& options, const std::string&, const py::handle& value) {
-        using Number = std::remove_reference_t<decltype(options.*member)>;
-        options.*member = value.cast<Number>();
+    return [](Told& told, const std::string&, const py::handle& value) {
+        using Number = std::remove_reference_t<decltype(told.options.*member)>;
+        told.options.*member = value.cast<Number>();
     };
 }
 template <auto member, class Enum>
 Setter choice() {
-    return [](RenderOptions& options, const std::string& field, const py::handle& value) {
-        options.*member = named<Enum>(field, value);
+    return [](Told& told, const std::string& field, const py::handle& value) {
+        told.options.*member = named<Enum>(field, value);
     };
 }
 
@@ -58,18 +64,20 @@ const std::map<std::string, Setter>& setters() {
         {"effects", choice<&O::effects, pipeline::Effects>()},
         {"audit", number<&O::audit>()},
         {"background",
-         [](O& options, const std::string&, const py::handle& value) {
+         [](Told& told, const std::string&, const py::handle& value) {
              const auto c = value.cast<std::array<float, 4>>();
-             options.background = {c[0], c[1], c[2], c[3]};
+             told.options.background = {c[0], c[1], c[2], c[3]};
          }},
+        {"origin", [](Told& told, const std::string& field,
+                      const py::handle& value) { told.origin = named<pipeline::Origin>(field, value); }},
     };
     return all;
 }
 
 }  // namespace
 
-RenderOptions options_of(const py::kwargs& keywords) {
-    RenderOptions options;
+RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile) {
+    Told told;
     for (const auto& [key, value] : keywords) {
         const auto name = key.cast<std::string>();
         const auto found = setters().find(name);
@@ -80,12 +88,13 @@ RenderOptions options_of(const py::kwargs& keywords) {
                                  scenes::quoted_with_suggestion(name, names));
         }
         try {
-            found->second(options, name, value);
+            found->second(told, name, value);
         } catch (const py::cast_error&) {
             throw InputError("options", name, "a value of its type", py::repr(value).cast<std::string>());
         }
     }
-    return options;
+    if (told.origin) profile = with_origin(profile, *told.origin);
+    return told.options;
 }
 
 }  // namespace strata::python

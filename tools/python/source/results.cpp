@@ -22,7 +22,7 @@ struct Asked {
     Asked(const std::string& algorithm_name, const std::string& profile_name, const py::kwargs& keywords)
         : algorithm{strata::algorithm(algorithm_name)},
           profile{strata::profile(profile_name)},
-          options{options_of(keywords)} {}
+          options{options_of(keywords, profile)} {}
 };
 
 py::dict audit_of(const AuditResult& audit) {

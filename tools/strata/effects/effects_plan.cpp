@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "peeling/raster_state.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
 
@@ -190,8 +191,7 @@ class Planner {
     void census() {
         const RunOptions& options = job_.scene->options;
         const Session& session = job_.scene->session;
-        rasterizer::RasterState raster = options.render.raster;
-        raster.viewport = {0, 0, options.render.width, options.render.height};
+        const rasterizer::RasterState raster = peeling::raster_state(options.render, session.profile);
         using pipeline::Selection;
         const peeling::Algorithm& one_pass = *peeling::find_algorithm("unsorted");  // what a depth pass is as well
         const int tile_size = tile_size_of(options.render, job_.algorithm == nullptr ? one_pass : *job_.algorithm);

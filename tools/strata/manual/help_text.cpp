@@ -20,7 +20,7 @@ const std::vector<Group>& groups() {
     static const std::vector<Group> all{
         {"What is drawn",
          Shown::usual,
-         {"scene", "color-space", "no-light", "algorithm", "profile", "depth-format", "from"}},
+         {"scene", "color-space", "no-light", "algorithm", "profile", "origin", "depth-format", "from"}},
         {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background"}},
         {"Results",
          Shown::usual,

@@ -128,6 +128,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     // A pack brings its own profile and, where no option names another, its background.
     if (options.profile != scenes::pack_folder(options.scene) + "/profile.json")
         add(words, "--profile", file_name(options.profile));
+    if (options.origin) add(words, "--origin", name_of(origins, *options.origin));
     add_scene(words, options);
     add_view(words, options);
     add_machine(words, options.render);

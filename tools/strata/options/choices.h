@@ -64,6 +64,9 @@ inline const std::vector<Choice<rasterizer::DepthOrder>> depth_orders{{"less", r
 inline const std::vector<Choice<rasterizer::ClipDepth>> clip_depths{
     {"minus-one-to-one", rasterizer::ClipDepth::minus_one_to_one}, {"zero-to-one", rasterizer::ClipDepth::zero_to_one}};
 
+inline const std::vector<Choice<pipeline::Origin>> origins{{"upper-left", pipeline::Origin::upper_left},
+                                                           {"lower-left", pipeline::Origin::lower_left}};
+
 // Pixels a side.
 inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
 

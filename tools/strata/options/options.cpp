@@ -182,6 +182,12 @@ void add_profile_option(CLI::App& app, std::string& profile) {
               "a profile's name or file"});
 }
 
+void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin) {
+    add_choice(app, origin, "--origin", origins,
+               "the corner at which the device's memory begins; lower-left: OpenGL without glClipControl (default: the "
+               "profile's own)");
+}
+
 // Options are declared in the order in which --help shows them.
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
     add_choice(app, options.depth, "--depth-format", depth_formats,
@@ -278,6 +284,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     add_reading_options(app, options.scene_options);
     add_algorithm_option(app, options);
     add_profile_option(app, options.profile);
+    add_origin_option(app, options.origin);
     add_machine_options(app, options.render);
     add_order_options(app, options.render);
     add_view_options(app, options);

@@ -24,12 +24,13 @@ struct RunOptions {
     std::string default_algorithm = "dual";
     std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, none twice
     std::string profile = "geforce8";                   // a name or a file
+    std::optional<pipeline::Origin> origin;             // --origin; none: the profile's
     std::string camera;                                 // --camera; empty: the orbit
     std::string files_in;  // of --from: the folder of a camera's file; empty: the path as given
     std::optional<Orbit> orbit;
     bool has_frame_background = false;       // the background is in the frame's colour space already: a pack's
-    bool names_camera_of_scene = false;      // --camera turned out to be one of the scene's, not a file
-    bool takes_own_view = false;             // neither is given, and the scene turned out to have a view of its own
+    bool names_camera_of_scene = false;  // --camera turned out to be one of the scene's, not a file
+    bool takes_own_view = false;         // neither is given, and the scene turned out to have a view of its own
     scenes::ClipConvention view_convention;  // of a view that comes with the scene
     peeling::RenderOptions render;
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
@@ -58,6 +59,7 @@ void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth-format ... --max-passes
 void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
 void add_profile_option(CLI::App& app, std::string& profile);
+void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
 void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
 

@@ -26,7 +26,7 @@ using probe::Inference;
 // The command line.
 struct InferOptions {
     std::string pack, output;
-    probe::YDirection orientation = probe::YDirection::up;
+    std::optional<probe::YDirection> orientation{};  // none: up, or down where the pack has no other
     bool json = false;
 };
 
@@ -120,10 +120,12 @@ ordered_json to_json(const Inference& result) {
 int run(const InferOptions& options) {
     const std::vector<probe::Item>& items = probe::kit();
     const probe::ProbePack pack = probe::read_pack(options.pack, items);
-    if (!pack.answers.contains(options.orientation))
-        throw InputError(options.pack, "probe/" + std::string{probe::name(options.orientation)},
-                         "answers of that orientation (--y names another)", "none");
-    const Inference result = probe::infer(pack, items, options.orientation);
+    using enum probe::YDirection;
+    const probe::YDirection y = options.orientation.value_or(pack.answers.contains(up) ? up : down);
+    if (!pack.answers.contains(y))
+        throw InputError(options.pack, "probe/" + std::string{probe::name(y)},
+                         options.orientation ? "answers of that orientation (--y names another)" : "answers", "none");
+    const Inference result = probe::infer(pack, items, y);
     if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile));
     const std::vector<probe::OperationFinding> findings = probe::judge(pack.operations);
     ordered_json document = options.json ? to_json(result) : ordered_json{};
@@ -142,7 +144,8 @@ Command add_infer(CLI::App& root) {
         ->required();
     add_path(*app, options->output,
              {"-o,--output", "FILE.json", "the profile, as --profile takes it; - is standard output", "a file's name"});
-    add_orientation(*app, options->orientation, "the answers that count (default up)");
+    add_orientation(*app, options->orientation,
+                    "the answers that count, and the origin of the profile (default up; down if there are no others)");
     app->add_flag("--json", options->json, "print one JSON object instead of the table");
     app->footer(
         footer("  strata probe --profile softpipe -o softpipe && strata infer softpipe -o profile.json\n"

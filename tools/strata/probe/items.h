@@ -10,7 +10,7 @@ namespace strata::tools {
     return unseen > 0 ? probe::unseen_scenes(0, unseen) : probe::kit();
 }
 
-inline void add_orientation(CLI::App& app, probe::YDirection& target, const std::string& help) {
+inline void add_orientation(CLI::App& app, std::optional<probe::YDirection>& target, const std::string& help) {
     static const std::vector<Choice<probe::YDirection>> choices{{"up", probe::YDirection::up},
                                                                 {"down", probe::YDirection::down}};
     add_choice(app, target, "--y", choices, help);

@@ -23,7 +23,7 @@ namespace {
 // The command line.
 struct ProbeOptions {
     std::string output, profile, compare;
-    probe::YDirection orientation = probe::YDirection::up;
+    std::optional<probe::YDirection> orientation{};  // none: the profile's
     int unseen = 0;
     bool json = false;
 };
@@ -35,12 +35,14 @@ std::vector<std::string> row(const std::string& name, const probe::Difference& d
 
 // Items that a device drew beside what the profile draws.
 int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) {
-    const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
+    const pipeline::DeviceProfile given = scenes::load_profile(options.profile);
+    const probe::YDirection y = options.orientation.value_or(probe::direction_of(given.origin));
+    const pipeline::DeviceProfile profile = with_origin(given, probe::origin_of(y));
     const probe::ProbePack pack = probe::read_pack(options.compare, items);
-    const probe::Comparison device{pack, items, options.orientation};
+    const probe::Comparison device{pack, items, y};
     if (device.count() == 0)
-        throw InputError(options.compare, "probe/" + std::string{probe::name(options.orientation)},
-                         "answers of that orientation", "none");
+        throw InputError(options.compare, "probe/" + std::string{probe::name(y)},
+                         "answers of that orientation (--y names another)", "none");
     Table table{{{"scene"},
                  {"pixels", Align::right},
                  {"coverage", Align::right},
@@ -110,7 +112,7 @@ Command add_probe(CLI::App& root) {
     add_path(*app, options->profile, {"--profile", "NAME|FILE", "the device that answers", "a profile"});
     add_path(*app, options->compare,
              {"--compare", "PACK", "hold the profile's answers against a device's", "a folder or a tar archive"});
-    add_orientation(*app, options->orientation, "which answers --compare looks at (default up)");
+    add_orientation(*app, options->orientation, "which answers --compare looks at (default: as the profile's origin)");
     add_unseen(*app, options->unseen);
     app->add_flag("--json", options->json, "--compare prints one JSON object");
     app->footer(

@@ -95,6 +95,7 @@ Session open_session(RunOptions& options) {
     Session session;
     // Profile first: it is small, and an error in it is told before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
+    if (options.origin) session.profile = with_origin(session.profile, *options.origin);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;

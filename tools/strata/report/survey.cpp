@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "peeling/as_shown.h"
 #include "peeling/programs/programs.h"
 #include "pipeline/frame/trace.h"
 #include "pipeline/region/region.h"
@@ -20,8 +21,8 @@ constexpr std::size_t fates = static_cast<std::size_t>(Fate::depth_killed) + 1;
 
 class Observing {
   public:
-    Observing(const peeling::Algorithm& algorithm, const Columns& columns)
-        : algorithm_{algorithm}, columns_{columns}, killed_(columns.first.size() - 1) {
+    Observing(const peeling::Algorithm& algorithm, const Columns& columns, const peeling::AsShown& shown)
+        : algorithm_{algorithm}, columns_{columns}, shown_{shown}, killed_(columns.first.size() - 1) {
         survey_.taken.assign(columns.fragments.size(), 0);
         keys_.assign(columns.fragments.size(), 0);
         is_known_.assign(columns.fragments.size(), 0);
@@ -48,7 +49,7 @@ class Observing {
         for (std::size_t i = 0; i < static_cast<std::size_t>(event.batch.count); ++i) {
             const bool is_alive = event.alive[i] != 0;
             if (killer != Fate::passed && before_[i] != 0 && !is_alive)
-                ++killed_[event.batch.pixel[i]][static_cast<std::size_t>(killer)];
+                ++killed_[shown_.pixel(event.batch.pixel[i])][static_cast<std::size_t>(killer)];
             before_[i] = is_alive ? 1 : 0;
         }
     }
@@ -59,7 +60,8 @@ class Observing {
         const int pass = is_in_pass_ ? pass_ : pass_ - 1;
         const auto mark = static_cast<std::uint16_t>((std::clamp(pass, 0, 0x7ffe) + 1) |
                                                      (entry.side == pipeline::Side::back ? far_end : 0));
-        for (std::uint32_t f = columns_.first[entry.pixel]; f < columns_.first[entry.pixel + 1]; ++f) {
+        const std::uint32_t pixel = shown_.pixel(entry.pixel);
+        for (std::uint32_t f = columns_.first[pixel]; f < columns_.first[pixel + 1]; ++f) {
             const pipeline::CapturedFragment& fragment = columns_.fragments[f];
             if (entry.is_fragment ? fragment.primitive == entry.primitive : keys_[f] == entry.key)
                 survey_.taken[f] = mark;
@@ -77,14 +79,16 @@ class Observing {
   private:
     // By the algorithm's own depth path, which need not be that of the columns.
     void note_keys(const rasterizer::FragmentBatch& batch) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-            for (std::uint32_t f = columns_.first[batch.pixel[i]]; f < columns_.first[batch.pixel[i] + 1]; ++f) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+            const std::uint32_t pixel = shown_.pixel(batch.pixel[i]);
+            for (std::uint32_t f = columns_.first[pixel]; f < columns_.first[pixel + 1]; ++f) {
                 if (columns_.fragments[f].primitive != batch.primitive[i] || is_known_[f] != 0) continue;
                 keys_[f] = algorithm_.key == pipeline::DepthKey::shader_z ? peeling::ordered_code(batch.shader_z[i])
                                                                           : batch.code[i];
                 is_known_[f] = 1;
                 --keys_left_;
             }
+        }
     }
 
     [[nodiscard]] static Fate fate_at(const pipeline::StageEvent& event) {
@@ -104,6 +108,7 @@ class Observing {
 
     const peeling::Algorithm& algorithm_;
     const Columns& columns_;
+    const peeling::AsShown shown_;
     std::vector<std::array<std::uint32_t, fates>> killed_;
     std::vector<std::uint32_t> keys_;     // of each fragment, as traces know it
     std::vector<std::uint8_t> is_known_;  // whether its key is
@@ -137,7 +142,7 @@ Columns columns_of(std::vector<pipeline::CapturedFragment> fragments, std::size_
 }
 
 Survey survey(const oracle::RunInput& input, const peeling::Algorithm& algorithm, const Columns& columns) {
-    Observing observing{algorithm, columns};
+    Observing observing{algorithm, columns, {input.options, input.profile}};
     oracle::RunInput everything = input;
     everything.options.effects = pipeline::Effects::all;
     const pipeline::Observer observer{
