@@ -41,7 +41,7 @@ Body body_of(const Algorithm& algorithm) {
 }  // namespace
 
 bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept {
-    return algorithm.closed_form != nullptr && !options.keep_layers;
+    return algorithm.closed_form != nullptr && !options.keep_layers && options.background[3] == 1.0f;
 }
 
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {

@@ -48,7 +48,7 @@ struct RenderOptions {
     std::optional<bool> second_depth_clamp{};         // and their depth clamp
     std::optional<pipeline::Format> color_format{};   // default: rgba8; rgba32f on a profile with exact depth ("ideal")
     std::optional<float> alpha{};                     // draws everything as transparent, its own alpha times this
-    pipeline::Rgba background{0, 0, 0, 1};
+    pipeline::Rgba background{0, 0, 0, 1};  // premultiplied, as every picture is whose background lets light through
     pipeline::Termination termination{};
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
     Sort sort{};  // the order in which triangles are submitted

@@ -26,9 +26,9 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
         if (fragments.empty()) continue;
         sort_by(&KeyedFragment::exact_code, fragments, order);
         const auto color = composite(fragments, order, region.color(region.opaque_color(), pixel));
-        RegionShortcuts{region}.store_pixel(
-            result, pixel,
-            {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1.0f});
+        RegionShortcuts{region}.store_pixel(result, pixel,
+                                            {static_cast<float>(color[0]), static_cast<float>(color[1]),
+                                             static_cast<float>(color[2]), static_cast<float>(color[3])});
         if (!region.frame().trace) continue;
         for (const std::uint64_t entry : order) {
             const KeyedFragment& f = fragments[place_of(entry)];

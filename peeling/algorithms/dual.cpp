@@ -53,8 +53,7 @@ Drawn peel(Region& region, const DualTargets& t) {
 Drawn blend_back(Region& region, const DualTargets& t) {
     PassState state;
     state.color[0] = t.back;
-    state.blend[0] = blend_mode::over;
-    state.blend[0].write_mask = 0x7;  // BACK has no alpha of its own
+    state.blend[0] = over_background(region.frame());
     state.reads = {t.back_dump, t.next_min_max, t.min_max};
     return region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = own.color(0);

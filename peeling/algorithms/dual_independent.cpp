@@ -29,8 +29,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     region.clear(next_min_max, empty_min_max);
     PassState state;
     state.color = {next_min_max, front, back};
-    state.blend = {blend_mode::max, blend_mode::under, blend_mode::over};
-    state.blend[2].write_mask = 0x7;
+    state.blend = {blend_mode::max, blend_mode::under, over_background(region.frame())};
     state.reads = {min_max, region.opaque_depth()};
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;

@@ -6,6 +6,7 @@
 // Invariant  the target holds OVER of what has arrived; right exactly where every pixel's fragments arrive back to front.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling::listing::unsorted {
 
@@ -19,8 +20,7 @@ void run(Region& region) {
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
     state.depth_target = region.opaque_depth();
     state.color[0] = color;
-    state.blend[0] = blend_mode::over;
-    state.blend[0].write_mask = 0x7;  // the final alpha stays 1
+    state.blend[0] = over_background(region.frame());
     state.needs.shader_z = false;
     region.begin_iteration();
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {

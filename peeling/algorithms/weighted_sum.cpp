@@ -7,6 +7,7 @@
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, in submission order and in the target's precision.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"
+#include "peeling/programs/under.h"
 
 namespace strata::peeling::listing::weighted_sum {
 
@@ -35,7 +36,8 @@ void run(Region& region) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
                 out.color[0][c][i] = own.color(0)[c][i] + own.color(1)[c][i] * (1.0f - own.color(0)[3][i]);
-        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            out.color[0][3][i] = scalar::alpha_over(1.0f - own.color(0)[3][i], own.color(1)[3][i]);
     }));
     region.publish(result);
 }

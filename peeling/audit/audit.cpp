@@ -98,7 +98,7 @@ struct Audit::Impl {
         AuditedPixel at{.x = region.rect().x0 + static_cast<int>(pixel % width),
                         .y = region.rect().y0 + static_cast<int>(pixel / width),
                         .background = region.color(region.opaque_color(), pixel)};
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 4; ++c)
             at.shown[static_cast<std::size_t>(c)] =
                 channel_value(color, at.x - frame.rect().x0, at.y - frame.rect().y0, c);
         return at;

@@ -20,7 +20,7 @@ struct AuditResult {
         order_errors;                // positions where the sequences differ; empty for an algorithm without an order
     std::uint64_t lost_by_ties = 0;  // visible fragments that the tie policy does not keep
     PixelCount ties, misordered;     // pixels with equal keys; pixels with order errors
-    double max_difference = 0;       // in 1/255, over r, g and b
+    double max_difference = 0;       // in 1/255, over r, g and b, and alpha where the background has not 1
     double max_difference_without_ties = 0;  // the same over pixels where no tie loses or reorders anything
     friend bool operator==(const AuditResult&, const AuditResult&) = default;
 };

@@ -120,7 +120,8 @@ void PixelAudit::compare(std::span<const KeyedFragment> fragments, const Audited
     // By the exact depth and not by the key: what the key's rounding reorders is a loss too.
     const auto truth = composite(fragments, by_exact_depth_, pixel.background);
     double worst = 0;
-    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(pixel.shown[c] - truth[c]) * 255.0);
+    const std::size_t channels = pixel.background[3] == 1.0f ? 3 : 4;
+    for (std::size_t c = 0; c < channels; ++c) worst = std::max(worst, std::fabs(pixel.shown[c] - truth[c]) * 255.0);
     found_.max_difference = std::max(found_.max_difference, worst);
     if (ties_change_nothing) found_.max_difference_without_ties = std::max(found_.max_difference_without_ties, worst);
 }

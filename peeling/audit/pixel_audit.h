@@ -37,7 +37,7 @@ class PixelTraces {
 
 struct AuditedPixel {
     int x = 0, y = 0;
-    std::array<double, 3> shown{};  // the picture's colour
+    std::array<double, 4> shown{};  // the picture's colour
     pipeline::Rgba background{};    // the opaque scene's
 };
 

@@ -1,11 +1,12 @@
 // peeling/programs/average.h - the resolve of weighted_average.
 //
 // Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n as average_text-inl.h computes
-//          them. The background where n or sums.a is not above 0.
+//          them. The background where n or sums.a is not above 0. Alpha: 1 - t (1 - background's).
 // Source   Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8. The guard for sums.a = 0 is ours.
 // Tests    tests/peeling/programs/programs_test.cpp
 #pragma once
 #include "peeling/programs/programs.h"
+#include "peeling/programs/under.h"
 
 namespace strata::peeling {
 inline namespace strict {
@@ -42,7 +43,7 @@ inline void resolve_average(const pipeline::ColorLanes& sums, const pipeline::La
         const float t = transmittance(OneAverage{}, a, n[i]);
         for (std::size_t c = 0; c < 3; ++c)
             out[c][i] = has ? average_over(OneAverage{}, sums[c][i], a, t, background[c][i]) : background[c][i];
-        out[3][i] = 1.0f;
+        out[3][i] = has ? alpha_over(t, background[3][i]) : background[3][i];
     }
 }
 

@@ -10,16 +10,20 @@ namespace strata::peeling {
 inline namespace strict {
 
 // OVER from the far end, in the order that `near_to_far` says: alpha c + (1 - alpha) D, each operation rounded to
-// binary64, in this order (algorithms.md 17). By exact depth, the first arrival of equal ones stays in front.
-[[nodiscard]] inline std::array<double, 3> composite(std::span<const KeyedFragment> fragments,
+// binary64, in this order (algorithms.md 17). By exact depth, the first arrival of equal ones stays in front. Alpha:
+// 1 - (1 - background's) (1 - alpha) ..., from the far end. Premultiplied, as the background is.
+[[nodiscard]] inline std::array<double, 4> composite(std::span<const KeyedFragment> fragments,
                                                      const FragmentOrder& near_to_far,
                                                      const pipeline::Rgba& background) {
-    std::array<double, 3> color{background[0], background[1], background[2]};
+    std::array<double, 4> color{background[0], background[1], background[2]};
+    double through = 1.0 - double{background[3]};
     for (std::size_t i = near_to_far.size(); i-- > 0;) {
         const pipeline::Rgba& source = fragments[place_of(near_to_far[i])].color;
         const double alpha = source[3];
         for (std::size_t c = 0; c < 3; ++c) color[c] = alpha * source[c] + (1.0 - alpha) * color[c];
+        through *= 1.0 - alpha;
     }
+    color[3] = 1.0 - through;
     return color;
 }
 

@@ -1,6 +1,7 @@
 #include "peeling/programs/layer_quads.h"
 
 #include "peeling/programs/layer_target.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 
@@ -12,8 +13,7 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
         PassState state;
         state.color[0] = result;
-        state.blend[0] = blend_mode::over;
-        state.blend[0].write_mask = 0x7;  // the final alpha stays 1
+        state.blend[0] = over_background(region.frame());
         state.reads[0] = layers.color[layer];
         const bool is_traced = trace_layer(state, region, layers.depth[layer]);
         static_cast<void>(

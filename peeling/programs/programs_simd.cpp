@@ -63,7 +63,9 @@ void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes
             const auto color = average::average_over(lanes, hn::LoadU(d, &sums[c][i]), a, t, behind);
             hn::StoreU(hn::IfThenElse(has, color, behind), d, &out[c][i]);
         }
-        hn::StoreU(hn::Set(d, 1.0f), d, &out[3][i]);
+        const auto one = hn::Set(d, 1.0f), behind = hn::LoadU(d, &background[3][i]);
+        const auto alpha = hn::Sub(one, hn::Mul(t, hn::Sub(one, behind)));
+        hn::StoreU(hn::IfThenElse(hn::AndNot(hn::Eq(behind, one), has), alpha, behind), d, &out[3][i]);
     }
 }
 

@@ -23,7 +23,18 @@ inline namespace strict {
     return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::yes : pipeline::Idle::no;
 }
 
-// Publishes the front over the colour behind it, alpha 1: the last quad of every peel that composites from the front.
+// OVER, straight onto premultiplied: onto an opaque background alpha stays 1 and is not written, else it is 1 - (1 - alpha) (1 - A).
+[[nodiscard]] inline pipeline::Blend over_background(const pipeline::Frame& frame) noexcept {
+    using namespace pipeline;
+    Blend over = blend_mode::over;
+    if (frame.is_opaque())
+        over.write_mask = 0x7;
+    else
+        over.alpha = {BlendEquation::add, BlendFactor::one, BlendFactor::one_minus_src_alpha};
+    return over;
+}
+
+// Publishes the front over the colour behind it, alpha and all: the last quad of every peel that composites from the front.
 inline void publish_over(pipeline::Region& region, pipeline::Target front, FrontAlpha meaning,
                          pipeline::Target behind) {
     using namespace pipeline;
@@ -38,7 +49,8 @@ inline void publish_over(pipeline::Region& region, pipeline::Target front, Front
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
                 out.color[0][c][i] = scalar::composited(own.color(0)[c][i], through[i], own.color(1)[c][i]);
-        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            out.color[0][3][i] = scalar::alpha_over(through[i], own.color(1)[3][i]);
     }));
     region.publish(result);
 }

@@ -11,10 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "peeling/programs/under.h"
 #include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/stages/lane_words.h"
+#include "rasterizer/base/vector.h"
 
 namespace strata::peeling {
 
@@ -31,13 +33,13 @@ class SampleColumns {
         words_.reserve(samples_.size());
     }
     // The pixel's colour over the one that `background` holds.
-    [[nodiscard]] pipeline::Rgba composite(std::uint32_t pixel, const pipeline::Texels& background);
+    [[nodiscard]] Rgba composite(std::uint32_t pixel, const pipeline::Texels& background);
     // (code, number of the sample) of what was composited last, nearest first.
     [[nodiscard]] std::span<const std::uint64_t> order() const noexcept { return words_; }
 
   private:
     template <class Decode>
-    [[nodiscard]] pipeline::Rgba composite_as(std::uint32_t pixel, const pipeline::Texels& background) const noexcept;
+    [[nodiscard]] Rgba composite_as(std::uint32_t pixel, const pipeline::Texels& background) const noexcept;
 
     std::vector<SamplePlanes> samples_;
     std::vector<std::uint64_t> words_;
@@ -66,9 +68,9 @@ struct Singles {
 };
 
 template <class Decode>
-[[nodiscard]] pipeline::Rgba decoded(const pipeline::Texels& from, std::uint32_t pixel) noexcept {
+[[nodiscard]] Rgba decoded(const pipeline::Texels& from, std::uint32_t pixel) noexcept {
     constexpr std::size_t channels_of_word = 32 / Decode::bits;
-    pipeline::Rgba color;
+    Rgba color;
     for (std::size_t c = 0; c < 4; ++c) {
         const std::uint32_t word = from.plane(c / channels_of_word).words[pixel];
         color[c] = Decode::value(word >> (c % channels_of_word * Decode::bits) & (~0u >> (32 - Decode::bits)));
@@ -79,21 +81,20 @@ template <class Decode>
 }  // namespace sample_formats
 
 template <class Decode>
-pipeline::Rgba SampleColumns::composite_as(std::uint32_t pixel, const pipeline::Texels& background) const noexcept {
-    pipeline::Rgba front{0, 0, 0, 1};
+Rgba SampleColumns::composite_as(std::uint32_t pixel, const pipeline::Texels& background) const noexcept {
+    Rgba front{0, 0, 0, 1};
     for (const std::uint64_t word : words_) {
-        const pipeline::Rgba color =
-            sample_formats::decoded<Decode>(samples_[static_cast<std::uint32_t>(word)].color, pixel);
+        const Rgba color = sample_formats::decoded<Decode>(samples_[static_cast<std::uint32_t>(word)].color, pixel);
         for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * (color[3] * color[c]);
         front[3] *= 1.0f - color[3];
     }
-    const pipeline::Rgba behind = sample_formats::decoded<Decode>(background, pixel);
+    const Rgba behind = sample_formats::decoded<Decode>(background, pixel);
     for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * behind[c];
-    front[3] = 1.0f;
+    front[3] = scalar::alpha_over(front[3], behind[3]);
     return front;
 }
 
-inline pipeline::Rgba SampleColumns::composite(std::uint32_t pixel, const pipeline::Texels& background) {
+inline Rgba SampleColumns::composite(std::uint32_t pixel, const pipeline::Texels& background) {
     using namespace sample_formats;
     words_.clear();
     for (std::size_t s = 0; s < samples_.size(); ++s)

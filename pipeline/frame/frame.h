@@ -35,7 +35,7 @@ struct Frame {
     DepthKey key = DepthKey::stored_code;
     Format color_format = Format::rgba8;
     std::optional<Format> published_format;  // of what the body publishes, if it is not a colour of the frame
-    Rgba background{0, 0, 0, 1};
+    Rgba background{0, 0, 0, 1};             // premultiplied
     Termination termination;
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
@@ -67,6 +67,8 @@ struct Frame {
         const rasterizer::DepthRequest request = key_request();
         return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
     }
+    // Whether alpha is 1 everywhere, as nothing that is drawn lowers it.
+    [[nodiscard]] bool is_opaque() const noexcept { return background[3] == 1.0f; }
     // Every pass sees the same fragments, and compares the depth that it stores: what closed forms rest on.
     [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
 };

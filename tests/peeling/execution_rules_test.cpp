@@ -157,6 +157,7 @@ TEST_CASE(
                     options.color_format = format;
                     options.alpha = random_channel(random);
                     options.background = random_color(random);
+                    options.background[3] = 1;  // closed forms are for an opaque background
                     options.execution = Execution::literal;
                     const auto drawn = [&](const RenderOptions& how) {
                         return drawn_on(profile, scene, algorithm, how);

@@ -35,6 +35,7 @@ TEST_CASE("a run says which way it took, and why it did not go a faster one") {
     const auto without_memory = [](RenderOptions& o) { o.fragment_memory = 0; };
     const auto all_effects = [](RenderOptions& o) { o.effects = Effects::all; };
     const auto layered = [](RenderOptions& o) { o.keep_layers = true; };
+    const auto over_clear = [](RenderOptions& o) { o.background = {0, 0, 0, 0}; };
     const auto by_ratio = [](RenderOptions& o) { o.termination = {TerminationRule::ratio, 0.01}; };
     const auto by_epsilon = [](RenderOptions& o) { o.compare_epsilon.ulps = 1; };
     const auto fixed = [](RenderOptions& o) { o.termination.rule = TerminationRule::fixed, o.termination.passes = 2; };
@@ -47,6 +48,7 @@ TEST_CASE("a run says which way it took, and why it did not go a faster one") {
         {{"geforce8", "weighted_average"}, as_is, Path::tiled, ""},
         {{"geforce8", "weighted_average"}, without_memory, Path::tiled, ""},
         {dual, layered, Path::recorded, "layers are kept"},
+        {dual, over_clear, Path::recorded, "the background's alpha is not 1"},
         {dual, by_ratio, Path::recorded, "--termination asks after every pass how many are left"},
         {dual, by_epsilon, Path::recorded, "passes compare other depths than they store, or draw other vertices"},
         {dual, without_memory, Path::tiled, "--fragment-memory 0 records nothing"},

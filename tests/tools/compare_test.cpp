@@ -54,7 +54,8 @@ TEST_CASE("compare knows a background that it is told, and tells lost coverage f
     CHECK(kinds({"--background", "0.2,0.4,0.6"}) == std::vector<std::string>{"background"});
     CHECK(kinds({"--background", "0.9,0.9,0.9"}) == std::vector<std::string>{"color"});  // drawn everywhere, then
     CHECK(run_strata(folder, {"compare", "a.png", "b.png", "--background", "0.2"}).err ==
-          "strata: --background: expected three numbers from 0 to 1 such as 0.2,0.2,0.3, found '0.2'\n");
+          "strata: --background: expected none, or three or four numbers from 0 to 1 such as 0.2,0.2,0.3 or 0,0,0,0.5, "
+          "found '0.2'\n");
 }
 
 TEST_CASE("a folder's heat maps and comparisons side by side are drawn of each algorithm") {

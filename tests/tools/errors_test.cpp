@@ -104,7 +104,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--alpha", "nan"},
          "strata: --alpha: expected a number from 0 to 1, or MATERIAL=A with commas between, found 'nan'"},
         {{"render", "teapot", "--background", "0,0"},
-         "strata: --background: expected three numbers from 0 to 1 such as 0.2,0.2,0.3, found '0,0'"},
+         "strata: --background: expected none, or three or four numbers from 0 to 1 such as 0.2,0.2,0.3 or 0,0,0,0.5, "
+         "found '0,0'"},
         {{"render", "teapot", "--orbit", "30"},
          "strata: --orbit: expected azimuth and elevation in degrees such as 30,20, found '30'"},
         {{"render", "teapot", "--termination", "ratio:2"},

@@ -166,8 +166,9 @@ int compare(const CompareOptions& options) {
 // Options of a scene fit no picture but --background, which is the reference's there.
 void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pictures, CompareOptions& options) {
     if (app.count("--background") > 0) {
-        const pipeline::Rgba& color = options.run.render.background;
+        const pipeline::Rgba& color = *options.run.background;  // as the reference's values are
         options.background = {color[0], color[1], color[2]};
+        if (color[3] < 1) options.background.push_back(color[3]);
     }
     if (is_scene(options.reference)) return;
     for (const CLI::Option* option : app.get_options())

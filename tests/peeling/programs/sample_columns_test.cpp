@@ -49,7 +49,8 @@ Rgba plain_composite(std::vector<PlainSample> samples, const Rgba& background) {
         front[3] = front[3] * (1.0f - s.color[3]);
     }
     for (std::size_t c = 0; c < 3; ++c) front[c] = front[c] + front[3] * background[c];
-    return {front[0], front[1], front[2], 1.0f};
+    // An opaque background leaves an opaque pixel; through another one, what shows less what it hides.
+    return {front[0], front[1], front[2], background[3] == 1 ? 1.0f : 1.0f - front[3] * (1.0f - background[3])};
 }
 
 TargetStorage random_target(Random& random, Format format, int samples) {

@@ -58,6 +58,21 @@ def test_layers_run_from_near_to_far_from_either_end(grey):
         assert far.is_from_behind == (algorithm == "dual")
 
 
+def test_the_upper_row_is_the_first_from_either_origin():
+    scene = strata.Scene()
+    scene.add([[-1, -1, 0], [1, -1, 0], [0, 0, 0]])
+    upper, lower = (strata.render(scene, profile="geforce8", width=8, height=8, origin=origin) for origin in ("upper_left", "lower_left"))
+    for picture in (upper, lower):
+        assert picture.color[0, 0, 0] == 0 and picture.color[-1, 4, 0] > 0  # the upper row is the first
+    with pytest.raises(strata.InputError, match="origin"):
+        strata.render(scene, origin="top")
+
+
+def test_alpha_of_a_clear_background_is_what_the_layers_cover(grey):
+    picture = strata.render(grey, "front_to_back", width=4, height=4, color_format="rgba32f", background=(0, 0, 0, 0))
+    assert (picture.color[..., 3] == 0.75).all()
+
+
 def test_fragments_are_views_of_one_memory(grey):
     found = strata.fragments(grey, width=4, height=3)
     assert sorted(found["pixel"]) == sorted(list(range(12)) * 2)

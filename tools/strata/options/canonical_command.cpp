@@ -43,6 +43,12 @@ std::string to_text(const peeling::Sort& sort) {
     return "";  // unreachable: the enum is closed
 }
 
+std::string to_text(const pipeline::Rgba& b) {
+    if (b == pipeline::Rgba{}) return "none";
+    const std::string rgb = fmt::format("{},{},{}", b[0], b[1], b[2]);
+    return b[3] == 1.0f ? rgb : fmt::format("{},{}", rgb, b[3]);
+}
+
 // Each of these adds the options of one group, in the order of reports.md 7, where they differ from
 // their defaults.
 void add_scene(Words& words, const RunOptions& options) {
@@ -67,9 +73,9 @@ void add_view(Words& words, const RunOptions& options) {
     for (const scenes::MaterialAlpha& one : options.scene_options.alpha)
         alphas += fmt::format("{}{}={}", alphas.empty() ? "" : ",", one.material, one.alpha);
     if (!alphas.empty()) add(words, "--alpha", alphas);
-    const auto& b = render.background;
-    if (b != pipeline::Rgba{0, 0, 0, 1} && !options.has_frame_background)
-        add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));
+    // A pack has a background of its own, which black may replace.
+    if (const auto& b = options.background; b && (*b != pipeline::Rgba{0, 0, 0, 1} || scenes::is_pack(options.scene)))
+        add(words, "--background", to_text(*b));
 }
 
 void add_comparison(Words& words, const peeling::RenderOptions& render) {

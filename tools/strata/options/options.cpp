@@ -36,19 +36,6 @@ std::optional<Alphas> to_alphas(std::string_view text) {
     return alphas;
 }
 
-// R,G,B, each from 0 to 1; alpha is 1.
-std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
-    pipeline::Rgba color{0, 0, 0, 1};
-    const auto parts = split(text, ',');
-    if (parts.size() != 3) return std::nullopt;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto value = to_share(parts[i]);
-        if (!value) return std::nullopt;
-        color[i] = *value;
-    }
-    return color;
-}
-
 // One of the words of keys-and-counts.md 3.1, with its share or number of passes.
 std::optional<pipeline::Termination> to_termination(std::string_view text) {
     using enum pipeline::TerminationRule;
@@ -321,13 +308,10 @@ void add_view_options(CLI::App& app, RunOptions& options) {
            },
            "draw everything as transparent, its own alpha times A, or these materials alone")
         ->type_name("A|MATERIAL=A[,...]");
-    add_option(app, options.render.background,
-               {"--background", "R,G,B", "sRGB values from 0 to 1 (default 0,0,0)",
-                "three numbers from 0 to 1 such as 0.2,0.2,0.3"},
-               [&options](std::string_view text) {
-                   options.has_frame_background = false;
-                   return to_rgb(text);
-               });
+    add_option(app, options.background,
+               {"--background", "R,G,B[,A]|none",
+                "sRGB values from 0 to 1, and alpha; none is 0,0,0,0 (default 0,0,0,1)", background_expected},
+               to_background);
 }
 
 void add_execution_options(CLI::App& app, RunOptions& options) {

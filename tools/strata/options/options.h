@@ -28,7 +28,8 @@ struct RunOptions {
     std::string camera;                                 // --camera; empty: the orbit
     std::string files_in;  // of --from: the folder of a camera's file; empty: the path as given
     std::optional<Orbit> orbit;
-    bool has_frame_background = false;       // the background is in the frame's colour space already: a pack's
+    std::optional<pipeline::Rgba>
+        background;                      // --background: sRGB and straight; none: what `render` has, black or a pack's
     bool names_camera_of_scene = false;  // --camera turned out to be one of the scene's, not a file
     bool takes_own_view = false;         // neither is given, and the scene turned out to have a view of its own
     scenes::ClipConvention view_convention;  // of a view that comes with the scene

@@ -12,7 +12,6 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     options.render = oracle::read_state(manifest, folder + "/manifest.json");
     options.profile = scenes::pack_profile(folder);
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
-    options.has_frame_background = true;
     options.view_convention = {options.render.raster.clip_depth, options.render.raster.depth_order};
 }
 

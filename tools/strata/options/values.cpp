@@ -17,6 +17,19 @@ std::optional<float> to_share(std::string_view text) {
     return value;
 }
 
+std::optional<pipeline::Rgba> to_background(std::string_view text) {
+    if (text == "none") return pipeline::Rgba{0, 0, 0, 0};
+    const auto parts = split(text, ',');
+    if (parts.size() != 3 && parts.size() != 4) return std::nullopt;
+    pipeline::Rgba color{0, 0, 0, 1};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto value = to_share(parts[i]);
+        if (!value) return std::nullopt;
+        color[static_cast<pipeline::Rgba::length_type>(i)] = *value;
+    }
+    return color;
+}
+
 std::optional<Size> to_size(std::string_view text) {
     constexpr int max_side = 16384;
     const auto parts = split(text, 'x');

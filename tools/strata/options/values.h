@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "pipeline/stages/depth_compare.h"
+#include "pipeline/vertices/draw_list.h"
 
 namespace strata::peeling {
 struct VertexPaths;
@@ -23,6 +24,10 @@ struct Orbit {
 
 [[nodiscard]] std::optional<int> to_count(std::string_view text);    // from 0
 [[nodiscard]] std::optional<float> to_share(std::string_view text);  // from 0 to 1
+// R,G,B or R,G,B,A, each from 0 to 1, or "none": 0,0,0,0.
+[[nodiscard]] std::optional<pipeline::Rgba> to_background(std::string_view text);
+inline constexpr const char* background_expected =
+    "none, or three or four numbers from 0 to 1 such as 0.2,0.2,0.3 or 0,0,0,0.5";
 [[nodiscard]] std::optional<Size> to_size(std::string_view text);    // WIDTHxHEIGHT, each from 1 to 16384
 [[nodiscard]] std::optional<Orbit> to_orbit(std::string_view text);  // AZ,EL
 

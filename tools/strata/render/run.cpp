@@ -72,6 +72,8 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
                 "transparent, --alpha MATERIAL=0.5 one material");
 }
 
+pipeline::Rgba premultiplied(const pipeline::Rgba& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
+
 }  // namespace
 
 pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect,
@@ -111,9 +113,10 @@ Session open_session(RunOptions& options) {
     session.view =
         scenes::as_seen_under(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);
-    // Given as sRGB values; the frame blends in the colour space of the run.
-    if (!options.has_frame_background)
-        options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
+    // Given as straight sRGB values; the frame blends in the colour space of the run, onto colours times alpha.
+    if (options.background)
+        options.render.background =
+            premultiplied(scenes::from_encoded(*options.background, options.scene_options.color_space));
     return session;
 }
 

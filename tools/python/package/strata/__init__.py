@@ -6,7 +6,8 @@
 
 Arrays are codes as they are stored: uint8 of 8-bit colours, float16 and float32 of float targets, uint16 and uint32 of D16 and D24. They
 are read-only; those of 32-bit channels share the library's memory. Options of the frame (width, height, depth, color_format, alpha,
-background, max_passes, depth_path, ...) are keywords with the names and words of the command `strata`.
+background, max_passes, depth_path, ...) are keywords with the names and words of the command `strata`; background is premultiplied, origin
+("upper_left", "lower_left") is the corner at which the device's memory begins. Rows come from the top whatever it is.
 """
 from __future__ import annotations
 
