@@ -45,6 +45,9 @@ enum class PlaneCorners : std::uint8_t { clipped, given };
 enum class AreaSign : std::uint8_t { exact, single };
 // A perspective attribute: its plane over that of 1 / w, or times the reciprocal of it (attributes.md 1.8).
 enum class PerspectiveDivide : std::uint8_t { quotient, reciprocal };
+// A colour that is the same at all corners: interpolated like any other, or kept to the bit, as a program's uniform is. Exact planes keep it
+// either way (attributes.md 1.9).
+enum class EqualColors : std::uint8_t { interpolated, kept };
 // Planes of depth and attributes go through the snapped corners, or through the binary32 positions (depth.md 3.7).
 enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };
 // The units of vertex z: depth 1 is 1, or the depth buffer's greatest value (coverage.md 3.4).
@@ -100,6 +103,7 @@ struct RasterRules {
     OffsetUnit offset_unit = OffsetUnit::format;
     OffsetRule offset_rule = OffsetRule::corners;  // of paths window_z and w_buffer
     ColorInterpolation color = ColorInterpolation::exact_plane;
+    EqualColors equal_colors = EqualColors::interpolated;
     DepthHypothesis hypothesis{};             // what is assumed of the depth paths
     InterpolationHypothesis interpolation{};  // and of colours and texture coordinates
     friend bool operator==(const RasterRules&, const RasterRules&) = default;

@@ -1,11 +1,25 @@
 // rasterizer/values/float_values.cpp - depth and attributes of a batch by the binary32 planes of float_planes.h.
 // Tests: tests/rasterizer/values/float_planes_test.cpp
+#include <algorithm>
+#include <array>
+#include <bit>
+
 #include "rasterizer/set_up/stepped_offset.h"
 #include "rasterizer/values/float_planes.h"
 #include "rasterizer/values/fragment_values.h"
 #include "rasterizer/values/ordered_planes.h"
 
 namespace strata::rasterizer {
+
+namespace {
+
+// Whether a colour channel with these values at the corners is that value at every fragment.
+[[nodiscard]] bool is_kept(const std::array<float, 3>& values, const RasterRules& rules) noexcept {
+    const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint32_t>(values[i]); };
+    return rules.equal_colors == EqualColors::kept && bits(0) == bits(1) && bits(0) == bits(2);
+}
+
+}  // namespace
 
 // The general way drops fragments, so attributes come after it.
 int FragmentValues::fill_float_values(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
@@ -83,14 +97,18 @@ void FragmentValues::fill_attribute_planes(const Planes& planes, const std::arra
     const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
     const auto f = static_cast<std::size_t>(first);
     for (std::size_t a = begin; a < end; ++a) {
-        std::array<float, 3> over_w;
+        std::array<float, 3> values, over_w;
         for (std::size_t i = 0; i < 3; ++i) {
-            const float value = a >= color_channels            ? v[i]->texcoord[a - color_channels]
-                                : triangle.record.front_facing ? v[i]->front[a]
-                                                               : v[i]->back[a];
-            over_w[i] = value * w[i];
+            values[i] = a >= color_channels            ? v[i]->texcoord[a - color_channels]
+                        : triangle.record.front_facing ? v[i]->front[a]
+                                                       : v[i]->back[a];
+            over_w[i] = values[i] * w[i];
         }
         auto& lanes = a < color_channels ? batch.color[a] : batch.texcoord[a - color_channels];
+        if (a < color_channels && is_kept(values, rules_)) {
+            std::fill(lanes.begin() + first, lanes.begin() + batch.count, values[0]);
+            continue;
+        }
         attributes.add(planes.plane(over_w), &lanes[f]);
     }
     kernels_.float_attributes(attributes, &batch.x[f], &batch.y[f], batch.count - first);

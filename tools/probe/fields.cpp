@@ -117,7 +117,9 @@ bool can_change(std::string_view key, const Item& item) {
     return true;
 }
 
-bool is_said(std::string_view key) { return key.starts_with("has_") || key.starts_with("max_") || key == "origin"; }
+bool is_said(std::string_view key) {
+    return key.starts_with("has_") || key.starts_with("max_") || key == "origin" || key == "raster.equal_colors";
+}
 
 std::span<const Unprobed> unprobed_fields() { return unprobed; }
 

@@ -26,7 +26,8 @@ using pipeline::ProfileField;
 // Whether the field can change a pixel of the scene at all. What is said to change none is not drawn again (scores.h).
 [[nodiscard]] bool can_change(std::string_view key, const Item& item);
 
-// Fields that no picture shows: features and limits, which a driver says, and the origin, which its client says (--y).
+// Fields that no picture shows: features and limits, which a driver says; the origin, which its client says (--y); and whether equal colours
+// are a program's uniform: the kit's are not.
 [[nodiscard]] bool is_said(std::string_view key);
 
 // Other fields that no scene of the kit decides, with the reason.

@@ -186,7 +186,8 @@ std::vector<FieldFinding> findings(Evidence& evidence, const ProbePack& pack, co
                        .reason = std::string{f.reason}});
     for (const ProfileField& f : pipeline::profile_fields()) {
         if (!is_said(f.key)) continue;
-        const bool is_stated = f.key == "origin" || pack.device.contains(std::string{f.key});
+        const bool is_feature = f.key.starts_with("has_") || f.key.starts_with("max_");
+        const bool is_stated = !is_feature || pack.device.contains(std::string{f.key});
         all.push_back({.key = std::string{f.key},
                        .value = pipeline::text_of(f, profile),
                        .state = is_stated ? FieldState::stated : FieldState::open,

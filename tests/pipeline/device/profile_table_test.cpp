@@ -62,6 +62,9 @@ constexpr FieldOfDevices device_table[] = {
     {"raster.color",
      {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane",
       "exact_plane"}},
+    {"raster.equal_colors",
+     {"interpolated", "interpolated", "interpolated", "interpolated", "interpolated", "interpolated", "interpolated",
+      "interpolated"}},
     {"raster.interpolant_bits", {"24", "24", "24", "24", "24", "24", "24", "24"}},
     {"raster.divide", {"exact", "exact", "exact", "exact", "exact", "exact", "exact", "exact"}},
     {"raster.window_z_rule", {"chip", "chip", "chip", "chip", "chip", "chip", "chip", "chip"}},
@@ -157,6 +160,7 @@ const std::vector<NamesOfField> choice_names{
     {"raster.offset_unit", {"format", "float_exponent", "buffer", "two_codes", "differences"}},
     {"raster.offset_rule", {"corners", "fragments"}},
     {"raster.color", {"exact_plane", "weights_8bit"}},
+    {"raster.equal_colors", {"interpolated", "kept"}},
     {"raster.interpolant_bits", {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"}},
     {"raster.divide", {"exact", "cut_reciprocal", "low_reciprocal"}},
     {"raster.window_z_rule", {"chip", "exact", "float32"}},
@@ -262,6 +266,7 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
     CHECK((set("raster.depth_limits", "wrap") && p.raster.depth_limits == DepthLimits::wrap));
     CHECK((set("raster.offset_unit", "float_exponent") && p.raster.offset_unit == OffsetUnit::float_exponent));
     CHECK((set("raster.color", "weights_8bit") && p.raster.color == ColorInterpolation::weights_8bit));
+    CHECK((set("raster.equal_colors", "kept") && p.raster.equal_colors == EqualColors::kept));
     CHECK((set("raster.interpolant_bits", "double") && p.raster.hypothesis.interpolant_bits == full_double));
     CHECK((set("raster.interpolant_bits", "19") && p.raster.hypothesis.interpolant_bits == 19));
     CHECK((set("raster.divide", "low_reciprocal") && p.raster.hypothesis.divide == DivideRule::low_reciprocal));

@@ -132,6 +132,38 @@ TEST_CASE("attributes by binary32 planes are the plane of a/w over, or times the
     CHECK(multiplied > 100);
 }
 
+TEST_CASE(
+    "colours that are equal at all corners are kept where the rules say so, and texture coordinates and other colours "
+    "are "
+    "not") {
+    std::uint64_t kept = 0, wrong = 0, moved = 0;
+    for (const PlaneRule rule : float_rules) {
+        const Device device{
+            {.plane_origin = PlaneOrigin::unsnapped, .plane_rule = rule, .perspective = PerspectiveDivide::reciprocal},
+            {}};
+        const Geometry geometry = random_triangles(504, 120, 9, device);
+        Geometry keeping = geometry;
+        keeping.rules.equal_colors = EqualColors::kept;
+        const auto triangles = triangles_of(geometry);
+        const auto before = draw(geometry).fragments, found = draw(keeping).fragments;
+        REQUIRE(found.size() == before.size());
+        for (std::size_t n = 0; n < found.size(); ++n) {
+            wrong += found[n].texcoord == before[n].texcoord && found[n].code == before[n].code ? 0 : 1;
+            const SetupTriangle& t = triangles[found[n].primitive];
+            for (std::size_t c = 0; c < 4; ++c) {
+                const float value = t.attribute[0][c];
+                const bool is_equal = t.attribute[1][c] == value && t.attribute[2][c] == value;
+                wrong += found[n].color[c] == (is_equal ? value : before[n].color[c]) ? 0 : 1;
+                kept += is_equal ? 1 : 0;
+                moved += is_equal && before[n].color[c] != value ? 1 : 0;
+            }
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(kept > 1000);
+    CHECK(moved > 100);
+}
+
 TEST_CASE("a fused multiply-add is the host's std::fma, to the bit") {
     Random random{503};
     std::uint64_t wrong = 0, unfused = 0;
