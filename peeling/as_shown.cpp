@@ -49,7 +49,7 @@ void AsShown::turn(pipeline::FrameResult& result) const {
 }
 
 void AsShown::turn(AuditResult& result) const noexcept {
-    for (PixelCount* count : {&result.ties, &result.misordered})
+    for (PixelCount* count : {&result.ties, &result.misordered, &result.opaque_ties})
         if (count->first_y >= 0) count->first_y = row(count->first_y);
 }
 

@@ -175,6 +175,7 @@ struct Renderer::State {
         f.trace = options.audit && algorithm.ties != TiePolicy::none;
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
+        f.checks_targets = static_cast<bool>(algorithm.body);  // those of a user's own
         f.nearest_depth = options.nearest_depth;
         f.max_passes = algorithm.compares_own_codes ? own_pass_limit(algorithm, f) : pass_limit(f);
         f.average_count = options.average_count;

@@ -30,6 +30,10 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::merged_ties, audit.ties,
              std::to_string(audit.lost_by_ties) +
                  (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
+    if (audit.opaque_ties.pixels > 0)
+        note(Fault::ties_with_opaque, audit.opaque_ties,
+             std::to_string(audit.hidden_by_opaque_ties) +
+                 " fragments at the very depth of an opaque surface: LESS hides them, LEQUAL would show them");
     const bool sorts = algorithm.order == ListOrder::objects || algorithm.order == ListOrder::back_to_front;
     const bool orders = algorithm.exact || sorts || !depths.is_invariant;
     if (!orders || audit.order_errors.value_or(0) == 0) return;

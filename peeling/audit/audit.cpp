@@ -93,11 +93,13 @@ struct Audit::Impl {
     }
 
     [[nodiscard]] bool has_order() const { return algorithm.ties != TiePolicy::none; }
-    [[nodiscard]] AuditedPixel pixel_at(const Region& region, std::uint32_t pixel, const Image& color) const {
+    [[nodiscard]] AuditedPixel pixel_at(const Region& region, std::uint32_t pixel, const Image& color,
+                                        std::uint32_t at_opaque) const {
         const auto width = static_cast<std::uint32_t>(region.rect().width());
         AuditedPixel at{.x = region.rect().x0 + static_cast<int>(pixel % width),
                         .y = region.rect().y0 + static_cast<int>(pixel / width),
-                        .background = region.color(region.opaque_color(), pixel)};
+                        .background = region.color(region.opaque_color(), pixel),
+                        .at_opaque = at_opaque};
         for (int c = 0; c < 4; ++c)
             at.shown[static_cast<std::size_t>(c)] =
                 channel_value(color, at.x - frame.rect().x0, at.y - frame.rect().y0, c);
@@ -122,7 +124,8 @@ struct Audit::Impl {
             }
             list_visible(region, range, coverage, Bookkeeping::silent, fragment_lists);
             for (std::uint32_t p = range.first; p < range.last; ++p)
-                pixels.look_at(fragment_lists.of(p), traces, pixel_at(region, p, color));
+                pixels.look_at(fragment_lists.of(p), traces,
+                               pixel_at(region, p, color, fragment_lists.at_opaque[p - range.first]));
         }
         looked.found = pixels.found();
         const std::scoped_lock lock{free_lists_mutex};
@@ -163,6 +166,7 @@ struct Audit::Impl {
         Looked& there = found_at[number] = found_at[like];
         move(there.found.ties, dx, dy);
         move(there.found.misordered, dx, dy);
+        move(there.found.opaque_ties, dx, dy);
         for (Part& part : there.left)
             part = {{part.rect.x0 + dx, part.rect.y0 + dy, part.rect.x1 + dx, part.rect.y1 + dy}, to.tile, to.extent};
     }

@@ -20,8 +20,10 @@ struct AuditResult {
         order_errors;                // positions where the sequences differ; empty for an algorithm without an order
     std::uint64_t lost_by_ties = 0;  // visible fragments that the tie policy does not keep
     PixelCount ties, misordered;     // pixels with equal keys; pixels with order errors
-    double max_difference = 0;       // in 1/255, over r, g and b, and alpha where the background has not 1
-    double max_difference_without_ties = 0;  // the same over pixels where no tie loses or reorders anything
+    PixelCount opaque_ties;          // pixels with fragments at the very depth of the opaque surface, which LESS hides
+    std::uint64_t hidden_by_opaque_ties = 0;  // these fragments
+    double max_difference = 0;                // in 1/255, over r, g and b, and alpha where the background has not 1
+    double max_difference_without_ties = 0;   // the same over pixels where no tie loses or reorders anything
     friend bool operator==(const AuditResult&, const AuditResult&) = default;
 };
 

@@ -73,6 +73,8 @@ PixelAudit::PixelAudit(const Frame& frame, const Algorithm& algorithm)
 }
 
 void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTraces* traces, const AuditedPixel& pixel) {
+    if (pixel.at_opaque > 0) add(found_.opaque_ties, pixel.x, pixel.y);
+    found_.hidden_by_opaque_ties += pixel.at_opaque;
     const auto fragments = algorithm_.kills_alpha_zero ? with_alpha(visible) : visible;
     sort_by(&KeyedFragment::key, fragments, by_key_);
     const std::size_t keys = distinct_keys(by_key_);
@@ -133,6 +135,8 @@ void merge(AuditResult& all, const AuditResult& part) {
     all.lost_by_ties += part.lost_by_ties;
     add(all.ties, part.ties);
     add(all.misordered, part.misordered);
+    add(all.opaque_ties, part.opaque_ties);
+    all.hidden_by_opaque_ties += part.hidden_by_opaque_ties;
     all.max_difference = std::max(all.max_difference, part.max_difference);
     all.max_difference_without_ties = std::max(all.max_difference_without_ties, part.max_difference_without_ties);
 }

@@ -39,6 +39,7 @@ struct AuditedPixel {
     int x = 0, y = 0;
     std::array<double, 4> shown{};  // the picture's colour
     pipeline::Rgba background{};    // the opaque scene's
+    std::uint32_t at_opaque = 0;    // fragments at the very depth of the opaque surface
 };
 
 class PixelAudit {

@@ -23,12 +23,17 @@ class Filing {
     Filing(const Region& region, FragmentLists& fragment_lists)
         : opaque_{region.storage(region.opaque_depth()).depth(0) + fragment_lists.pixels.first},
           by_shader_z_{region.frame().key == DepthKey::shader_z},
+          far_{rasterizer::max_code(depth_format(region.storage(region.opaque_depth()).format()))},
           fragment_lists_{fragment_lists} {}
 
     void operator()(const FragmentBatch& in, const Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const std::uint32_t pixel = in.pixel[i];
-            if (out.alive[i] == 0 || !is_visible(in, i)) continue;
+            if (out.alive[i] == 0) continue;
+            if (!is_visible(in, i)) {
+                fragment_lists_.at_opaque[pixel] += lies_on_surface(in, i) ? 1 : 0;
+                continue;
+            }
             fragment_lists_.fragments[fragment_lists_.end[pixel]++] = {
                 by_shader_z_ ? ordered_code(in.shader_z[i]) : in.code[i],
                 in.exact_code[i],
@@ -45,8 +50,15 @@ class Filing {
         return by_shader_z_ ? in.shader_z[i] < std::bit_cast<float>(opaque) : in.code[i] < opaque;
     }
 
+    // A surface's depth is nearer than the far end: LESS let it pass.
+    [[nodiscard]] bool lies_on_surface(const FragmentBatch& in, std::size_t i) const {
+        const std::uint32_t opaque = opaque_[in.pixel[i]];
+        return opaque != far_ && (by_shader_z_ ? in.shader_z[i] == std::bit_cast<float>(opaque) : in.code[i] == opaque);
+    }
+
     const std::uint32_t* opaque_;  // of the range's first pixel
     bool by_shader_z_;
+    std::uint32_t far_;  // the code of a pixel without an opaque surface
     FragmentLists& fragment_lists_;
 };
 
@@ -96,6 +108,7 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
         fragments += coverage[pixels.first + p];
     }
     fragment_lists.end = fragment_lists.start;
+    fragment_lists.at_opaque.assign(pixels.size(), 0);
     if (fragment_lists.fragments.size() < fragments) {
         fragment_lists.fragments = {};  // so that the old ones are gone before there are new ones
         fragment_lists.fragments.resize(fragments);

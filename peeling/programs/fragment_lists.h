@@ -45,6 +45,8 @@ struct FragmentLists {
     PixelRange pixels;
     std::vector<std::size_t> start, end;   // of each pixel of the range, in `fragments`
     std::vector<KeyedFragment> fragments;  // at least as many as there are
+    std::vector<std::uint32_t>
+        at_opaque;  // of each pixel of the range: fragments that LESS hides behind a surface of the same key
     // `pixel` counts in the region.
     [[nodiscard]] std::span<const KeyedFragment> of(std::uint32_t pixel) const noexcept {
         const std::size_t p = pixel - pixels.first;

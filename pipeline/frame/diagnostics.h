@@ -16,12 +16,14 @@ enum class Fault : std::uint8_t {
     merged_ties,          // equal depths met in one layer: colours mixed or fragments lost
     depth_quantized,      // a program had to quantise its z like the buffer before comparing
     non_finite_vertices,  // triangles dropped for NaN or infinite coordinates
-    count_limit,      // a count in the stencil buffer reached what its pass allows: more iterations, no wrong picture
-    equal_at_bound,   // fragments of equal depth at the bound of a peel
-    buffer_overflow,  // more fragments at a pixel than its k entries can hold or order
-    as_published,     // a listing as printed lost, repeated or misplaced fragments
-    out_of_order,     // what an algorithm takes for sorted is not
-    unlike_depths,    // layers lost or repeated because the compared depths are not the stored ones
+    count_limit,        // a count in the stencil buffer reached what its pass allows: more iterations, no wrong picture
+    equal_at_bound,     // fragments of equal depth at the bound of a peel
+    buffer_overflow,    // more fragments at a pixel than its k entries can hold or order
+    as_published,       // a listing as printed lost, repeated or misplaced fragments
+    out_of_order,       // what an algorithm takes for sorted is not
+    ties_with_opaque,   // fragments at the very depth of an opaque surface: hidden, where LEQUAL would show them
+    non_finite_target,  // a target came to hold infinity or NaN
+    unlike_depths,      // layers lost or repeated because the compared depths are not the stored ones
     emulator_extension,  // a feature no real device had (STRATA_depth_units ...)
 };
 
@@ -40,6 +42,8 @@ enum class Fault : std::uint8_t {
         case Fault::buffer_overflow: return "buffer_overflow";
         case Fault::as_published: return "as_published";
         case Fault::out_of_order: return "out_of_order";
+        case Fault::ties_with_opaque: return "ties_with_opaque";
+        case Fault::non_finite_target: return "non_finite_target";
         case Fault::unlike_depths: return "unlike_depths";
         case Fault::emulator_extension: return "emulator_extension";
     }

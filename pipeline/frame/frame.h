@@ -49,8 +49,9 @@ struct Frame {
     bool trace = false;
     std::uint64_t trace_bytes = ~std::uint64_t{0};  // what a region's trace may take (pipeline/frame/trace.h)
     std::uint64_t list_bytes =
-        ~std::uint64_t{0};                // what an algorithm without a machine may keep of a region's fragments
-    bool nearest_depth = false;           // also make the frame's Z
+        ~std::uint64_t{0};        // what an algorithm without a machine may keep of a region's fragments
+    bool checks_targets = false;  // report infinity and NaN in any colour target, not in the published one alone
+    bool nearest_depth = false;   // also make the frame's Z
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept;  // of its viewport

@@ -156,6 +156,7 @@ class FrameRun {
         books.passes_before = passes_before_;
         Region region{frame_, places_[r], books, instruments_, &scratch_};
         body_(region);
+        region.report_non_finite(books.published);
         RegionShortcuts shortcuts{region};
         shortcuts.write_image(books.published, result_.color);
         RegionRun& kept = regions_[r];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 #include "pipeline/device/check.h"
@@ -91,6 +92,8 @@ void Region::clear(Target given, const ClearValue& given_value, std::uint8_t sam
     TargetStorage& storage = at(target);
     const Format format = storage.format();
     if (is_color(format)) {
+        for (int c = 0; c < info(format).channels; ++c)
+            if (!std::isfinite(value.color[c])) cleared_non_finite_.push_back(target.id);
         storage.fill(color_codes(format, profile().color_rounding(), value.color), sample_mask);
     } else if (is_depth(format)) {
         // D32F is cleared as it is on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere (formats.md 5.5).

@@ -69,7 +69,11 @@ class Region {
     void call(Target target, std::string_view name) const {
         if (const Alteration* a = instruments_.alteration; a != nullptr && a->named) a->named(target, name);
         if (const Observer* o = instruments_.observer; o != nullptr && o->named) o->named(target, name);
+        if (frame_.checks_targets) names_.emplace_back(target.id, name);
     }
+    // Reports colour targets that hold infinity or NaN and were not cleared to it: all of them where Frame::checks_targets, else what is
+    // published. For the executor, when the body has ended.
+    void report_non_finite(Target published);
     [[nodiscard]] int target_count() const noexcept { return static_cast<int>(storages_.size()); }
 
     // Clears fill the region: scissor and write masks belong to passes.
@@ -312,7 +316,10 @@ class Region {
     std::optional<TargetStorage> idle_stencil_;
     std::unique_ptr<TileCache> cache_;         // of profiles with BlendStorage::cached_tiles
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
-    bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
+    mutable std::vector<std::pair<int, std::string>>
+        names_;                             // where Frame::checks_targets: of targets by their numbers
+    std::vector<int> cleared_non_finite_;   // targets that were
+    bool opaque_depth_is_cleared_ = false;  // 1 everywhere, as before the first opaque triangle
     enum class Source : std::uint8_t { rasterizer, recording, record };
     Source source_ = Source::rasterizer;
     std::size_t wave_ = 0;  // of the batch that is visited

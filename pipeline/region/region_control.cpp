@@ -1,4 +1,5 @@
-// pipeline/region/region_control.cpp - how a region iterates, asks and stops. The frame's side of it is executor.cpp.
+// pipeline/region/region_control.cpp - how a region iterates, asks, stops and reports. The frame's side of it is executor.cpp.
+#include <algorithm>
 #include <cassert>
 
 #include "pipeline/frame/verdict.h"
@@ -80,6 +81,53 @@ void Region::report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel
 
 void Region::report(Fault fault, std::string detail) {
     merge(books_.diagnostics, {fault, 0, -1, -1, std::move(detail)});
+}
+
+namespace {
+
+// Whether a word holds a channel whose exponent is all ones.
+bool holds_non_finite(Word word, ChannelType type) noexcept {
+    constexpr Word single = 0x7f800000u, half = 0x7c00u;
+    if (type == ChannelType::single) return (word & single) == single;
+    return (word & half) == half || (word >> 16 & half) == half;
+}
+
+struct FoundPixels {
+    std::uint64_t pixels = 0;
+    std::uint32_t first = 0;
+};
+
+FoundPixels non_finite_pixels(const TargetStorage& storage, ChannelType type) {
+    FoundPixels found;
+    for (std::uint32_t pixel = 0; pixel < storage.pixels(); ++pixel) {
+        bool is_found = false;
+        for (int sample = 0; sample < storage.samples(); ++sample) {
+            const Texels texels = storage.texels(sample);
+            for (std::size_t word = 0; word < texels.words(); ++word)
+                is_found |= holds_non_finite(texels.plane(word).words[pixel], type);
+        }
+        if (is_found && found.pixels++ == 0) found.first = pixel;
+    }
+    return found;
+}
+
+}  // namespace
+
+void Region::report_non_finite(Target published) {
+    for (int id = 0; id < target_count(); ++id) {
+        const bool is_opaque = id == opaque_depth_.id || id == opaque_color_.id;
+        if (frame_.checks_targets ? is_opaque : id != published.id) continue;
+        const TargetStorage& storage = storages_[static_cast<std::size_t>(id)];
+        const ChannelType type = info(storage.format()).type;
+        if (type != ChannelType::half && type != ChannelType::single) continue;
+        if (std::ranges::find(cleared_non_finite_, id) != cleared_non_finite_.end()) continue;
+        const FoundPixels found = non_finite_pixels(storage, type);
+        const auto named = std::ranges::find(names_, id, &std::pair<int, std::string>::first);
+        const std::string name = named != names_.end() ? named->second
+                                 : id == published.id  ? "result"
+                                                       : std::to_string(id);
+        report(Fault::non_finite_target, found.pixels, found.first, "target " + name + " holds infinity or NaN");
+    }
 }
 
 }  // namespace strata::pipeline

@@ -121,7 +121,8 @@ void move_back(Count& count) {
 void forgive(peeling::RenderResult& found, const peeling::RenderResult& expected, Stays stays) {
     if (stays == Stays::everything) return;
     if (stays == Stays::but_places) {
-        for (peeling::PixelCount* const count : {&found.audit.ties, &found.audit.misordered}) move_back(*count);
+        for (peeling::PixelCount* const count : {&found.audit.ties, &found.audit.misordered, &found.audit.opaque_ties})
+            move_back(*count);
         for (pipeline::Diagnostic& one : found.frame.diagnostics) move_back(one);
         return;
     }

@@ -1,5 +1,6 @@
 // Model: planes one behind the other, whose number at a pixel is a matter of counting; colours worked out by hand from the legend.
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
@@ -47,6 +48,25 @@ TEST_CASE("a map of ties counts the fragments at a depth that another one of the
     CHECK(legend(folder, "planes:count=4", "ties", "dual") == "ties: black is 0, white is 0\n");
     CHECK(color_at(map_image(folder, "hard:case=coincident", "ties", "dual"), 16, 12) == 0xffffff);
     CHECK(color_at(map_image(folder, "planes:count=4", "ties", "dual"), 16, 12) == 0);
+}
+
+// One triangle, drawn opaque and, in the same place, blended.
+TEST_CASE("a map of ties with opaque surfaces counts the fragments at the very depth of the one behind them") {
+    const Folder folder;
+    std::ofstream(folder / "coplanar.gltf")
+        << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0},{"attributes":{"POSITION":0},"material":1}]}],
+"materials":[{"doubleSided":true},{"doubleSided":true,"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
+    CHECK(legend(folder, "coplanar.gltf", "opaque-ties", "dual") == "opaque-ties: black is 0, white is 1\n");
+    CHECK(legend(folder, "planes:count=4", "opaque-ties", "dual") == "opaque-ties: black is 0, white is 0\n");
+    const auto image = map_image(folder, "coplanar.gltf", "opaque-ties", "dual");
+    CHECK(color_at(image, 16, 12) == 0xffffff);
+    CHECK(color_at(image, 0, 0) == 0);
+    const Ended told = run_strata(folder, {"render", "coplanar.gltf", "--size", "32x24", "--algorithm", "dual"});
+    CHECK_THAT(told.out + told.err, Catch::Contains("LESS hides them, LEQUAL would show them"));
 }
 
 TEST_CASE("a map of the error is black for the exact picture, and shows where a wrong one is wrong") {

@@ -31,6 +31,7 @@ const std::vector<std::string> row_keys{"algorithm",
                                         "digest",
                                         "order_errors",
                                         "lost_by_ties",
+                                        "hidden_by_opaque_ties",
                                         "max_difference_from_a_buffer",
                                         "max_difference_without_ties",
                                         "seconds"};
@@ -51,7 +52,7 @@ void check_types(const ordered_json& row) {
     CHECK(keys_of(row) == row_keys);
     for (const char* key : {"algorithm", "profile", "execution", "simd", "outcome"}) CHECK(row[key].is_string());
     for (const char* key : {"fragment_memory", "width", "height", "iterations", "geometry_passes", "fullscreen_passes",
-                            "layers_max", "fragments_max", "lost_by_ties"}) {
+                            "layers_max", "fragments_max", "lost_by_ties", "hidden_by_opaque_ties"}) {
         INFO(key);
         CHECK(is_count(row[key]));
     }
@@ -147,7 +148,7 @@ TEST_CASE("without the audit its statistics are null and the others stay") {
     with_flag.emplace_back("--no-audit");
     auto bare = rows_of(folder, with_flag)[0];
     CHECK(keys_of(bare) == row_keys);
-    for (const char* key : {"layers_max", "fragments_max", "order_errors", "lost_by_ties",
+    for (const char* key : {"layers_max", "fragments_max", "order_errors", "lost_by_ties", "hidden_by_opaque_ties",
                             "max_difference_from_a_buffer", "max_difference_without_ties"}) {
         INFO(key);
         CHECK(bare[key].is_null());

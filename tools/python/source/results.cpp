@@ -31,6 +31,7 @@ py::dict audit_of(const AuditResult& audit) {
     all["fragments_max"] = audit.fragments_max;
     all["order_errors"] = audit.order_errors;
     all["lost_by_ties"] = audit.lost_by_ties;
+    all["hidden_by_opaque_ties"] = audit.hidden_by_opaque_ties;
     all["max_difference"] = audit.max_difference;
     return all;
 }

@@ -43,6 +43,8 @@ bool misplaces(Fault fault) noexcept {
         case Fault::non_finite_vertices:
         case Fault::count_limit:
         case Fault::equal_at_bound:
+        case Fault::ties_with_opaque:
+        case Fault::non_finite_target:
         case Fault::emulator_extension: return false;
     }
     return false;  // unreachable: the enum is closed

@@ -45,6 +45,17 @@ std::vector<double> ties(const Columns& columns) {
     return numbers;
 }
 
+// Fragments at the very depth, by the algorithm's own code, of the opaque surface of their pixel.
+std::vector<double> opaque_ties(const RunOptions& options, const Finished& finished) {
+    const peeling::FrameFragments found = finished.renderer.fragments(finished.algorithm);
+    const bool is_reversed = options.render.raster.depth_order == rasterizer::DepthOrder::greater;
+    const std::uint32_t far = is_reversed ? 0 : rasterizer::max_code(finished.renderer.depth_format());
+    std::vector<double> numbers(found.opaque.size());
+    for (const pipeline::CapturedFragment& f : found.all)
+        if (f.code == found.opaque[f.pixel] && f.code != far) ++numbers[f.pixel];
+    return numbers;
+}
+
 std::vector<double> errors(const RunOptions& options, const Finished& finished) {
     const peeling::RenderResult exact = finished.renderer.render(*peeling::find_algorithm("a_buffer"));
     if (exact.refusal) throw pipeline::Refused{finished.session.profile, *exact.refusal};
@@ -64,6 +75,7 @@ std::vector<double> numbers_of(Map map, const RunOptions& options, const Finishe
     switch (map) {
         case Map::depth_complexity: return complexity(columns_of_frame(options, finished));
         case Map::ties: return ties(columns_of_frame(options, finished));
+        case Map::opaque_ties: return opaque_ties(options, finished);
         case Map::error: return errors(options, finished);
     }
     return {};  // unreachable: the enum is closed
@@ -94,8 +106,10 @@ std::string legend_of(Map map, const MapPicture& picture) {
 }
 
 const std::vector<Choice<Map>>& map_names() {
-    static const std::vector<Choice<Map>> names{
-        {"depth-complexity", Map::depth_complexity}, {"ties", Map::ties}, {"error", Map::error}};
+    static const std::vector<Choice<Map>> names{{"depth-complexity", Map::depth_complexity},
+                                                {"ties", Map::ties},
+                                                {"opaque-ties", Map::opaque_ties},
+                                                {"error", Map::error}};
     return names;
 }
 

@@ -131,6 +131,7 @@ ordered_json to_row(const RunSummary& run, const RunContext& context) {
     row["digest"] = {{"color", color}, {"depth", depth}};
     row["order_errors"] = has_order ? audited(audit.order_errors.value_or(0)) : ordered_json(nullptr);
     row["lost_by_ties"] = audited(audit.lost_by_ties);
+    row["hidden_by_opaque_ties"] = audited(audit.hidden_by_opaque_ties);
     row["max_difference_from_a_buffer"] = audited(audit.max_difference);
     row["max_difference_without_ties"] = audited(audit.max_difference_without_ties);
     row["seconds"] = {{"geometry", result.seconds.geometry},
