@@ -49,6 +49,11 @@ class JsonWriter {
         else
             object[key] = nullptr;
     }
+    // Left out, or an object.
+    template <class T, class Fields>
+    void nested_if_any(const std::string& key, const std::optional<T>& value, Fields fields) {
+        if (value) nested(key, *value, fields);
+    }
     template <class T, class Fields>
     void nested(const std::string& key, const T& value, Fields fields) {
         JsonWriter inner;
@@ -99,6 +104,11 @@ class JsonReader {
         if (is_null(key)) return value.reset();
         value.emplace();
         fill(*this, key, *value);
+    }
+    template <class T, class Fields>
+    void nested_if_any(const std::string& key, std::optional<T>& value, Fields fields) {
+        if (!value_.contains(key)) return value.reset();
+        nested(key, value.emplace(), fields);
     }
     template <class T, class Fields>
     void nested(const std::string& key, T& value, Fields fields) {

@@ -82,6 +82,27 @@ TEST_CASE("a picture from the lower left corner is memory with its rows turned r
         }
 }
 
+TEST_CASE(
+    "a scissor counts from the picture's upper left corner, whatever the origin, and keeps what lies outside of it") {
+    Both all = both("geforce8", 7);
+    all.options.raster.scissor = strata::rasterizer::Rect{3, 2, 20, 11};
+    all.turned_options.raster.scissor = strata::rasterizer::Rect{3, height - 11, 20, height - 2};
+    const Algorithm& algorithm = *find_algorithm("dual");
+    Renderer below{all.scene.list, all.scene.view, all.below, all.options};
+    Renderer above{all.scene.list, all.turned, all.above, all.turned_options};
+    const Image shown = below.render(algorithm).frame.color;
+    CHECK(shown == turned_over(above.render(algorithm).frame.color));
+    int drawn = 0, strays = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const bool is_inside = x >= 3 && x < 20 && y >= 2 && y < 11;
+            const bool is_drawn = shown.codes[shown.index(x, y, 0)] + shown.codes[shown.index(x, y, 1)] > 0;
+            (is_inside ? drawn : strays) += is_drawn ? 1 : 0;
+        }
+    CHECK(drawn > 50);
+    CHECK(strays == 0);
+}
+
 TEST_CASE("pixels that are named from the lower left corner are those of the picture") {
     const Both all = both("geforce8", 3);
     Renderer below{all.scene.list, all.scene.view, all.below, all.options};

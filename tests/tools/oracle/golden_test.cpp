@@ -145,6 +145,7 @@ TEST_CASE("a pack's picture, layers and passes are the usual run's, for every al
              o.alpha = 0.3f;
              o.background = {0.1f, 0.2f, 0.3f, 1};
              o.termination = {.rule = pipeline::TerminationRule::fixed, .passes = 2};
+             o.raster.scissor = rasterizer::Rect{1, 2, 9, 7};
          }},
         {"ideal",
          [](peeling::RenderOptions& o) {

@@ -67,6 +67,12 @@ void fields(Io& io, O& o) {
         inner.real("factor", offset.factor);
         inner.real("units", offset.units);
     });
+    io.nested_if_any("scissor", raster.scissor, [](auto& inner, auto& rect) {
+        inner.whole("left", rect.x0, 0, most_pixels_a_side);
+        inner.whole("top", rect.y0, 0, most_pixels_a_side);
+        inner.whole("right", rect.x1, 0, most_pixels_a_side);
+        inner.whole("bottom", rect.y1, 0, most_pixels_a_side);
+    });
     io.choice("y_direction", raster.y_direction);
     io.choice("cull", raster.cull);
     io.choice("front_face", raster.front_face);
@@ -80,7 +86,6 @@ nlohmann::ordered_json state_json(const RenderOptions& options) {
     if (options.second_list != nullptr) refuse("second_list");
     if (options.second_depth_clamp) refuse("second_depth_clamp");
     if (options.window_origin != std::array<int, 2>{}) refuse("window_origin");
-    if (options.raster.scissor) refuse("raster.scissor");
     if (options.raster.clip_plane_count != 0) refuse("raster.clip_planes");
     if (options.raster.window_positions) refuse("raster.window_positions");
     JsonWriter io;

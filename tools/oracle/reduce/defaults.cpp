@@ -51,6 +51,7 @@ constexpr Simplification all_simplifications[] = {
     {"the background", [](Golden& g) { return becomes(g.options.background, RenderOptions{}.background); }},
     {"the order of triangles", [](Golden& g) { return becomes(g.options.sort, {}); }},
     {"the polygon offset", [](Golden& g) { return becomes(g.options.raster.polygon_offset, {}); }},
+    {"the scissor", [](Golden& g) { return becomes(g.options.raster.scissor, {}); }},
     {"depth clamp", [](Golden& g) { return becomes(g.options.raster.depth_clamp, false); }},
     {"the depth format", [](Golden& g) { return becomes(g.options.depth, {}); }},
     {"the depth path", [](Golden& g) { return becomes(g.options.depth_path, {}); }},

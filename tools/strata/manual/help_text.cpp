@@ -30,7 +30,7 @@ const std::vector<Group>& groups() {
         {"Depths and positions, rarely needed",
          Shown::all,
          {"depth-path", "reference-path", "compare-epsilon", "no-quantize-reference", "vertex-path", "polygon-offset",
-          "depth-order", "clip-depth", "depth-range"}},
+          "depth-order", "clip-depth", "depth-range", "scissor"}},
         {"Algorithms, rarely needed",
          Shown::all,
          {"color-format", "average-count", "termination", "max-passes", "formulation", "sorted", "sort", "mistake"}},

@@ -104,6 +104,10 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
     const rasterizer::RasterState& raster = render.raster;
     if (raster.depth_near != 0 || raster.depth_far != 1)
         add(words, "--depth-range", fmt::format("{},{}", raster.depth_near, raster.depth_far));
+    if (raster.scissor)
+        add(words, "--scissor",
+            fmt::format("{},{},{},{}", raster.scissor->x0, raster.scissor->y0, raster.scissor->width(),
+                        raster.scissor->height()));
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));

@@ -205,6 +205,11 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
     add_choice(app, options.raster.clip_depth, "--clip-depth", clip_depths,
                "where z of clip space ends (default minus-one-to-one; zero-to-one: glClipControl, Direct3D)");
     add_depth_range(app, options.raster);
+    add_option(
+        app, options.raster.scissor,
+        {"--scissor", "X,Y,W,H", "glScissor: draw these pixels of the picture alone, counted from its top left corner",
+         "four whole numbers such as 240,180,160,120, the last two above 0"},
+        [](std::string_view text) { return to_region(text); });
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
     add_choice(app, options.average_count, "--average-count", count_formats,

@@ -17,6 +17,18 @@ std::optional<float> to_share(std::string_view text) {
     return value;
 }
 
+// X,Y,W,H.
+std::optional<rasterizer::Rect> to_region(std::string_view text) {
+    std::vector<int> numbers;
+    for (const std::string& part : split(text, ',')) {
+        const auto number = to_count(part);
+        if (!number || *number > 16384) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) return std::nullopt;
+    return rasterizer::Rect{numbers[0], numbers[1], numbers[0] + numbers[2], numbers[1] + numbers[3]};
+}
+
 std::optional<pipeline::Rgba> to_background(std::string_view text) {
     if (text == "none") return pipeline::Rgba{0, 0, 0, 0};
     const auto parts = split(text, ',');

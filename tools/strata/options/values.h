@@ -6,6 +6,7 @@
 
 #include "pipeline/stages/depth_compare.h"
 #include "pipeline/vertices/draw_list.h"
+#include "rasterizer/rules/raster_state.h"
 
 namespace strata::peeling {
 struct VertexPaths;
@@ -24,6 +25,8 @@ struct Orbit {
 
 [[nodiscard]] std::optional<int> to_count(std::string_view text);    // from 0
 [[nodiscard]] std::optional<float> to_share(std::string_view text);  // from 0 to 1
+// X,Y,W,H: a rectangle of pixels from the top left corner; neither side is 0.
+[[nodiscard]] std::optional<rasterizer::Rect> to_region(std::string_view text);
 // R,G,B or R,G,B,A, each from 0 to 1, or "none": 0,0,0,0.
 [[nodiscard]] std::optional<pipeline::Rgba> to_background(std::string_view text);
 inline constexpr const char* background_expected =

@@ -25,18 +25,6 @@ struct ReportOptions {
     std::optional<rasterizer::Rect> region;
 };
 
-// X,Y,W,H.
-std::optional<rasterizer::Rect> to_region(std::string_view text) {
-    std::vector<int> numbers;
-    for (const std::string& part : split(text, ',')) {
-        const auto number = to_count(part);
-        if (!number || *number > 16384) return std::nullopt;
-        numbers.push_back(*number);
-    }
-    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) return std::nullopt;
-    return rasterizer::Rect{numbers[0], numbers[1], numbers[0] + numbers[2], numbers[1] + numbers[3]};
-}
-
 // What is asked for, which the frame holds; else all of it.
 rasterizer::Rect region_of(const ReportOptions& options) {
     const int width = options.run.render.width, height = options.run.render.height;
