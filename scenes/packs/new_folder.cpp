@@ -6,10 +6,15 @@
 
 namespace strata::scenes {
 
-NewFolder::NewFolder(const std::string& path) : path_{path} {
+void check_new_folder(const std::string& path) {
     std::error_code error;
-    if (std::filesystem::exists(path_, error) && !std::filesystem::is_empty(path_, error))
+    if (std::filesystem::exists(path, error) &&
+        !(std::filesystem::is_directory(path, error) && std::filesystem::is_empty(path, error)))
         throw InputError(path, "is not empty; it has to be a new folder or an empty one");
+}
+
+NewFolder::NewFolder(const std::string& path) : path_{path} {
+    check_new_folder(path);
     // An absolute path: the name stays the same folder's.
     slot_ = enter_unfinished_folder(std::filesystem::absolute(path_).string());
     try {

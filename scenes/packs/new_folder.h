@@ -8,9 +8,12 @@
 
 namespace strata::scenes {
 
+// InputError if there is something at the path that is no empty folder: before the work whose result goes there.
+void check_new_folder(const std::string& path);
+
 class NewFolder {
   public:
-    // InputError if something is there already.
+    // InputError as check_new_folder.
     explicit NewFolder(const std::string& path);
     NewFolder(const NewFolder&) = delete;
     NewFolder& operator=(const NewFolder&) = delete;

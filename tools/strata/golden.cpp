@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "peeling/render.h"
+#include "scenes/packs/new_folder.h"
 #include "tools/oracle/mistakes/suite_packs.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
@@ -107,6 +108,7 @@ int golden(GoldenOptions& options) {
     if (options.run.scene.empty() && !options.suite)
         throw CLI::ValidationError("SCENE is missing; --check PACK needs none");
     if (options.run.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
+    scenes::check_new_folder(options.run.output);
     if (options.suite) return write_suite(options);
     complete(options.run);
     const oracle::Golden made = golden_of(options.run);

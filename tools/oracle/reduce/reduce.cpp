@@ -20,6 +20,33 @@ using rasterizer::Rect;
 constexpr std::size_t most_pixels = 8;  // that windows are laid around
 constexpr int largest_window = 64;      // pixels a side
 
+// Codes alone: what the search allows in any frame.
+Tolerances without_budgets(Tolerances tolerances) {
+    for (Budget* budget : {&tolerances.coverage, &tolerances.background, &tolerances.layers, &tolerances.depth,
+                           &tolerances.color, &tolerances.pixels})
+        *budget = {};
+    return tolerances;
+}
+
+// The window's pixels of every target.
+void keep(Picture& picture, const Rect& window) {
+    for (Target& target : picture.targets) {
+        const auto channels = static_cast<std::size_t>(target.channels);
+        const std::size_t row = static_cast<std::size_t>(target.width) * channels,
+                          kept = static_cast<std::size_t>(window.width()) * channels;
+        std::vector<std::uint32_t> codes;
+        for (int y = window.y0; y < window.y1; ++y) {
+            const std::size_t first =
+                static_cast<std::size_t>(y) * row + static_cast<std::size_t>(window.x0) * channels;
+            codes.insert(codes.end(), target.codes.begin() + static_cast<std::ptrdiff_t>(first),
+                         target.codes.begin() + static_cast<std::ptrdiff_t>(first + kept));
+        }
+        target.codes = std::move(codes);
+        target.width = window.width();
+        target.height = window.height();
+    }
+}
+
 // A scene of the search: triangles by their names in the whole scene, and a window of the whole frame.
 struct Cut {
     std::vector<TriangleName> triangles{};
@@ -28,22 +55,26 @@ struct Cut {
 
 class Reducer {
   public:
-    Reducer(const Golden& scene, const Candidate& candidate, const std::function<void(const Golden&)>& on_run)
-        : whole_{scene}, candidate_{candidate}, on_run_{on_run} {
+    Reducer(const Golden& scene, const Candidate& candidate, const std::function<void(const Golden&)>& on_run,
+            const ReduceRules& rules)
+        : whole_{scene}, candidate_{candidate}, on_run_{on_run}, frame_{rules.frame}, tolerances_{rules.tolerances} {
         whole_.options.audit = whole_.options.keep_layers = whole_.options.nearest_depth = false;
         best_ = {triangles_of(whole_.scene.list), {0, 0, whole_.options.width, whole_.options.height}};
+        if (frame_ == Frame::whole && whole_.options.raster.scissor)
+            best_.window = intersection(best_.window, *whole_.options.raster.scissor);
     }
 
     [[nodiscard]] std::optional<Reduction> run() {
         Reduction result;
         result.triangles_before = best_.triangles.size();
-        result.width_before = best_.window.x1;
-        result.height_before = best_.window.y1;
-        const auto drawn = comparison_of(whole_);
+        result.width_before = whole_.options.width;
+        result.height_before = whole_.options.height;
+        const auto drawn = comparison_of(whole_, best_.window);
         if (!drawn) throw InputError("candidate", "picture", "one of the scene's size", "none");
-        if (drawn->equal) return std::nullopt;
-        const auto most = std::ranges::max_element(drawn->kinds, {}, &KindReport::pixels);
+        if (drawn->accepted) return std::nullopt;
+        const auto most = std::ranges::max_element(drawn->kinds, {}, &KindReport::beyond);
         result.kind = kind_ = most->kind;
+        tolerances_ = without_budgets(tolerances_);
         find_window(*drawn);
         for (bool is_smaller = true; is_smaller;) {
             is_smaller = leave_out_triangles();
@@ -52,7 +83,8 @@ class Reducer {
         }
         result.scene = scene_of(best_);
         result.triangles = best_.triangles.size();
-        result.comparison = *difference(result.scene);
+        result.window = frame_ == Frame::whole ? best_.window : Rect{0, 0, best_.window.width(), best_.window.height()};
+        result.comparison = *difference(best_);
         result.runs = runs_;
         result.undrawn = undrawn_;
         return result;
@@ -62,39 +94,54 @@ class Reducer {
     [[nodiscard]] Golden scene_of(const Cut& cut) const {
         Golden scene = whole_;
         scene.scene.list = oracle::cut(whole_.scene.list, cut.triangles);
-        scene.scene.own_view = through(*whole_.scene.own_view, whole_.options.width, whole_.options.height, cut.window);
+        auto& scissor = scene.options.raster.scissor;
+        const Rect frame{0, 0, whole_.options.width, whole_.options.height};
+        if (frame_ == Frame::whole) {
+            scissor = cut.window == frame ? std::nullopt : std::optional(cut.window);
+            return scene;
+        }
+        scene.scene.own_view = through(*whole_.scene.own_view, frame.x1, frame.y1, cut.window);
         scene.options.width = cut.window.width();
         scene.options.height = cut.window.height();
+        if (scissor) scissor = moved(intersection(*scissor, cut.window), cut.window);
         return scene;
     }
 
+    // In a frame that begins at the window's corner.
+    [[nodiscard]] static Rect moved(const Rect& rect, const Rect& window) {
+        return {rect.x0 - window.x0, rect.y0 - window.y0, rect.x1 - window.x0, rect.y1 - window.y0};
+    }
+
     // Nothing where the candidate does not draw it.
-    [[nodiscard]] std::optional<Comparison> comparison_of(const Golden& scene) {
+    [[nodiscard]] std::optional<Comparison> comparison_of(const Golden& scene, const Rect& window) {
         ++runs_;
         if (on_run_) on_run_(scene);
-        const Picture right = right_picture(scene);
-        const auto found = candidate_(scene);
+        Picture right = right_picture(scene);
+        auto found = candidate_(scene);
         const bool is_drawn = found && !found->targets.empty() && found->targets[0].width == scene.options.width &&
                               found->targets[0].height == scene.options.height;
-        if (is_drawn) return compare(right, *found, {}, background_of(scene));
-        ++undrawn_;
-        return std::nullopt;
+        if (!is_drawn) {
+            ++undrawn_;
+            return std::nullopt;
+        }
+        if (frame_ == Frame::whole)
+            for (Picture* picture : {&right, &*found}) keep(*picture, window);
+        return compare(right, *found, tolerances_, background_of(scene));
     }
 
     // Nothing where the candidate draws it right, wrong in another kind, or not at all.
-    [[nodiscard]] std::optional<Comparison> difference(const Golden& scene) {
+    [[nodiscard]] std::optional<Comparison> difference(const Cut& cut) {
         try {
-            auto comparison = comparison_of(scene);
-            if (!comparison ||
-                std::ranges::find(comparison->kinds, kind_, &KindReport::kind) == comparison->kinds.end())
-                return std::nullopt;
+            auto comparison = comparison_of(scene_of(cut), cut.window);
+            const auto is_failure = [&](const KindReport& found) { return found.kind == kind_ && found.beyond > 0; };
+            if (!comparison || std::ranges::none_of(comparison->kinds, is_failure)) return std::nullopt;
             return comparison;
         } catch (const pipeline::Refused&) {
             return std::nullopt;
         }
     }
 
-    [[nodiscard]] bool fails(const Cut& cut) { return !cut.triangles.empty() && difference(scene_of(cut)).has_value(); }
+    [[nodiscard]] bool fails(const Cut& cut) { return !cut.triangles.empty() && difference(cut).has_value(); }
 
     // The triangles that have a fragment in the window, whatever hides it, in their order.
     [[nodiscard]] std::vector<TriangleName> covering(const Rect& window) const {
@@ -115,12 +162,12 @@ class Reducer {
     void find_window(const Comparison& comparison) {
         std::vector<std::size_t> differing;
         for (std::size_t i = 0; i < comparison.kind_of.size(); ++i)
-            if (comparison.kind_of[i] == kind_) differing.push_back(i);
+            if (comparison.kind_of[i] == kind_ && comparison.is_beyond[i]) differing.push_back(i);
         const std::size_t step = std::max<std::size_t>(1, differing.size() / most_pixels);
         for (int side = 1; side <= largest_window; side *= 2)
             for (std::size_t i = step / 2; i < differing.size(); i += step) {
-                const int x = static_cast<int>(differing[i]) % comparison.width,
-                          y = static_cast<int>(differing[i]) / comparison.width;
+                const int x = best_.window.x0 + static_cast<int>(differing[i]) % comparison.width,
+                          y = best_.window.y0 + static_cast<int>(differing[i]) / comparison.width;
                 const Rect around{x - (side - 1) / 2, y - (side - 1) / 2, x + side / 2 + 1, y + side / 2 + 1};
                 const Rect window = intersection(around, best_.window);
                 Cut tried{{}, window};
@@ -204,6 +251,8 @@ class Reducer {
     Golden whole_;
     const Candidate& candidate_;
     const std::function<void(const Golden&)>& on_run_;
+    Frame frame_;
+    Tolerances tolerances_;
     Cut best_;
     Kind kind_ = Kind::none;
     int runs_ = 0, undrawn_ = 0;
@@ -230,6 +279,7 @@ Background background_of(const Golden& scene) {
     Golden empty = scene;
     empty.scene.list = cut(scene.scene.list, {});
     empty.options.width = empty.options.height = 1;
+    empty.options.raster.scissor.reset();
     const Target color = right_picture(empty).targets[0];
     Background background;
     for (int c = 0; c < color.channels; ++c) background.push_back(color.value_at(0, c));
@@ -237,18 +287,21 @@ Background background_of(const Golden& scene) {
 }
 
 std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
-                                const std::function<void(const Golden&)>& on_run) {
-    return Reducer{scene, candidate, on_run}.run();
+                                const std::function<void(const Golden&)>& on_run, const ReduceRules& rules) {
+    return Reducer{scene, candidate, on_run, rules}.run();
 }
 
 std::string Reduction::sentence() const {
-    std::string text = fmt::format("{} in a frame of {}x{} still differ{} in {}: {} of {} in {}x{}, after {} runs",
-                                   number_of(triangles, "triangle"), scene.options.width, scene.options.height,
+    const bool is_whole = window == Rect{0, 0, scene.options.width, scene.options.height};
+    const std::string of = is_whole ? "" : fmt::format("{}x{} pixels of ", window.width(), window.height());
+    std::string text = fmt::format("{} in {}a frame of {}x{} still differ{} in {}: {} of {} in {}x{}, after {} runs",
+                                   number_of(triangles, "triangle"), of, scene.options.width, scene.options.height,
                                    triangles == 1 ? "s" : "", number_of(comparison.differing, "pixel"), triangles,
                                    triangles_before, width_before, height_before, runs);
     const auto first = std::ranges::find(comparison.kinds, kind, &KindReport::kind);
     if (first != comparison.kinds.end())
-        text += fmt::format("; the first at {},{} ({})", first->first_x, first->first_y, name(kind));
+        text += fmt::format("; the first at {},{} ({})", window.x0 + first->first_x, window.y0 + first->first_y,
+                            name(kind));
     if (undrawn > 0) text += "; " + number_of(static_cast<std::size_t>(undrawn), "run") + " drew nothing";
     if (!defaults.empty()) text += "; not needed: " + fmt::format("{}", fmt::join(defaults, ", "));
     return text;

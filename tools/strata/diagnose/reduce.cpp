@@ -13,10 +13,12 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/unfinished_files.h"
+#include "scenes/packs/new_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/strata/command.h"
 #include "tools/strata/diagnose/shell_command.h"
 #include "tools/strata/messages.h"
+#include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/shell_words.h"
 #include "tools/strata/render/run.h"
@@ -27,9 +29,12 @@ namespace strata::tools {
 
 namespace {
 
+const std::vector<Choice<oracle::Frame>> frames{{"cut", oracle::Frame::cut}, {"whole", oracle::Frame::whole}};
+
 struct ReduceOptions {
     std::string pack, command, ending = ".exr", output, algorithm;
     std::optional<oracle::RawLayout> layout{};
+    oracle::ReduceRules rules{};
     double seconds = 600;  // of one run of the command
 };
 
@@ -120,6 +125,7 @@ int reduce(const ReduceOptions& options) {
     if (!options.ending.starts_with('.') || options.ending.find('/') != std::string::npos ||
         shell_word(options.ending) != options.ending)
         throw CLI::ValidationError("--picture", "expected an ending such as .exr, found '" + options.ending + "'");
+    scenes::check_new_folder(options.output);
     oracle::Golden scene = oracle::read_pack(options.pack);
     if (!options.algorithm.empty())
         std::erase_if(scene.algorithms, [&](const peeling::Algorithm* a) { return a->name != options.algorithm; });
@@ -138,10 +144,12 @@ int reduce(const ReduceOptions& options) {
                          tried.options.width, tried.options.height);
     };
     const auto found = oracle::reduce(
-        scene, [&](const oracle::Golden& tried) { return runner(tried); }, show);
+        scene, [&](const oracle::Golden& tried) { return runner(tried); }, show, options.rules);
     if (is_terminal && runs > 1) std::fprintf(stderr, "\r%40s\r", "");
     if (!found) {
-        print("right: the command draws " + options.pack + " as it should be; there is nothing to reduce\n");
+        const bool is_exact = options.rules.tolerances == oracle::Tolerances{};
+        print("right: the command draws " + options.pack + " as it should be" +
+              (is_exact ? "" : ", within the tolerance") + "; there is nothing to reduce\n");
         return 1;
     }
     oracle::write_pack(found->scene, options.output);
@@ -167,6 +175,12 @@ Command add_reduce(CLI::App& root) {
              {"--picture", "ENDING", "of {picture}: .exr, .png or .npy, or another one with --layout (default .exr)",
               "an ending"});
     add_layout_option(*app, options->layout);
+    add_tolerance_option(*app, options->rules.tolerances);
+    add_channels_option(*app, options->rules.tolerances);
+    add_choice(
+        *app, options->rules.frame, "--frame", frames,
+        "a smaller window becomes a frame of its own (cut), or the frame stays whole and a scissor cuts it: for what "
+        "shows at that size alone (default cut)");
     add_option(*app, options->seconds,
                {"--timeout", "SECONDS", "how long one run of the command may take; then it is killed (default 600)",
                 "a number of seconds above 0, at most 86400"},
@@ -178,10 +192,10 @@ Command add_reduce(CLI::App& root) {
         "A command that ends with another exit status than 0, leaves no picture or takes longer than --timeout is an "
         "error on\n"
         "PACK itself; a smaller scene on which it does so is not taken. The kind of the failure (strata compare) "
-        "stays. The command\n"
-        "is a process group of its own, which is killed with all that it started when the run or strata ends; it reads "
-        "nothing, and\n"
-        "what it prints is not shown.\n"
+        "stays. Codes of\n"
+        "--tolerance count in every scene, its pixels in PACK alone. The command is a process group of its own, which "
+        "is killed with all\n"
+        "that it started when the run or strata ends; it reads nothing, and what it prints is not shown.\n"
         "Examples:\n"
         "  strata golden showroom --size 32x32 --algorithm front_to_back -o room\n"
         "  strata reduce room \"strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o "

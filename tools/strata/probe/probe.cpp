@@ -83,6 +83,7 @@ int run(const ProbeOptions& options) {
         return compare(options, items);
     }
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the kit or the answers");
+    scenes::check_new_folder(options.output);
     if (options.profile.empty()) {
         write_kit(items, options.unseen == 0, options.output);
         if (!is_quiet())

@@ -143,6 +143,67 @@ TEST_CASE("a reduction keeps the kind of the failure, though another kind would 
     CHECK(differs_in(most->kind, found->scene, both));
 }
 
+TEST_CASE(
+    "what a tolerance of codes forgives is no failure at any step, and a budget of pixels counts in the whole scene "
+    "alone") {
+    const Golden scene = golden_of("random.front_to_back");
+    const auto with_noise = [](std::optional<Picture> picture) {
+        for (std::size_t i = 0; i < picture->targets[0].codes.size(); i += 4) picture->targets[0].codes[i] ^= 1;
+        return picture;
+    };
+    const Candidate noise = [&](const Golden& tried) { return with_noise(right_picture(tried)); };
+    const Candidate mistake = [&](const Golden& tried) { return with_noise(mistaken(tried, "one_pass_too_few")); };
+    ReduceRules rules;
+    rules.tolerances.color_codes = 1;
+    CHECK(reduce(scene, noise));
+    CHECK_FALSE(reduce(scene, noise, {}, rules));
+    const auto found = reduce(scene, mistake, {}, rules);
+    REQUIRE(found);
+    CHECK(found->scene.options.width * found->scene.options.height <= 4);
+    CHECK(std::ranges::max(found->comparison.distance_of) > 1);
+
+    const std::uint64_t beyond = static_cast<std::uint64_t>(std::ranges::count(
+        compare(right_picture(scene), *mistake(scene), rules.tolerances, background_of(scene)).is_beyond, true));
+    rules.tolerances.pixels.pixels = beyond;
+    CHECK_FALSE(reduce(scene, mistake, {}, rules));
+    rules.tolerances.pixels.pixels = beyond - 1;
+    const auto paid = reduce(scene, mistake, {}, rules);
+    REQUIRE(paid);
+    CHECK(paid->scene.options.width * paid->scene.options.height <= 4);
+}
+
+TEST_CASE("a failure of whole frames is cut by a scissor, and pixels outside of it do not count") {
+    const Golden scene = golden_of("random.front_to_back");
+    const int width = scene.options.width, height = scene.options.height;
+    // Wrong in frames of that width alone, and it clears to another colour outside of the scissor.
+    const Candidate candidate = [&](const Golden& tried) {
+        auto picture = tried.options.width == width ? mistaken(tried, "one_pass_too_few") : right_picture(tried);
+        const rasterizer::Rect kept = tried.options.raster.scissor.value_or(rasterizer::Rect{0, 0, width, height});
+        for (int y = 0; y < tried.options.height; ++y)
+            for (int x = 0; x < tried.options.width; ++x)
+                if (tried.options.raster.scissor && (x < kept.x0 || x >= kept.x1 || y < kept.y0 || y >= kept.y1))
+                    picture->targets[0].codes[4 * static_cast<std::size_t>(y * tried.options.width + x)] = 200;
+        return picture;
+    };
+    const auto cut = reduce(scene, candidate);
+    REQUIRE(cut);
+    CHECK(cut->scene.options.width == width);
+    ReduceRules rules;
+    rules.frame = Frame::whole;
+    const auto found = reduce(scene, candidate, {}, rules);
+    REQUIRE(found);
+    CHECK(found->scene.options.width == width);
+    CHECK(found->scene.options.height == height);
+    CHECK(found->scene.scene.own_view->projection == scene.scene.own_view->projection);
+    CHECK(found->window.area() <= 4);
+    CHECK(found->scene.options.raster.scissor == found->window);
+    CHECK(found->triangles <= 3);
+    CHECK_THAT(found->sentence(), Catch::Contains(" pixels of a frame of "));
+    const auto first = std::ranges::find(found->comparison.kinds, found->kind, &KindReport::kind);
+    CHECK_THAT(found->sentence(), Catch::Contains("the first at " + std::to_string(found->window.x0 + first->first_x) +
+                                                  "," + std::to_string(found->window.y0 + first->first_y)));
+}
+
 TEST_CASE("a window's view shows the pixels that the whole one has there") {
     Golden scene = golden_of("showroom.front_to_back");
     const Picture whole = right_picture(scene);
