@@ -38,8 +38,14 @@ Bounds bounds_of(const pipeline::DrawList& list) {
         const pipeline::Mesh& mesh = list.meshes[instance.mesh];
         // Indices are walked instead of positions: a vertex that no triangle names is not drawn and must not
         // move the camera.
-        for (const std::uint32_t index : mesh.indices)
-            include(bounds, transformed(instance.model, mesh.positions[index]));
+        for (const std::uint32_t index : mesh.indices) {
+            const Vec3& p = mesh.positions[index];
+            const double w = mesh.w.empty() ? 1.0 : double{mesh.w[index]};
+            // Behind or in the plane of w = 0 a point has no place in space.
+            if (w > 0)
+                include(bounds, transformed(instance.model, {static_cast<float>(p[0] / w), static_cast<float>(p[1] / w),
+                                                             static_cast<float>(p[2] / w)}));
+        }
     }
     return bounds;
 }

@@ -35,10 +35,12 @@ void transform_in_binary64(const DrawList& list, const View& view, const rasteri
     for (const rasterizer::TriangleRun& run : soup.runs) {
         const Instance& instance = list.instances[run.object];
         const Matrix m = product(product(view.projection, view.view), instance.model);
-        for (const Vec3& p : list.meshes[instance.mesh].positions) {
+        const pipeline::Mesh& mesh = list.meshes[instance.mesh];
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i, ++next) {
+            const Vec3& p = mesh.positions[i];
+            const double w = mesh.w.empty() ? 1.0 : double{mesh.w[i]};
             for (std::size_t r = 0; r < 4; ++r)
-                vertices[next][r] = ((m[0][r] * p[0] + m[1][r] * p[1]) + m[2][r] * p[2]) + m[3][r];
-            ++next;
+                vertices[next][r] = ((m[0][r] * p[0] + m[1][r] * p[1]) + m[2][r] * p[2]) + m[3][r] * w;
         }
     }
 }

@@ -29,6 +29,7 @@ void check_mesh(const Requirements& list, const Mesh& mesh, std::size_t number) 
         if (size == 0 || size == mesh.positions.size()) return;
         list.fail(FieldName{"meshes", number, attribute}, "none or " + std::to_string(mesh.positions.size()), size);
     };
+    as_many("w", mesh.w.size());
     as_many("normals", mesh.normals.size());
     as_many("colors", mesh.colors.size());
     as_many("texcoords", mesh.texcoords.size());

@@ -22,6 +22,8 @@ using strata::Vec3;
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;
+    // The fourth coordinates of homogeneous positions, such as those of clip space under identity matrices; empty: 1.
+    std::vector<float> w;
     std::vector<Vec3> normals;
     std::vector<Rgba> colors;
     // Those that the material's base colour texture names, with its transform applied.

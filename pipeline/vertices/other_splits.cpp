@@ -76,7 +76,8 @@ DrawList rotate_vertices(DrawList list, int k) {
 
 Flipped flip_diagonals(DrawList list) {
     Flipped result{std::move(list), 0};
-    for (Mesh& mesh : result.list.meshes) result.quads += flip(mesh);
+    for (Mesh& mesh : result.list.meshes)
+        if (mesh.w.empty()) result.quads += flip(mesh);  // whether homogeneous corners lie in a plane is not looked at
     return result;
 }
 

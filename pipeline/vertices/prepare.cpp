@@ -131,7 +131,8 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
         const VertexTransform rows = quotient_rows(view, instance.model, state, rules);
         const VertexCoordinates coordinates{options.units, view, instance.model};
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            const std::array<float, 4> rq = rows(mesh.positions[i]);
+            const std::array<float, 4> rq =
+                mesh.w.empty() ? rows(mesh.positions[i]) : rows(mesh.positions[i], mesh.w[i]);
             if (extras.has_rq) extras.values.insert(extras.values.end(), {rq[2], rq[3]});
             if (!extras.has_units) continue;
             for (const auto& unit :

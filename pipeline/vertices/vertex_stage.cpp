@@ -67,9 +67,10 @@ rasterizer::ClipVertex VertexStage::vertex(std::size_t i, const std::array<float
 }
 
 void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) const {
-    // The kernels know VertexPath::separate alone; every other
-    // path, and the remainder of a block, goes vertex by vertex.
-    const VertexKernels* const kernels = clip_.separate_matrix() != nullptr ? vertex_kernels() : nullptr;
+    // The kernels know VertexPath::separate and w = 1 alone; everything else,
+    // and the remainder of a block, goes vertex by vertex.
+    const bool is_affine = mesh_.w.empty();
+    const VertexKernels* const kernels = is_affine && clip_.separate_matrix() != nullptr ? vertex_kernels() : nullptr;
     std::size_t done = 0;
     for (; kernels != nullptr && done + vertex_lane_count <= out.size(); done += vertex_lane_count) {
         VertexLanes block;
@@ -85,7 +86,8 @@ void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) 
     }
     for (; done < out.size(); ++done) {
         const std::size_t i = begin + done;
-        out[done] = vertex(i, clip_(mesh_.positions[i]), is_lit_ ? light_of(mesh_.normals[i]) : 1.0f);
+        const auto position = is_affine ? clip_(mesh_.positions[i]) : clip_(mesh_.positions[i], mesh_.w[i]);
+        out[done] = vertex(i, position, is_lit_ ? light_of(mesh_.normals[i]) : 1.0f);
     }
 }
 

@@ -30,6 +30,15 @@ class VertexTransform {
         return {row(0), row(1), row(2), row(3)};
     }
 
+    // Of a homogeneous position, by whatever path: ((m0 x + m1 y) + m2 z) + m3 w.
+    [[nodiscard]] std::array<float, 4> operator()(const Vec3& p, float w) const {
+        const auto& m = whole_;
+        const auto row = [&](std::size_t r) {
+            return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r] * w;
+        };
+        return {row(0), row(1), row(2), row(3)};
+    }
+
     // The matrix, column-major, if that is all: VertexPath::separate.
     [[nodiscard]] const std::array<float, 16>* separate_matrix() const noexcept {
         return path_ == VertexPath::separate ? &whole_ : nullptr;

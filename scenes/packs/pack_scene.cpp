@@ -97,6 +97,17 @@ NumberArray rows_of(const std::vector<Vector>& vectors) {
     return array;
 }
 
+// x y z, or x y z w.
+NumberArray positions_of(const Mesh& mesh) {
+    if (mesh.w.empty()) return rows_of(mesh.positions);
+    NumberArray array{.element = Element::f4, .shape = {mesh.positions.size(), 4}};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        for (const float value : components(mesh.positions[i])) array.append(std::bit_cast<std::uint32_t>(value));
+        array.append(std::bit_cast<std::uint32_t>(mesh.w[i]));
+    }
+    return array;
+}
+
 NumberArray triples_of(const std::vector<std::uint32_t>& indices) {
     NumberArray array{.element = Element::u4, .shape = {indices.size() / 3, 3}};
     for (const std::uint32_t index : indices) array.append(index);
@@ -153,16 +164,31 @@ void write_mesh(JsonWriter& io, const Mesh& mesh, std::size_t number, PackFiles&
         else
             io.object[key] = nullptr;
     };
-    add("positions", rows_of(mesh.positions));
+    add("positions", positions_of(mesh));
     add("normals", rows_of(mesh.normals));
     add("colors", rows_of(mesh.colors));
     add("texcoords", rows_of(mesh.texcoords));
     add("indices", triples_of(mesh.indices));
 }
 
+void read_positions(JsonReader& io, Mesh& mesh, const Arrays& arrays) {
+    const NumberArray array = arrays.any(io, "positions");
+    const bool is_homogeneous = array.shape.size() == 2 && array.shape[1] == 4;
+    if (!is_homogeneous) {
+        mesh.positions = vectors_of<Vec3>(arrays.rows(io, "positions", Element::f4, 3));
+        return;
+    }
+    for (std::size_t i = 0; i < array.count() && array.element == Element::f4; i += 4) {
+        const auto value = [&](std::size_t c) { return std::bit_cast<float>(array.word(i + c)); };
+        mesh.positions.push_back({value(0), value(1), value(2)});
+        mesh.w.push_back(value(3));
+    }
+    if (array.element != Element::f4) io.fail("positions", "a file of an array (n, 3) or (n, 4) of f4");
+}
+
 void read_mesh(JsonReader& io, Mesh& mesh, const Arrays& arrays) {
     io.text("name", mesh.name);
-    mesh.positions = vectors_of<Vec3>(arrays.rows(io, "positions", Element::f4, 3));
+    read_positions(io, mesh, arrays);
     mesh.normals = vectors_of<Vec3>(arrays.rows(io, "normals", Element::f4, 3));
     mesh.colors = vectors_of<Rgba>(arrays.rows(io, "colors", Element::f4, 4));
     mesh.texcoords = vectors_of<Vec2>(arrays.rows(io, "texcoords", Element::f4, 2));

@@ -32,20 +32,26 @@ void number_through(Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
-Mesh mesh_of_npy(const std::string& path) {
+Mesh mesh_of_npy(const std::string& path, std::optional<pipeline::View>& view) {
     const NumberArray array = read_npy(path);
     const auto& shape = array.shape;
-    if (array.element != Element::f4 || shape.size() != 3 || shape[1] != 3 || (shape[2] != 3 && shape[2] != 7))
-        throw InputError(path, "array", "f4 of shape (triangles, 3, 3) or (triangles, 3, 7)",
+    const bool has_color = shape.size() == 3 && shape[2] > 4;
+    const std::size_t coordinates = shape.size() == 3 ? shape[2] - (has_color ? 4 : 0) : 0;
+    if (array.element != Element::f4 || shape.size() != 3 || shape[1] != 3 || (coordinates != 3 && coordinates != 4))
+        throw InputError(path, "array",
+                         "f4 of shape (triangles, 3, N), N 3 for x y z, 4 for x y z w, and 4 more with r g b a",
                          fmt::format("{} of shape ({})", name(array.element), fmt::join(shape, ", ")));
     Mesh mesh;
     const auto value = [&](std::size_t i) { return std::bit_cast<float>(array.word(i)); };
     const std::size_t width = shape[2];
     for (std::size_t i = 0; i < array.count(); i += width) {
         mesh.positions.push_back({value(i), value(i + 1), value(i + 2)});
-        mesh.colors.push_back(width == 7 ? Rgba{value(i + 3), value(i + 4), value(i + 5), value(i + 6)} : half_white);
+        if (coordinates == 4) mesh.w.push_back(value(i + 3));
+        const std::size_t c = i + coordinates;
+        mesh.colors.push_back(has_color ? Rgba{value(c), value(c + 1), value(c + 2), value(c + 3)} : half_white);
     }
     number_through(mesh);
+    if (coordinates == 4) view = pipeline::View{};
     return mesh;
 }
 
@@ -88,9 +94,13 @@ Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) 
     const json document = parse_strict_json(read_text_file(path, most_json_bytes), path, "triangles in JSON");
     JsonReader io{document, path, ""};
     Mesh mesh;
-    for_each_row<float>(io, "positions", 3, path, [&](const std::vector<float>& p) {
+    const json& first = io.at("positions");
+    const bool is_homogeneous = first.is_array() && !first.empty() && first[0].is_array() && first[0].size() == 4;
+    for_each_row<float>(io, "positions", is_homogeneous ? 4 : 3, path, [&](const std::vector<float>& p) {
         mesh.positions.push_back({p[0], p[1], p[2]});
+        if (is_homogeneous) mesh.w.push_back(p[3]);
     });
+    if (is_homogeneous) view = pipeline::View{};
     if (document.contains("colors"))
         for_each_row<float>(io, "colors", 4, path, [&](const std::vector<float>& c) {
             mesh.colors.push_back({c[0], c[1], c[2], c[3]});
@@ -122,7 +132,7 @@ Scene load_plain_triangles(const std::string& path, const SceneOptions& options)
         throw InputError(path, "--scene", "0, the only one", std::to_string(*options.scene));
     Scene scene;
     scene.name = std::filesystem::path(path).stem().string();
-    Mesh mesh = path.ends_with(".npy") ? mesh_of_npy(path) : mesh_of_json(path, scene.own_view);
+    Mesh mesh = path.ends_with(".npy") ? mesh_of_npy(path, scene.own_view) : mesh_of_json(path, scene.own_view);
     mesh.name = "triangles";
     for (Rgba& color : mesh.colors) color = from_encoded(color, options.color_space);
     scene.list.materials = {

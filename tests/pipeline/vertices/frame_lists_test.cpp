@@ -25,6 +25,7 @@ using strata::rasterizer::Rect;
         list.meshes.push_back(
             {.name = "",
              .positions = {{x, -0.5f, 0.5f}, {x + 0.25f, -0.5f, 0.5f}, {x + 0.25f, 0.5f, 0.5f}, {x, 0.5f, 0.5f}},
+             .w = {},
              .normals = {},
              .colors = {},
              .texcoords = {},

@@ -61,6 +61,7 @@ DrawList one_triangle(const Material& material, const Matrix& model = identity) 
     DrawList list;
     list.meshes = {{.name = "",
                     .positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0, 0.5f, 0}},
+                    .w = {},
                     .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
                     .colors = {},
                     .texcoords = {},

@@ -41,9 +41,29 @@ TEST_CASE("triangles come from a .npy file with their numbers as they stand ther
     const Scene colored = load_scene(written(folder, "b.npy", triangles_npy({1, 3, 7})), {});
     CHECK((colored.list.meshes[0].colors[1] == Rgba{10 / 32.0f, 11 / 32.0f, 12 / 32.0f, 13 / 32.0f}));
     CHECK(load_scene(written(folder, "c.npy", triangles_npy({0, 3, 3})), {}).bounds.is_empty());
-    for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{3, 3}, {1, 3, 4}, {1, 4, 3}, {9}})
+    for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{3, 3}, {1, 3, 5}, {1, 3, 6}, {1, 4, 3}, {9}})
         CHECK_THROWS_WITH(load_scene(written(folder, "d.npy", triangles_npy(shape)), {}),
-                          Catch::Contains("d.npy: array: expected f4 of shape (triangles, 3, 3) or (triangles, 3, 7)"));
+                          Catch::Contains("d.npy: array: expected f4 of shape (triangles, 3, N), N 3 for x y z"));
+}
+
+TEST_CASE("triangles with w are those of clip space: they are drawn as they are unless a view is named") {
+    const strata::test::OwnFolder folder;
+    const Scene plain = load_scene(written(folder, "a.npy", triangles_npy({1, 3, 4})), {});
+    const pipeline::Mesh& mesh = plain.list.meshes.at(0);
+    CHECK((mesh.positions[1] == Vec3{4 / 32.0f, 5 / 32.0f, 6 / 32.0f}));
+    CHECK(mesh.w == std::vector<float>{3 / 32.0f, 7 / 32.0f, 11 / 32.0f});
+    REQUIRE(plain.own_view);
+    CHECK(plain.own_view->projection == pipeline::View{}.projection);
+    const Scene colored = load_scene(written(folder, "b.npy", triangles_npy({1, 3, 8})), {});
+    CHECK(colored.list.meshes[0].w[1] == 11 / 32.0f);
+    CHECK((colored.list.meshes[0].colors[1] == Rgba{12 / 32.0f, 13 / 32.0f, 14 / 32.0f, 15 / 32.0f}));
+    const Scene typed =
+        load_scene(written(folder, "c.json", R"({"positions": [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]]})"), {});
+    CHECK(typed.list.meshes.at(0).w == std::vector<float>{3, 7, 11});
+    CHECK(typed.own_view);
+    CHECK_THROWS_WITH(
+        load_scene(written(folder, "d.json", R"({"positions": [[0, 0, 0, 1], [1, 0, 0], [0, 1, 0, 1]]})"), {}),
+        Catch::Contains("/positions/1: expected an array of 4 numbers"));
 }
 
 TEST_CASE("triangles come from a .json file, with a view if it has one") {

@@ -36,12 +36,14 @@ bool is_textured(const Experiment& e) { return !e.list->textures.empty(); }
 void flatten(Mesh& mesh) {
     const Mesh from = mesh;
     mesh.positions.clear();
+    mesh.w.clear();
     mesh.normals.clear();
     mesh.colors.clear();
     mesh.texcoords.clear();
     for (std::size_t i = 0; i < from.indices.size(); ++i) {
         const std::size_t vertex = from.indices[i], last = from.indices[i - i % 3 + 2];
         mesh.positions.push_back(from.positions[vertex]);
+        if (!from.w.empty()) mesh.w.push_back(from.w[vertex]);
         if (!from.normals.empty()) mesh.normals.push_back(from.normals[last]);
         if (!from.colors.empty()) mesh.colors.push_back(from.colors[last]);
         if (!from.texcoords.empty()) mesh.texcoords.push_back(from.texcoords[vertex]);

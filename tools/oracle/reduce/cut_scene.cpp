@@ -33,6 +33,7 @@ class MeshCut {
         const auto [found, is_new] = numbers_.emplace(old, static_cast<std::uint32_t>(to_.positions.size()));
         if (is_new) {
             to_.positions.push_back(from_.positions[old]);
+            if (!from_.w.empty()) to_.w.push_back(from_.w[old]);
             if (!from_.normals.empty()) to_.normals.push_back(from_.normals[old]);
             if (!from_.colors.empty()) to_.colors.push_back(from_.colors[old]);
             if (!from_.texcoords.empty()) to_.texcoords.push_back(from_.texcoords[old]);
