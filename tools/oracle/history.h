@@ -3,7 +3,7 @@
 // Rule     The run is literal and simulates every effect, so that each fragment has all its values; neither changes a bit. Lines stand in
 //          the order in which things happened. They are enough to do them again: what was cleared or copied, what a program gave out,
 //          with which state it was tested and blended, and what the targets held before and after.
-// Tests    tests/tools/oracle/explain_test.cpp does them again
+// Tests    tests/tools/oracle/explain_lines_test.cpp does them again
 #pragma once
 #include <array>
 #include <optional>
