@@ -23,7 +23,7 @@ struct Checked {
     Ties ties{};
     bool has_one_tie_rule = true;  // false: fragments at one depth come in an order that changes from pixel to pixel
     std::uint64_t tied = 0;        // pixels whose ties show
-    std::uint64_t at_edges = 0;    // pixels that are covered as a rasterizer may that snaps otherwise
+    std::uint64_t at_edges = 0;    // pixels that are as a rasterizer may have them that snaps otherwise
     std::uint64_t changed = 0;     // pixels whose structure is not the right one
     std::uint64_t undecided = 0;   // of these, pixels that the right structure may leave, too
     // Codes (of floats: parts of 255) by which a pixel is off the structure's exact result, and could be.

@@ -66,6 +66,7 @@ void StackMaker::combine(const Rule& rule) {
     }
     const auto count = static_cast<float>(items_.size() - from);
     Layer one{.color = sum, .is_premultiplied = true};
+    for (std::size_t i = from; i < items_.size(); ++i) one.spread = std::max(one.spread, items_[i].layer.spread);
     if (rule.kind == RuleKind::added) one.color[3] = 0;
     if (averages) {
         one.is_premultiplied = false;

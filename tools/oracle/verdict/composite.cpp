@@ -9,6 +9,7 @@ namespace strata::oracle::verdict {
 namespace {
 
 constexpr double single_error = 0x1p-22;  // of a blend's terms (composite.h, Numbers)
+constexpr double last_places = 0x1p-20;   // by which interpolation over other positions is off at least
 constexpr double srgb_error = 0x1p-21;    // of an encoding in binary32
 
 double scale_of(Storage storage) noexcept {
@@ -110,11 +111,11 @@ Compositor::Means Compositor::means_of(const End& end, double slack) {
     return m;
 }
 
-Compositor::Operand Compositor::operand(const Means& means, const Layer& layer) noexcept {
+Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, bool is_moved) noexcept {
     const bool has_codes = means.blend.has_codes;
     const Source source = means.end.source;
     Operand o;
-    const double slack = means.slack + layer.slack;
+    const double slack = means.slack + layer.slack + (is_moved ? layer.spread + last_places : 0);
     const auto given = [&](float v) {
         Interval x = Interval::of(v);
         if (slack > 0) x = x.widened(slack * std::max(1.0, std::fabs(double{v})));
@@ -158,11 +159,12 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer) 
 }
 
 Compositor::Channels Compositor::under(const Means& means, std::span<const Layer> near_to_far,
-                                       bool is_linear) noexcept {
+                                       const Stack& stack) noexcept {
+    const bool is_linear = stack.is_linear;
     Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(1)};
     const bool may_be_rounded = means.end.source == Source::any;
     for (const Layer& layer : near_to_far) {
-        const Operand o = operand(means, layer);
+        const Operand o = operand(means, layer, stack.is_moved);
         const Interval through = sum[3];
         for (std::size_t c = 0; c < 3; ++c) {
             Interval premultiplied = o.is_premultiplied ? o.color[c] : o.color[c] * o.alpha;
@@ -178,10 +180,12 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     return sum;
 }
 
-void Compositor::over(const Means& means, std::span<const Layer> near_to_far, bool is_linear, Channels& onto) noexcept {
+void Compositor::over(const Means& means, std::span<const Layer> near_to_far, const Stack& stack,
+                      Channels& onto) noexcept {
+    const bool is_linear = stack.is_linear;
     const bool may_be_rounded = means.end.source == Source::any;
     for (std::size_t i = near_to_far.size(); i-- > 0;) {
-        const Operand o = operand(means, near_to_far[i]);
+        const Operand o = operand(means, near_to_far[i], stack.is_moved);
         for (std::size_t c = 0; c < 4; ++c) {
             const double magnitude = o.color[c].magnitude() + onto[c].magnitude();
             Interval exact;
@@ -210,7 +214,8 @@ Compositor::Channels Compositor::background_of(const Means& means, const Stack& 
     const Source source = means.end.source;
     for (std::size_t c = 0; c < 4; ++c) {
         Interval x = Interval::of(stack.background[c]);
-        if (means.slack > 0) x = x.widened(means.slack * std::max(1.0, x.magnitude()));
+        const double slack = means.slack + (stack.is_moved ? stack.background_spread + last_places : 0);
+        if (slack > 0) x = x.widened(slack * std::max(1.0, x.magnitude()));
         if (!means.blend.has_codes)
             channels[c] = means.blend.kept(x, x.magnitude());
         else if (stack.is_linear && c < 3)
@@ -241,7 +246,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     const Channels behind = background_of(back_, stack);
     const bool is_apart = order == Order::over_apart || order == Order::both_ends_apart;
     Channels back = is_apart ? Channels{} : behind;
-    over(back_, near_to_far.subspan(near), stack.is_linear, back);
+    over(back_, near_to_far.subspan(near), stack, back);
     const auto published = [&](std::size_t c, Interval exact, double magnitude) {
         if (c < 3 && stack.finish == Finish::encoded) return result_.kept(encoded(clamped(exact)), magnitude);
         if (c < 3 && stack.finish == Finish::decoded) return result_.kept(decoded(clamped(exact)), magnitude);
@@ -265,7 +270,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
         }
         return reach;
     }
-    const Channels front = under(front_, near_to_far.first(near), stack.is_linear);
+    const Channels front = under(front_, near_to_far.first(near), stack);
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval added = front[3] * back[c];
         reach[c] = published(c, front[c] + added, front[c].magnitude() + added.magnitude());

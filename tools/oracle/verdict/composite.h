@@ -22,6 +22,7 @@ struct Layer {
     Rgba color{};                   // straight, alpha within [0, 1]
     bool is_premultiplied = false;  // colours are times alpha already, or stand for a sum; alpha may be anything
     float slack = 0;                // beside the hypothesis' own: of colours that come out of sums
+    float spread = 0;               // the same, where the stack is moved, beside some units in the last place
     friend bool operator==(const Layer&, const Layer&) = default;
 };
 
@@ -32,10 +33,12 @@ enum class Finish : std::uint8_t { as_is, encoded, decoded };
 struct Stack {
     std::vector<Layer> layers{};
     Rgba background{};
+    float background_spread = 0;
     // Of peels from both ends: how many layers the near half of the depths has, with the middle depth and without it.
     std::size_t near = 0, near_without_middle = 0;
     bool is_linear = false;  // colours are in linear light, and what is kept is encoded to sRGB
     Finish finish = Finish::as_is;
+    bool is_moved = false;  // positions are snapped otherwise: colours are off by their spreads, too
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 
@@ -102,11 +105,12 @@ class Compositor {
     using Channels = std::array<Interval, 4>;
 
     [[nodiscard]] static Means means_of(const End& end, double slack);
-    [[nodiscard]] static Operand operand(const Means& means, const Layer& layer) noexcept;
+    [[nodiscard]] static Operand operand(const Means& means, const Layer& layer, bool is_moved) noexcept;
     // UNDER: the fourth channel is what is let through.
     [[nodiscard]] static Channels under(const Means& means, std::span<const Layer> near_to_far,
-                                        bool is_linear) noexcept;
-    static void over(const Means& means, std::span<const Layer> near_to_far, bool is_linear, Channels& onto) noexcept;
+                                        const Stack& stack) noexcept;
+    static void over(const Means& means, std::span<const Layer> near_to_far, const Stack& stack,
+                     Channels& onto) noexcept;
     [[nodiscard]] static Channels background_of(const Means& means, const Stack& stack) noexcept;
 
     Hypothesis hypothesis_;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <span>
 
 #include "pipeline/device/profile.h"
 #include "pipeline/vertices/prepare.h"
@@ -16,6 +19,7 @@ PixelList OtherList::at(int x, int y) const noexcept {
             .visible = visible,
             .hidden = hidden,
             .behind = behind,
+            .behind_spread = behind_spread,
             .opaque = opaque,
             .has_opaque = has_opaque};
 }
@@ -30,6 +34,7 @@ OtherList copy_of(const PixelList& list) {
     return {.visible = {list.visible.begin(), list.visible.end()},
             .hidden = {list.hidden.begin(), list.hidden.end()},
             .behind = list.behind,
+            .behind_spread = list.behind_spread,
             .opaque = list.opaque,
             .has_opaque = list.has_opaque};
 }
@@ -83,6 +88,124 @@ std::map<Cluster, std::vector<Fragment>> clusters_of(const OtherList& list) {
     return clusters;
 }
 
+float most_apart(const Rgba& a, const Rgba& b) noexcept {
+    float most = 0;
+    for (std::size_t c = 0; c < 4; ++c) most = std::max(most, std::fabs(a[c] - b[c]));
+    return most;
+}
+
+using Drawings = std::span<const OtherList* const>;
+
+// The fragment of this triangle in another drawing; null if it does not cover the pixel there.
+const Fragment* same_triangle(const Fragment& f, const OtherList& drawing) {
+    for (const auto* part : {&drawing.visible, &drawing.hidden})
+        for (const Fragment& other : *part)
+            if (other.primitive == f.primitive) return &other;
+    return nullptr;
+}
+
+// That of its cluster which is nearest in depth: the surface goes on there.
+const Fragment* same_surface(const Fragment& f, const OtherList& drawing) {
+    const Fragment* nearest = nullptr;
+    for (const auto* part : {&drawing.visible, &drawing.hidden})
+        for (const Fragment& other : *part)
+            if (cluster_of(other) == cluster_of(f) &&
+                (nearest == nullptr ||
+                 std::fabs(other.shader_z - f.shader_z) < std::fabs(nearest->shader_z - f.shader_z)))
+                nearest = &other;
+    return nearest;
+}
+
+// In another drawing: the fragment's own triangle, or else its surface.
+const Fragment* like(const Fragment& f, const OtherList& drawing) {
+    const Fragment* const same = same_triangle(f, drawing);
+    return same != nullptr ? same : same_surface(f, drawing);
+}
+
+void find_spread(Fragment& f, Drawings moved) {
+    for (const OtherList* drawing : moved)
+        if (const Fragment* const other = like(f, *drawing))
+            f.spread = std::max(f.spread, most_apart(f.color, other->color));
+}
+
+// What the given drawing's values change by where it is moved.
+void find_spreads(OtherList& given, Drawings moved) {
+    for (auto* part : {&given.visible, &given.hidden})
+        for (Fragment& f : *part) find_spread(f, moved);
+    for (const OtherList* drawing : moved)
+        if (given.has_opaque && drawing->has_opaque)
+            given.behind_spread = std::max(given.behind_spread, most_apart(given.behind, drawing->behind));
+}
+
+std::int64_t codes_behind(std::uint32_t a, std::uint32_t b) noexcept { return std::int64_t{b} - std::int64_t{a}; }
+
+// Whether two depths that are not the same may change places: some drawing brings them so much nearer to one another.
+class Meetings {
+  public:
+    explicit Meetings(Drawings moved) : moved_{moved} {}
+    [[nodiscard]] bool may_meet(const Fragment& a, const Fragment& b) const {
+        return may_meet(codes_behind(a.code, b.code), [&](const OtherList& drawing) -> std::optional<std::int64_t> {
+            const Fragment *const x = same_triangle(a, drawing), *const y = same_triangle(b, drawing);
+            if (x == nullptr || y == nullptr) return std::nullopt;
+            return codes_behind(x->code, y->code);
+        });
+    }
+    [[nodiscard]] bool may_meet(const Fragment& a, std::uint32_t opaque) const {
+        return may_meet(codes_behind(a.code, opaque), [&](const OtherList& drawing) -> std::optional<std::int64_t> {
+            const Fragment* const x = same_triangle(a, drawing);
+            if (x == nullptr || !drawing.has_opaque) return std::nullopt;
+            return codes_behind(x->code, drawing.opaque);
+        });
+    }
+
+  private:
+    template <class Between>
+    [[nodiscard]] bool may_meet(std::int64_t given, Between between) const {
+        constexpr std::int64_t rounded = 2;  // codes
+        return given != 0 && std::ranges::any_of(moved_, [&](const OtherList* drawing) {
+                   const auto other = between(*drawing);
+                   return other && std::abs(given) <= std::abs(*other - given) + rounded;
+               });
+    }
+    Drawings moved_;
+};
+
+// The list with neighbours exchanged whose depths may: each pair alone, then all that begin at an even or at an odd number.
+void add_exchanged(const OtherList& given, const Meetings& meetings, std::vector<OtherList>& others) {
+    const std::size_t n = given.visible.size();
+    const auto exchanged = [&](std::size_t first, std::size_t last, std::size_t step) {
+        OtherList made = given;
+        bool is_changed = false;
+        for (std::size_t i = first; i + 1 < std::min(n, last); i += step) {
+            Fragment &a = made.visible[i], &b = made.visible[i + 1];
+            if (!meetings.may_meet(a, b)) continue;
+            std::swap(a.code, b.code);
+            std::swap(a.shader_z, b.shader_z);
+            std::swap(a, b);
+            is_changed = true;
+        }
+        if (is_changed && others.size() < most_others) others.push_back(std::move(made));
+    };
+    for (std::size_t i = 0; i + 1 < n; ++i) exchanged(i, i + 2, 1);
+    if (n > 3)
+        for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) exchanged(first, n, 2);
+}
+
+// The list with the farthest visible fragment hidden, or the nearest hidden one visible, where it nearly meets the opaque surface.
+void add_at_opaque(const OtherList& given, const Meetings& meetings, std::vector<OtherList>& others) {
+    if (!given.has_opaque) return;
+    if (!given.visible.empty() && meetings.may_meet(given.visible.back(), given.opaque)) {
+        others.push_back(given);
+        others.back().hidden.insert(others.back().hidden.begin(), given.visible.back());
+        others.back().visible.pop_back();
+    }
+    if (!given.hidden.empty() && meetings.may_meet(given.hidden.front(), given.opaque)) {
+        others.push_back(given);
+        others.back().visible.push_back(given.hidden.front());
+        others.back().hidden.erase(others.back().hidden.begin());
+    }
+}
+
 bool has_same_triangles(const std::vector<Fragment>& a, const std::vector<Fragment>& b) {
     return std::ranges::equal(a, b, {}, &Fragment::primitive, &Fragment::primitive);
 }
@@ -94,11 +217,16 @@ class EdgeMaker {
 
     [[nodiscard]] EdgePixel make() {
         EdgePixel edge;
-        find_surfaces();
-        find_clusters();
-        std::vector<Fragment> chosen;
-        combine(0, chosen, edge.others);
-        make_ties(edge);
+        if (std::ranges::any_of(drawings_, [&](const OtherList* d) { return !is_covered_alike(*d, given()); })) {
+            find_surfaces();
+            find_clusters();
+            std::vector<Fragment> chosen;
+            combine(0, chosen, edge.others);
+            make_ties(edge);
+        }
+        const Meetings meetings{Drawings{drawings_}.subspan(tie_drawings)};
+        add_exchanged(given(), meetings, edge.others);
+        add_at_opaque(given(), meetings, edge.others);
         return edge;
     }
 
@@ -107,18 +235,13 @@ class EdgeMaker {
 
     // As the drawing as given has the fragment; else as it was moved, with what that may be off by.
     [[nodiscard]] Fragment told(const Fragment& f) const {
-        Fragment best = f;
-        float spread = 1.0f / 255;
+        if (const Fragment* const own = same_triangle(f, given())) return *own;
+        Fragment moved = f;
+        moved.slack = 1.0f / 255;
         for (const OtherList* drawing : drawings_)
-            for (const auto* part : {&drawing->visible, &drawing->hidden})
-                for (const Fragment& other : *part) {
-                    if (other.primitive != f.primitive) continue;
-                    if (drawing == drawings_[0]) return other;
-                    for (std::size_t c = 0; c < 4; ++c)
-                        spread = std::max(spread, std::fabs(other.color[c] - f.color[c]));
-                }
-        best.slack = spread;
-        return best;
+            if (const Fragment* const other = like(f, *drawing))
+                moved.slack = std::max(moved.slack, most_apart(f.color, other->color));
+        return moved;
     }
 
     void find_surfaces() {
@@ -164,7 +287,10 @@ class EdgeMaker {
     }
 
     [[nodiscard]] OtherList list_of(const std::vector<Fragment>& fragments, const OtherList& surface) const {
-        OtherList list{.behind = surface.behind, .opaque = surface.opaque, .has_opaque = surface.has_opaque};
+        OtherList list{.behind = surface.behind,
+                       .behind_spread = given().behind_spread,
+                       .opaque = surface.opaque,
+                       .has_opaque = surface.has_opaque};
         for (const Fragment& f : fragments) {
             const Fragment own = told(f);
             (own.code < list.opaque ? list.visible : list.hidden).push_back(own);
@@ -222,12 +348,20 @@ Coverages::Coverages(const RunInput& input, const SceneFragments& given) : width
     for (std::size_t p = 0; p < number_.size(); ++p) {
         std::vector<const OtherList*> of_pixel;
         for (const auto& drawing : drawings) of_pixel.push_back(&drawing[p]);
-        const bool is_edge = std::ranges::any_of(
-            of_pixel, [&](const OtherList* list) { return !is_covered_alike(*list, *of_pixel[0]); });
-        if (!is_edge) continue;
-        pixels_.push_back(EdgeMaker{std::move(of_pixel)}.make());
+        find_spreads(drawings[0][p], Drawings{of_pixel}.subspan(tie_drawings));
+        keep_spreads(drawings[0][p]);
+        EdgePixel edge = EdgeMaker{std::move(of_pixel)}.make();
+        if (edge.others.empty() && !edge.has_centre_on_edge) continue;
+        pixels_.push_back(std::move(edge));
         number_[p] = static_cast<std::uint32_t>(pixels_.size());
     }
+}
+
+void Coverages::keep_spreads(const OtherList& list) {
+    std::vector<float>& spreads = spreads_.emplace_back();
+    for (const auto* part : {&list.visible, &list.hidden})
+        for (const Fragment& f : *part) spreads.push_back(f.spread);
+    behind_spreads_.push_back(list.behind_spread);
 }
 
 const EdgePixel* Coverages::at(int x, int y) const noexcept {

@@ -154,7 +154,7 @@ PixelEdits edits_at(const SceneFragments& scene, const Colors& candidate, const 
             if (found.edits.size() == most_edits || (at_edge && !found.edits.empty())) break;
             const TiesFound way = ties_that_hold(compositor, rules, list, found.pixel.value, maker);
             if (way.mask == 0 || way.at_edge != at_edge) continue;
-            const Stack& stack = maker.with(rules, way.list, way.ties);
+            const Stack& stack = maker.with(rules, way.list, way.ties, way.is_moved);
             if (std::ranges::find(seen, stack) != seen.end()) continue;
             seen.push_back(stack);
             found.edits.push_back({.rules = rules, .reach = compositor.reach(stack)});

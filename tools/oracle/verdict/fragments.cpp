@@ -185,8 +185,14 @@ void SceneFragments::for_each_tile(const std::function<void(const TileLists&)>& 
 
 void SceneFragments::find_coverages() {
     constexpr std::uint64_t most_fragments = std::uint64_t{1} << 21;
-    if (coverages_ == nullptr && keeps_ && count_ <= most_fragments)
-        coverages_ = std::make_shared<const Coverages>(input_, *this);
+    if (coverages_ != nullptr || !keeps_ || count_ > most_fragments) return;
+    coverages_ = std::make_shared<const Coverages>(input_, *this);
+    for (TileLists& tile : kept_)
+        for (std::size_t p = 0; p + 1 < tile.start.size(); ++p) {
+            const PixelList list = at(tile, p);
+            const auto& spreads = coverages_->spreads(list.x, list.y);
+            for (std::size_t i = 0; i < spreads.size(); ++i) tile.fragments[tile.start[p] + i].spread = spreads[i];
+        }
 }
 
 PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noexcept {
@@ -202,7 +208,11 @@ PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noe
     for (int c = 0; c < 4; ++c)
         list.behind[static_cast<std::size_t>(c)] =
             std::bit_cast<float>(behind_.codes[behind_.index(list.x, list.y, c)]);
-    if (coverages_ != nullptr) list.edge = coverages_->at(list.x, list.y);
+    if (coverages_ != nullptr) {
+        list.edge = coverages_->at(list.x, list.y);
+        list.behind_spread = coverages_->behind_spread(list.x, list.y);
+        list.has_spreads = true;
+    }
     return list;
 }
 

@@ -2,7 +2,7 @@
 //
 // Rule     A pixel's list has its visible fragments by depth code, equal codes in the order of submission; then its hidden ones, those at or
 //          behind the opaque surface, likewise. Lists come tile by tile, each tile once; tiles without a fragment come, too.
-// Numbers  40 bytes a fragment. Tiles are kept while they fit into the memory that is stated, and drawn again for each walk where they do not.
+// Numbers  44 bytes a fragment. Tiles are kept while they fit into the memory that is stated, and drawn again for each walk where they do not.
 // Tests    tests/tools/oracle/verdict/fragments_test.cpp
 #pragma once
 #include <cstdint>
@@ -26,6 +26,8 @@ struct Fragment {
     std::uint32_t material = 0;
     bool is_front_facing = true;
     float slack = 0;  // by which its colour may be off
+    float spread =
+        0;  // by which it changes if positions are snapped otherwise (coverages.h); 0 where that is not known
 };
 
 struct EdgePixel;  // coverages.h
@@ -35,6 +37,8 @@ struct PixelList {
     int x = 0, y = 0;  // in the frame
     std::span<const Fragment> visible{}, hidden{};
     Rgba behind{};                    // the opaque surface's colour or the background's
+    float behind_spread = 0;          // as a fragment's
+    bool has_spreads = false;         // they are known
     std::uint32_t opaque = 0;         // its depth's code
     bool has_opaque = false;          // false: the background lies behind
     const EdgePixel* edge = nullptr;  // what else may cover it; null: nothing, or it is not known

@@ -29,11 +29,11 @@ bool may_have_ties(std::span<const Rule> rules, const PixelList& list) noexcept 
 namespace {
 
 TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                   const std::array<double, 4>& value, StackMaker& maker) {
+                   const std::array<double, 4>& value, bool is_moved, StackMaker& maker) {
     const auto is_held = [&](const Ties& ties) {
-        return holds(compositor.reach(maker.with(rules, list, ties)), value);
+        return holds(compositor.reach(maker.with(rules, list, ties, is_moved)), value);
     };
-    TiesFound found{.list = list};
+    TiesFound found{.list = list, .is_moved = is_moved};
     const auto add = [&](TieMask mask, const Ties& ties) {
         found.mask |= mask;
         found.ties = ties;
@@ -53,21 +53,29 @@ TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, co
 
 TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
                          const std::array<double, 4>& value, StackMaker& maker) {
-    TiesFound found = found_in(compositor, rules, list, value, maker);
-    if (found.mask != 0 || list.edge == nullptr) return found;
-    for (const OtherList& other : list.edge->others) {
-        found = found_in(compositor, rules, other.at(list.x, list.y), value, maker);
-        found.at_edge = true;
-        if (found.mask != 0) break;
+    TiesFound found = found_in(compositor, rules, list, value, false, maker);
+    const auto try_others = [&](bool is_moved) {
+        if (list.edge == nullptr) return;
+        for (const OtherList& other : list.edge->others) {
+            found = found_in(compositor, rules, other.at(list.x, list.y), value, is_moved, maker);
+            if (found.mask != 0) break;
+        }
+    };
+    if (found.mask != 0) return found;
+    try_others(false);
+    if (found.mask == 0 && list.has_spreads) {
+        found = found_in(compositor, rules, list, value, true, maker);
+        if (found.mask == 0) try_others(true);
     }
+    found.at_edge = true;
     return found;
 }
 
 StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker) {
     StackedPixel made{.value = pixel.value};
-    const auto add_all = [&](const PixelList& list) {
+    const auto add_all = [&](const PixelList& list, bool is_moved) {
         const auto add = [&](const Ties& ties) {
-            const Stack& stack = maker.with(rules, list, ties);
+            const Stack& stack = maker.with(rules, list, ties, is_moved);
             if (std::ranges::find(made.stacks, stack) == made.stacks.end()) made.stacks.push_back(stack);
         };
         add({});
@@ -75,10 +83,16 @@ StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, Sta
         for (std::size_t n = 0; n < ties_count; ++n) add(ties_number(n));
         for (std::uint32_t p = 0; p < permutations; ++p) add({TieRule::other, DepthKey::code, p});
     };
-    add_all(pixel.list);
+    const auto add_others = [&](bool is_moved) {
+        if (pixel.list.edge == nullptr) return;
+        for (const OtherList& other : pixel.list.edge->others) add_all(other.at(pixel.list.x, pixel.list.y), is_moved);
+    };
+    add_all(pixel.list, false);
     made.given = made.stacks.size();
-    if (pixel.list.edge != nullptr)
-        for (const OtherList& other : pixel.list.edge->others) add_all(other.at(pixel.list.x, pixel.list.y));
+    add_others(false);
+    if (!pixel.list.has_spreads) return made;
+    add_all(pixel.list, true);
+    add_others(true);
     return made;
 }
 
@@ -88,11 +102,16 @@ const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel) {
     return nullptr;
 }
 
+bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept {
+    return static_cast<std::size_t>(&found - pixel.stacks.data()) < pixel.given;
+}
+
 namespace {
 
 // What a hypothesis costs of a sample.
 struct Cost {
     double wrong = 0, bits = 0;
+    bool is_as_given = true;  // every pixel
     // Where no hypothesis holds, a wrong pixel weighs more: what makes it wrong is a mistake, which has a reason of its own.
     [[nodiscard]] double total(const Pricing& pricing) const noexcept { return bits + 4 * wrong * pricing.of_wrong(); }
 };
@@ -113,12 +132,15 @@ std::string key_of(const StackedPixel& pixel) {
             for (std::size_t c = 0; c < 4; ++c) add(layer.color[c]);
             add(layer.is_premultiplied);
             add(layer.slack);
+            add(layer.spread);
         }
         for (std::size_t c = 0; c < 4; ++c) add(stack.background[c]);
+        add(stack.background_spread);
         add(stack.near);
         add(stack.near_without_middle);
         add(stack.is_linear);
         add(stack.finish);
+        add(stack.is_moved);
     }
     return key;
 }
@@ -138,8 +160,7 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
     return pixels;
 }
 
-// The sample is looked at no further once the cost is more than `most_bits`, or a pixel is wrong where none may be: that one
-// comes first from then on, for it may well tell against the next hypothesis, too.
+// The sample is looked at no further once the cost is more than `most_bits`, or a pixel is wrong where none may be.
 Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most_bits) {
     const Compositor compositor{hypothesis};
     const Pricing pricing{hypothesis.result.storage};
@@ -147,19 +168,15 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto& [pixel, weight] = *pixels[i];
         const Stack* const stack = reaching(compositor, pixel);
-        if (stack == nullptr)
+        if (stack == nullptr) {
             cost.wrong += weight;
-        else
-            cost.bits += weight * (pricing.of(compositor.reach(*stack)) +
-                                   (stack - pixel.stacks.data() < std::ssize(pixel.stacks) &&
-                                            static_cast<std::size_t>(stack - pixel.stacks.data()) >= pixel.given
-                                        ? Pricing::of_edge
-                                        : 0));
-        if (cost.wrong > 0 && allowed == Wrong::none) {
-            std::rotate(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(i),
-                        pixels.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-            break;
+            std::swap(pixels[i], pixels[i / 2]);  // it may well tell against the next hypothesis, too
+        } else {
+            const bool as_given = is_as_given(pixel, *stack);
+            cost.is_as_given = cost.is_as_given && as_given;
+            cost.bits += weight * (pricing.of(compositor.reach(*stack)) + (as_given ? 0 : Pricing::of_edge));
         }
+        if (cost.wrong > 0 && allowed == Wrong::none) break;
         if (cost.total(pricing) > most_bits) break;
     }
     return cost;
@@ -181,7 +198,9 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     std::vector<const WeightedPixel*> pixels;
     for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
     constexpr double any_bits = std::numeric_limits<double>::max();
-    if (likely && cost_of(*likely, pixels, Wrong::none, any_bits).wrong == 0) return likely;
+    if (likely)
+        if (const Cost cost = cost_of(*likely, pixels, Wrong::none, any_bits); cost.wrong == 0 && cost.is_as_given)
+            return likely;
     // The first hypothesis that costs less than `most`, or the one that costs the least.
     const auto choose = [&](double most, auto is_enough) {
         double best = most;
@@ -265,7 +284,8 @@ void measure(const Stack& stack, const Reach& reach, const std::array<double, 4>
     }
 }
 
-constexpr std::size_t most_examples = 64;  // of a tile's wrong pixels, which the next choice has to reckon with
+constexpr std::size_t most_examples =
+    64;  // of a tile's pixels that are wrong or at edges: the next choice has to reckon with them
 
 // A tile's part of the picture.
 struct PartChecked {
@@ -302,15 +322,17 @@ class Checker {
         found.tied += mask != all_ties ? 1 : 0;
         part.everywhere &= mask;
         found.at_edges += way.at_edge ? 1 : 0;
-        const Stack& stack = maker.with(account_.rules, way.list, way.ties);
+        if (way.at_edge && part.examples.pixels().size() < most_examples) part.examples.add(list, value);
+        const Stack& stack = maker.with(account_.rules, way.list, way.ties, way.is_moved);
         const Reach reach = compositor_.reach(stack);
         found.bits += Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
-        measure(stack, reach, value, account_.hypothesis.result.storage, found);
+        if (!way.at_edge) measure(stack, reach, value, account_.hypothesis.result.storage, found);
         if (account_.rules.empty()) return;
         Stack own = stack;
         const Stack& right = maker.right(way.list, way.ties);
         own.near = right.near;  // the division of a peel is no change of the structure
         own.near_without_middle = right.near_without_middle;
+        own.is_moved = false;
         if (own == right) return;
         ++found.changed;
         found.undecided += ties_that_hold(compositor_, {}, list, value, maker).mask != 0 ? 1 : 0;
@@ -359,13 +381,22 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
 
 std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
                                    const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely) {
-    while (const auto hypothesis = best_of(all, rules, sample, Wrong::none, likely)) {
+    constexpr int most_tries = 3;  // of one that another rasterizer has to help
+    std::optional<Checked> best;
+    for (int helped = 0; helped < most_tries;) {
+        const auto hypothesis = best_of(all, rules, sample, Wrong::none, helped == 0 ? likely : std::nullopt);
+        if (!hypothesis || (best && *hypothesis == best->account.hypothesis)) break;
         Sample examples{scene.setting()};
         Checked found = check_all(scene, candidate, {rules, *hypothesis}, examples);
-        if (found.is_whole()) return found;
+        const bool is_done = found.is_whole() && found.at_edges == 0;
+        if (found.is_whole()) {
+            ++helped;
+            if (!best || found.bits < best->bits) best = std::move(found);
+        }
+        if (is_done) break;
         for (const SampledPixel& pixel : examples.pixels()) sample.add(pixel.list, pixel.value);
     }
-    return std::nullopt;
+    return best;
 }
 
 }  // namespace strata::oracle::verdict

@@ -17,9 +17,10 @@ using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: 
 inline constexpr TieMask all_ties = (2u << ties_count) - 1;
 struct TiesFound {
     TieMask mask = 0;
-    Ties ties{};       // the first that holds
-    PixelList list{};  // what covers the pixel: at an edge perhaps not what was given
-    bool at_edge = false;
+    Ties ties{};            // the first that holds
+    PixelList list{};       // what covers the pixel: at an edge perhaps not what was given
+    bool at_edge = false;   // as on a rasterizer that snaps or breaks ties otherwise: covered otherwise, or ...
+    bool is_moved = false;  // colours off by their spread
 };
 
 // Which rules for ties bring the pixel to the candidate's value; all, where it has no ties.
@@ -29,12 +30,13 @@ struct TiesFound {
 // The structures that a pixel of a sample may have: one for each rule for ties that makes a difference there.
 struct StackedPixel {
     std::vector<Stack> stacks{};
-    std::size_t given = 0;          // so many of them by what covers the pixel as given; the others at an edge
+    std::size_t given = 0;  // so many of them by what covers the pixel as given; the others as TiesFound::at_edge
     std::array<double, 4> value{};  // the candidate's
 };
 [[nodiscard]] StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker);
 // The first of the pixel's structures that reaches its value; null if none does.
 [[nodiscard]] const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel);
+[[nodiscard]] bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept;
 
 // The hypothesis that tells the sample in the fewest bits (pricing.h); of `none`, one that holds for all of it.
 enum class Wrong : std::uint8_t { some, none };
@@ -44,7 +46,7 @@ enum class Wrong : std::uint8_t { some, none };
 // Those that leave less open than `wide` on the right structure of the sample.
 [[nodiscard]] Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample);
 
-// `examples` gets some of the wrong pixels.
+// `examples` gets some of the pixels that are wrong or need another rasterizer.
 [[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
                                 Sample& examples);
 

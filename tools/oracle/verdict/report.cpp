@@ -69,7 +69,7 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
     if (account.tied > 0) add(ties_of(account));
     if (account.at_edges > 0)
-        add(fmt::format("{} at edges are covered as by a rasterizer that snaps or breaks ties otherwise",
+        add(fmt::format("{} at edges, slivers or depths that nearly meet: as another rasterizer snaps or breaks ties",
                         pixels(account.at_edges)));
     if (!v.right.wrong_pixels.empty()) {
         const std::uint32_t first = v.right.wrong_pixels[0], width = static_cast<std::uint32_t>(v.width);

@@ -41,16 +41,32 @@ bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
     });
 }
 
-// Whether one of the hypotheses holds for all pixels under the rules. Right pixels that the rules leave alone are right under them, too.
+// Whether one of the hypotheses holds for all pixels under the rules, and of codes for most of them without another rasterizer's help. Right pixels
+// that the rules leave alone are right under them, too.
 bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, const Setting& setting) {
+    struct Left {
+        const Compositor* compositor = nullptr;
+        std::size_t at_edges = 0;
+    };
     StackMaker maker{setting};
-    std::vector<const Compositor*> left;
-    for (const Compositor& compositor : wide) left.push_back(&compositor);
+    std::vector<Left> left;
+    for (const Compositor& compositor : wide) left.push_back({&compositor});
+    if (wide.empty()) return false;
+    const bool has_codes = verdict::has_codes(wide[0].hypothesis().result.storage);
+    const std::size_t all = parts.wrong.size() + parts.right.size(), most_at_edges = has_codes ? all / 3 : all;
+    std::size_t may_stay = parts.wrong.size() * 3 / 4;  // of the wrong ones: that is the hypothesis' affair, then
     for (const auto* pixels : {&parts.wrong, &parts.right})
         for (const PartedPixel& pixel : *pixels) {
             const StackedPixel made = stacked(rules, *pixel.sampled, maker);
-            if (pixels == &parts.right && is_unchanged(made, pixel)) continue;
-            std::erase_if(left, [&](const Compositor* c) { return reaching(*c, made) == nullptr; });
+            const bool stays = is_unchanged(made, pixel);
+            if (pixels == &parts.right && stays) continue;
+            if (stays && !pixel.right.stacks.empty() && may_stay-- == 0) return false;
+            std::erase_if(left, [&](Left& l) {
+                const Stack* const found = reaching(*l.compositor, made);
+                if (found == nullptr) return true;
+                l.at_edges += is_as_given(made, *found) ? 0 : 1;
+                return l.at_edges > most_at_edges;
+            });
             if (left.empty()) return false;
         }
     return true;
@@ -156,7 +172,8 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
                            const Sample& sample) {
-    constexpr std::size_t most_told = 12, least_decided = 4;
+    constexpr std::size_t most_told = 12, least_decided = 4, most_tried = 24;
+    std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
         return std::ranges::equal(a, b,
                                   [](const Rule& x, const Rule& y) { return x.kind == y.kind && x.scope == y.scope; });
@@ -167,6 +184,7 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
         const Families own_families = possible(definite, rules, parts, scene.setting());
         if (own_families.empty()) continue;
+        if (++tried > most_tried) break;
         Sample own = sample;
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
         auto one = account_for(own_families, rules, scene, candidate, own, likely);
@@ -269,12 +287,17 @@ std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candi
                                 const Sample& sample) {
     Parted parts;
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
+    // Those that have one structure tell the most, and soonest.
+    std::ranges::stable_sort(parts.wrong, {}, [](const PartedPixel& p) {
+        return std::pair{p.sampled->list.edge != nullptr, has_ties(p.sampled->list.visible)};
+    });
     std::vector<Hypothesis> each;
     for (const HypothesisFamily& family : narrow)
         std::ranges::copy_if(family.members, std::back_inserter(each),
                              [](const Hypothesis& h) { return h.slack == 0; });
     const std::vector<Rules> all = singles(rules_for(facts_of(scene, sample)));
-    const std::vector<Rules> left = survivors(all, parts, each, scene.setting());
+    const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
+    const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());
     if (left.empty()) return {};
     std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample);
     drop_roomy(found, std::numeric_limits<double>::max());

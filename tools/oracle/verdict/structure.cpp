@@ -64,7 +64,9 @@ bool is_one_depth(const Fragment& a, const Fragment& b, DepthKey key) noexcept {
 
 void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& ties, bool is_near, std::size_t depth) {
     const TieRule rule = ties.rule;
-    const auto add = [&](const Fragment* f) { items_.push_back({{.color = f->color, .slack = f->slack}, f, depth}); };
+    const auto add = [&](const Fragment* f) {
+        items_.push_back({{.color = f->color, .slack = f->slack, .spread = f->spread}, f, depth});
+    };
     const bool is_last_first = rule == TieRule::last || (rule == TieRule::first_then_last && !is_near);
     switch (rule) {
         case TieRule::first:
@@ -156,7 +158,7 @@ void StackMaker::apply(const Rule& rule, const PixelList& pixel) {
     recolor(rule);
 }
 
-const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& given, const Ties& ties) {
+const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& given, const Ties& ties, bool is_moved) {
     PixelList pixel = given;
     for (const Rule& rule : rules)
         if (given.edge != nullptr && (rule.kind == RuleKind::edges_twice || rule.kind == RuleKind::edges_never))
@@ -165,7 +167,9 @@ const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& give
     for (const Rule& rule : rules) apply(rule, pixel);
     finish(rules);
     stack_.background = pixel.behind;
+    stack_.background_spread = pixel.behind_spread;
     stack_.is_linear = false;
+    stack_.is_moved = is_moved;
     stack_.finish = Finish::as_is;
     for (const Rule& rule : rules) set_background(rule, pixel);
     return stack_;

@@ -24,7 +24,8 @@ class StackMaker {
     // The references hold until the next call.
     [[nodiscard]] const Stack& right(const PixelList& pixel, const Ties& ties) { return with({}, pixel, ties); }
     // Rules are applied one after the other.
-    [[nodiscard]] const Stack& with(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties);
+    [[nodiscard]] const Stack& with(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties,
+                                    bool is_moved = false);
 
   private:
     struct Item {

@@ -14,8 +14,8 @@ namespace {
 // How far colours and alpha may be off, of values in [0, 1].
 struct Choices {
     Families definite{};  // nothing, or some units in the last place of binary32
-    Families coarse{};  // interpolated or kept in fewer bits, or interpolated over positions that are snapped otherwise
-    Families loose{};   // the same, and blended with errors up to a code a layer
+    Families coarse{};    // interpolated or kept in fewer bits
+    Families loose{};     // the same, and blended with errors up to a code a layer
 };
 
 Choices choices(Storage storage) {

@@ -2,6 +2,7 @@
 #include "tools/oracle/verdict/coverages.h"
 
 #include <catch2/catch.hpp>
+#include <mutex>
 
 #include "tests/tools/oracle/verdict/opened_scene.h"
 #include "tools/oracle/verdict/verdict.h"
@@ -31,6 +32,43 @@ TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right, and its pi
     CHECK(found.is_right);
     CHECK(found.right.at_edges > 0);
     CHECK(judged(opened, exact).right.at_edges == 0);
+}
+
+TEST_CASE("a picture of another profile is right: its colours, depths and coverage are off by what snapping changes") {
+    for (const char* const name : {"teapot", "showroom"}) {
+        const OpenedScene opened{name, 40, 30};
+        for (const char* const profile : {"llvmpipe", "softpipe"}) {
+            INFO(name << " on " << profile);
+            CHECK(judged(opened, picture_by(opened, *pipeline::find_profile(profile))).is_right);
+        }
+    }
+}
+
+// Exchanges the nearest two layers of every pixel that may have them so.
+std::size_t exchangeable(const OpenedScene& opened) {
+    SceneFragments fragments = opened.fragments();
+    fragments.find_coverages();
+    std::size_t pixels = 0;
+    std::mutex mutex;
+    fragments.for_each_tile([&](const TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = fragments.at(tile, p);
+            if (list.edge == nullptr || list.visible.size() < 2) continue;
+            const auto is_exchanged = [&](const OtherList& other) {
+                return other.visible.size() == list.visible.size() &&
+                       other.visible[0].primitive == list.visible[1].primitive &&
+                       other.visible[1].primitive == list.visible[0].primitive;
+            };
+            const std::scoped_lock lock{mutex};
+            pixels += std::ranges::any_of(list.edge->others, is_exchanged) ? 1 : 0;
+        }
+    });
+    return pixels;
+}
+
+TEST_CASE("layers that cross may change places beside the line where they do, parallel ones nowhere") {
+    CHECK(exchangeable(OpenedScene{"random:seed=3,triangles=40", 32, 32}) > 0);
+    CHECK(exchangeable(OpenedScene{"planes:count=2,gap=4096,cells=1", 32, 32}) == 0);
 }
 
 TEST_CASE("a pixel at no edge may be covered by nothing else") {
