@@ -82,7 +82,7 @@ std::uint64_t TileFragments::bytes_of(const FragmentNeeds& needs) noexcept {
 }
 
 bool TileFragments::serves(const FragmentNeeds& needs) const noexcept {
-    return state_ == State::complete && records(needs) && (needs_ | needs) == needs_;
+    return state_ == State::complete && (needs_ | needs) == needs_;
 }
 
 void TileFragments::make_room(std::size_t more) {

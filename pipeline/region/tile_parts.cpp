@@ -4,6 +4,7 @@
 
 #include "pipeline/fragments/sort_levels.h"
 #include "pipeline/frame/frame.h"
+#include "pipeline/frame/pass.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/walk/tile_rasterizer.h"

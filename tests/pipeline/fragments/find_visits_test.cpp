@@ -68,6 +68,7 @@ TEST_CASE("of nearest the first arrival of a window's least key is visited, wher
         const bool includes = round % 2 == 0, has_far = round % 3 == 0;
         Windows windows{.near = codes_in(tile.words, includes)};
         if (has_far) windows.far[0] = codes_in(tile.more, round % 5 == 0);
+        if (round % 4 == 0) windows.least = 3, windows.end = 6;
         for (int pass = 0; pass < 3; ++pass) {  // sought from where the pass before has found it
             Visits visits;
             find_nearest(tile.sorted, windows, {tile.stored.data(), false}, visits);
@@ -77,7 +78,8 @@ TEST_CASE("of nearest the first arrival of a window's least key is visited, wher
                 const auto inside = tile.places(p, [&](const Fragment& f) {
                     const bool is_behind = includes ? f.code >= tile.words[p] : f.code > tile.words[p];
                     const bool is_before = !has_far || f.code < tile.more[p] + (round % 5 == 0 ? 1 : 0);
-                    return is_behind && is_before && f.code < tile.stored[p];
+                    return is_behind && is_before && f.code < tile.stored[p] && f.code >= windows.least &&
+                           f.code < windows.end;
                 });
                 const auto least =
                     std::ranges::min_element(inside, {}, [&](std::uint32_t k) { return tile.given.living[k].code; });
@@ -116,6 +118,28 @@ TEST_CASE("by a compared depth the nearest code of those behind a bound is visit
             wrong += found[p] == expected ? 0 : 1;
         }
         CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("a depth that is not quantised is asked of a fragment however far it parts from its code") {
+    GivenRecord given;
+    given.record.start(all_values, std::uint64_t{1} << 20);
+    const auto batch = std::make_unique<rasterizer::FragmentBatch>();
+    batch->count = 1;
+    batch->pixel[0] = batch->primitive[0] = 0;
+    batch->code[0] = batch->reference_code[0] = 1000;
+    batch->reference_z[0] = 5000;  // in the buffer's units
+    given.record.append(*batch, rasterizer::Lanes<std::uint32_t>{~0u});
+    given.record.finish();
+    SortedColumns sorted;
+    REQUIRE(sorted.sort(given.record, {}, 1, std::uint64_t{1} << 20));
+    const std::uint32_t behind = 3000, stored = 0xffffff;
+    for (const bool quantizes : {false, true}) {
+        Visits visits;
+        find_nearest_behind(sorted, given.record,
+                            {.format = DepthFormat::d24, .has_reference = true, .quantizes = quantizes}, {}, &behind,
+                            {&stored, false}, visits);
+        CHECK(visited(visits).size() == (quantizes ? 0u : 1u));
     }
 }
 
@@ -206,7 +230,7 @@ Ends ends_at(const Tile& tile, std::uint32_t p, bool one_outside, const IsInside
     const auto by_z = [&](std::uint32_t k) { return ordered_code(tile.given.living[k].shader_z); };
     if (!between.empty()) {
         ends.needed.insert(*std::ranges::min_element(between, {}, by_z));
-        ends.needed.insert(*std::ranges::max_element(between, {}, by_z));
+        ends.needed.insert(*std::ranges::max_element(between, std::ranges::less_equal{}, by_z));  // the last of them
     }
     if (one_outside && between.empty() && is_near_alone) ends.may.insert(outside.begin(), outside.end());
     return ends;
@@ -228,7 +252,7 @@ struct Ranges {
             const auto any = [&] {
                 return all.empty() ? 0.5f : tile.given.living[all[random() % all.size()]].shader_z;
             };
-            near[p] = std::bit_cast<std::uint32_t>(-any());
+            near[p] = std::bit_cast<std::uint32_t>(p % 16 == 5 ? std::numeric_limits<float>::quiet_NaN() : -any());
             far[p] = std::bit_cast<std::uint32_t>(any());
             surface[p] = std::bit_cast<std::uint32_t>(random_int(random, 0, 2) == 0 ? any() : 2.0f);
         }
@@ -265,6 +289,11 @@ TEST_CASE("of a range the ends are visited, what lies next to them, and one from
                 tile, p, round % 2 == 0, is_inside, [&](const Fragment& f) { return f.shader_z == first; },
                 [&](const Fragment& f) { return f.shader_z == last; });
             wrong += is_right(found[p], ends) ? 0 : 1;
+            for (const float end : {first, last}) {  // whose target keeps what comes last
+                std::vector<std::uint32_t> tied = found[p];
+                std::erase_if(tied, [&](std::uint32_t k) { return tile.given.living[k].shader_z != end; });
+                wrong += std::ranges::is_sorted(tied) ? 0 : 1;
+            }
             alone += ends.may.empty() ? 0 : 1;
         }
     }

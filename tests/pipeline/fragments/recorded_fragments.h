@@ -39,13 +39,17 @@ inline void fill_record(Random& random, int batches, std::uint32_t pixels, int c
         rasterizer::Lanes<std::uint32_t> alive{};
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch->count); ++i) {
             const auto code = [&] { return static_cast<std::uint32_t>(random_int(random, 0, codes - 1)); };
+            const auto tied_or_not = [&] {
+                return random_int(random, 0, 1) == 0 ? static_cast<float>(random_int(random, -4, 4)) / 4
+                                                     : random_float(random, -1, 1);
+            };
             const GivenRecord::Fragment f{
                 all[i],
                 static_cast<std::uint32_t>(b),
                 code(),
                 code(),
                 code(),
-                random_float(random, -1, 1),
+                tied_or_not(),
                 random_float(random, -1, 1),
                 {random_channel(random), random_channel(random), random_channel(random), random_channel(random)}};
             batch->pixel[i] = f.pixel;

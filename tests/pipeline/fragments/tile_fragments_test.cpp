@@ -157,3 +157,20 @@ TEST_CASE("colours are plain from 0 to 1024, alphas from 0 to 1, and -0 and NaN 
             CHECK(is_plain(color) == plain);
         }
 }
+
+TEST_CASE("a record that is filled again knows nothing of the tile before") {
+    TileFragments record;
+    const auto batch = std::make_unique<FragmentBatch>();
+    batch->count = 1;
+    batch->code[0] = 7;
+    for (const bool plain : {true, false, true}) {
+        record.start(all_values, 1 << 10);
+        for (std::size_t c = 0; c < 4; ++c) batch->color[c][0] = plain ? 0.5f : -1.0f;
+        batch->reference_code[0] = plain ? 7 : 9;
+        record.append(*batch, Lanes<std::uint32_t>{~0u});
+        record.finish();
+        CHECK(record.size() == 1);
+        CHECK(record.has_plain_colors() == plain);
+        CHECK(record.reference_lead() == (plain ? 0u : 2u));
+    }
+}
