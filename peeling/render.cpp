@@ -16,7 +16,7 @@
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/check_pass.h"
 #include "pipeline/region/executor.h"
-#include "pipeline/region/region.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
@@ -378,7 +378,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
                          std::to_string(state_->audit_memory()));
     FrameFragments found;
     const Body capture = [&](Region& region) {
-        found.all = region.capture(Bookkeeping::counted);
+        found.all = RegionShortcuts{region}.capture(Bookkeeping::counted);
         const std::uint32_t* opaque = region.storage(region.opaque_depth()).depth(0);
         found.opaque.assign(opaque, opaque + region.rect().area());
         region.publish(region.opaque_color());

@@ -25,7 +25,7 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
         const auto fragments = fragment_lists.of(pixel);
         if (fragments.empty()) continue;
         sort_by(&KeyedFragment::exact_code, fragments, order);
-        const auto color = composite(fragments, order, region.color(region.opaque_color(), pixel));
+        const auto color = composite(fragments, order, region.targets().color(region.opaque_color(), pixel));
         RegionShortcuts{region}.store_pixel(result, pixel,
                                             {static_cast<float>(color[0]), static_cast<float>(color[1]),
                                              static_cast<float>(color[2]), static_cast<float>(color[3])});

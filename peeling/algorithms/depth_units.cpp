@@ -28,7 +28,7 @@ Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool fir
     state.needs.shader_z = false;
     state.needs.reference = in_program;
     state.selection = nearest_behind(compare, first ? Target{} : peeled);
-    const List list = first ? List::first : List::second;
+    const PreparedDraw& list = first ? *region.frame().transparent : region.frame().second_list();
     return region.draw(state, list, [in_program, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;
         if (in_program) discard_peeled(compare, in, own.depth(0), out);

@@ -41,12 +41,13 @@ Drawn peel(Region& region, const DualTargets& t) {
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
     state.selection = ends_between(compare, t.min_max, region.opaque_depth(), Outside::writes_alike);
-    return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        PeelLanes side;
-        classify(compare, in, own.color(0), own.depth(2), side);
-        write_min_max(in, side.is_between, out.color[0]);
-        write_layers(in, own.color(1), side, out.color[1], out.color[2]);
-    });
+    return region.draw(state, region.frame().second_list(),
+                       [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                           PeelLanes side;
+                           classify(compare, in, own.color(0), own.depth(2), side);
+                           write_min_max(in, side.is_between, out.color[0]);
+                           write_layers(in, own.color(1), side, out.color[1], out.color[2]);
+                       });
 }
 
 // OVER of the peeled back layer; counts the pixels that have something left to peel.

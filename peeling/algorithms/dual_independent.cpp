@@ -36,23 +36,24 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     state.needs.reference = !compare.is_plain();
     state.selection = ends_between(compare, min_max, region.opaque_depth(), Outside::dies);
     const bool is_traced = region.frame().trace;
-    return region.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        PeelLanes side;
-        classify(compare, in, own.color(0), own.depth(1), side);
-        write_min_max(in, side.is_between, out.color[0]);
-        premultiply(in.color, out.color[1], lanes(in));
-        choose(side.is_near, out.color[1], lanes(in));
-        out.color[2] = in.color;
-        choose(side.is_far, out.color[2], lanes(in));
-        for (std::size_t i = 0; i < lanes(in); ++i)
-            out.alive[i] &= side.is_near[i] | side.is_far[i] | side.is_between[i];
-        out.traced = is_traced;
-        for (std::size_t i = 0; is_traced && i < lanes(in); ++i) {
-            const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];
-            out.side[i] = is_near != 0 ? Side::front : is_far != 0 ? Side::back : Side::none;
-            out.key[i] = ordered_code(in.shader_z[i]);
-        }
-    });
+    return region.draw(state, region.frame().second_list(),
+                       [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                           PeelLanes side;
+                           classify(compare, in, own.color(0), own.depth(1), side);
+                           write_min_max(in, side.is_between, out.color[0]);
+                           premultiply(in.color, out.color[1], lanes(in));
+                           choose(side.is_near, out.color[1], lanes(in));
+                           out.color[2] = in.color;
+                           choose(side.is_far, out.color[2], lanes(in));
+                           for (std::size_t i = 0; i < lanes(in); ++i)
+                               out.alive[i] &= side.is_near[i] | side.is_far[i] | side.is_between[i];
+                           out.traced = is_traced;
+                           for (std::size_t i = 0; is_traced && i < lanes(in); ++i) {
+                               const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];
+                               out.side[i] = is_near != 0 ? Side::front : is_far != 0 ? Side::back : Side::none;
+                               out.key[i] = ordered_code(in.shader_z[i]);
+                           }
+                       });
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     state.needs.shader_z = false;
     state.needs.reference = !first && !compare.is_plain();
     state.selection = nearest_behind(compare, state.reads[0]);
-    const List list = first ? List::first : List::second;
+    const PreparedDraw& list = first ? *region.frame().transparent : region.frame().second_list();
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
         if (!first) discard_peeled(compare, in, own.depth(0), out);

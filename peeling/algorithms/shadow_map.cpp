@@ -35,7 +35,7 @@ Drawn peel(Region& region, const Buffers& to) {
     state.needs.shader_z = false;
     state.needs.reference = !first;
     state.selection = nearest_behind(compare, to.map);
-    const List list = first ? List::first : List::second;
+    const PreparedDraw& list = first ? *region.frame().transparent : region.frame().second_list();
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;
         if (first) return;

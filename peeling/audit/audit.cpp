@@ -11,10 +11,10 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/audit/pixel_audit.h"
 #include "peeling/programs/fragment_lists.h"
+#include "pipeline/fragments/tile_parts.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
-#include "pipeline/region/tile_parts.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
@@ -98,7 +98,7 @@ struct Audit::Impl {
         const auto width = static_cast<std::uint32_t>(region.rect().width());
         AuditedPixel at{.x = region.rect().x0 + static_cast<int>(pixel % width),
                         .y = region.rect().y0 + static_cast<int>(pixel / width),
-                        .background = region.color(region.opaque_color(), pixel),
+                        .background = region.targets().color(region.opaque_color(), pixel),
                         .at_opaque = at_opaque};
         for (int c = 0; c < 4; ++c)
             at.shown[static_cast<std::size_t>(c)] =

@@ -124,7 +124,7 @@ class Rgba8Course {
 class FloatCourse {
   public:
     explicit FloatCourse(Region& region) : region_{region}, front_{region.make_color()}, back_{region.make_color()} {
-        region.uncounted([&] {
+        RegionShortcuts{region}.uncounted([&] {
             region.clear(front_, {.color = {0, 0, 0, 0}});
             region.copy(region.opaque_color(), back_);
         });

@@ -3,6 +3,7 @@
 #pragma once
 #include "peeling/programs/region_programs.h"
 #include "peeling/programs/under.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 
@@ -139,7 +140,7 @@ class DualLayers {
     // Keeps both layers of the pass that reads this min-max depth.
     void keep(pipeline::Target min_max) {
         if (!region_.frame().keep_layers) return;
-        region_.uncounted([&] {
+        pipeline::RegionShortcuts{region_}.uncounted([&] {
             keep(min_max, pipeline::Side::front);
             keep(min_max, pipeline::Side::back);
         });
@@ -148,7 +149,7 @@ class DualLayers {
     // After the last pass. Other regions may go on: this one has nothing more to show.
     void end() {
         if (!region_.frame().keep_layers) return;
-        region_.uncounted([&] { clear(); });
+        pipeline::RegionShortcuts{region_}.uncounted([&] { clear(); });
         region_.keep_no_layer(layer_.color, layer_.depth);
     }
 
@@ -171,8 +172,8 @@ class DualLayers {
         const DepthCompare compare = region_.frame().depth_compare();
         state.needs.reference = !compare.is_plain();
         if (compare.is_plain()) state.selection = {.keeps = Keeps::window, .range = layer_.end};
-        static_cast<void>(
-            region_.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region_.draw(
+            state, region_.frame().second_list(), [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
                 PeelLanes lane;
                 classify(compare, in, own.color(0), own.depth(1), lane);
                 const Lanes<std::uint32_t>& taken = side == Side::front ? lane.is_near : lane.is_far;

@@ -172,7 +172,7 @@ void ChainList::machine_fragments(std::size_t tile, std::vector<ChainFragment>& 
     }
 }
 
-// The machine's way of a batch is that of Region::shade.
+// The machine's way of a batch is that of Stages::shade.
 void ChainList::take(FragmentBatch& batch, const RealTriangle* triangle, std::vector<ChainFragment>& out) const {
     const auto count = static_cast<std::size_t>(batch.count);
     const MaterialStage& material = prepared_.materials[batch.material];

@@ -28,7 +28,7 @@ struct Frame {
     const DeviceProfile* profile = nullptr;
     const PreparedDraw* opaque = nullptr;
     const PreparedDraw* transparent = nullptr;
-    const PreparedDraw* second = nullptr;  // what List::second draws, binned alike; null: `transparent`
+    const PreparedDraw* second = nullptr;  // what second_list() is, binned alike; null: `transparent`
     rasterizer::DepthRequest depth;  // the frame's depth buffer: path and format, and the path that programs compare
     CompareEpsilon epsilon;          // what programs add to a stored depth before they compare
     bool quantize_reference = true;  // false: they compare a depth that is not rounded like the stored one
@@ -70,6 +70,10 @@ struct Frame {
     }
     // Whether alpha is 1 everywhere, as nothing that is drawn lowers it.
     [[nodiscard]] bool is_opaque() const noexcept { return background[3] == 1.0f; }
+    // The list that passes of a peel draw: `second`, where the same triangles come by another way.
+    [[nodiscard]] const PreparedDraw& second_list() const noexcept {
+        return second != nullptr ? *second : *transparent;
+    }
     // Every pass sees the same fragments, and compares the depth that it stores: what closed forms rest on.
     [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
 };

@@ -54,7 +54,7 @@ class Loads {
     }
 
   private:
-    friend class Region;
+    friend class Stages;
     std::array<ColorLanes, max_reads> color_;
     std::array<Lanes<std::uint32_t>, max_reads> depth_;
 };
@@ -97,6 +97,8 @@ class Count {
 
   private:
     friend class Region;
+    friend class Stages;
+    friend class Loop;
     friend class RegionShortcuts;
     explicit Count(std::uint64_t own) noexcept : own_{own} {}
     std::uint64_t own_ = 0;

@@ -10,7 +10,7 @@
 #include "pipeline/formats/image.h"
 #include "pipeline/frame/counters.h"
 #include "pipeline/frame/diagnostics.h"
-#include "pipeline/frame/pass_log.h"
+#include "pipeline/frame/pass.h"
 
 namespace strata::pipeline {
 
@@ -48,6 +48,21 @@ struct PathTaken {
         return rasterizes ? Path::tiled : is_resolved ? Path::resolved : reads_record ? Path::recorded : Path::tiled;
     }
     [[nodiscard]] const char* why() const noexcept { return rasterizes ? why_rasterized : why_unresolved; }
+};
+
+// The passes and queries of a run as they were decided, where Instruments ask for them.
+struct PassRecord {
+    PassState state;
+    rasterizer::FragmentNeeds needs;       // what is simulated
+    rasterizer::FragmentNeeds called_for;  // what is under Effects::needed
+    bool samples_textures = false;
+    bool is_opaque_priming = false;
+    int iteration = 0;  // 0: before the first
+};
+
+struct PassLog {
+    std::vector<PassRecord> passes;
+    int queries = 0;  // whose answer was asked for
 };
 
 struct RegionBooks {

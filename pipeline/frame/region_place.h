@@ -8,8 +8,6 @@
 namespace strata::pipeline {
 
 enum class Extent : std::uint8_t { frame, tile };
-// Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
-enum class List : std::uint8_t { first, second };
 enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
 
 struct RegionPlace {

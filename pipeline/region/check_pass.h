@@ -5,7 +5,7 @@
 #include "pipeline/device/check.h"
 #include "pipeline/device/profile.h"
 #include "pipeline/frame/pass.h"
-#include "pipeline/region/target_storage.h"
+#include "pipeline/stages/target_storage.h"
 
 namespace strata::pipeline {
 

@@ -6,11 +6,11 @@
 #include <atomic>
 #include <chrono>
 
+#include "pipeline/fragments/tile_parts.h"
 #include "pipeline/frame/verdict.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
-#include "pipeline/region/tile_parts.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
 
@@ -147,7 +147,7 @@ class FrameRun {
         for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
     }
 
-    // Runs region `r` with the answers of `script`; beyond them it guesses from its own counts (region_control.cpp).
+    // Runs region `r` with the answers of `script`; beyond them it guesses from its own counts (region_loop.cpp).
     // The image of the nearest depth depends on no answer, so the first run writes it for good.
     void run_region(std::size_t r, const Answers& script) {
         const Clock::time_point start = Clock::now();
@@ -156,7 +156,7 @@ class FrameRun {
         books.passes_before = passes_before_;
         Region region{frame_, places_[r], books, instruments_, &scratch_};
         body_(region);
-        region.report_non_finite(books.published);
+        region.targets().report_non_finite(books.published);
         RegionShortcuts shortcuts{region};
         shortcuts.write_image(books.published, result_.color);
         RegionRun& kept = regions_[r];

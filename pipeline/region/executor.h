@@ -3,7 +3,7 @@
 // Rule     literal: one region, the frame; every pass rasterizes everything. It is the definition. replay: one region a tile;
 //          a tile guesses the frame's answers from its own counts, and runs again only where the frame decided otherwise and
 //          the tile was not idle. As far as fragment memory reaches, a tile rasterizes its transparent list once
-//          (region_replay.cpp); without memory every pass rasterizes. One blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's. A frame that
+//          (region_source.cpp); without memory every pass rasterizes. One blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's. A frame that
 //          needs it whole (Frame::needs_frame, or a lookup that leaves its region) runs literally whatever was asked for.
 // Source   execution.md 4, 5 and 8.
 // Tests    tests/peeling/execution_test.cpp

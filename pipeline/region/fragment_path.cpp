@@ -24,7 +24,7 @@ ShaderMachine machine_of(const Region& region, const ShaderStages& stages) {
             texels = DepthTexels{*texture.depth_image};
             texels.bottom_up = texture.bottom_up;
         } else if (texture.depth.exists()) {
-            texels = region.depth_texels(texture.depth);
+            texels = region.targets().depth_texels(texture.depth);
         }
         texels.is_eight_bit = texture.eight_bit_depth;
     }

@@ -5,8 +5,10 @@
 //          and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0 d is not s for -0, infinity and NaN:
 //          there the sum is made and dropped.
 // Tests    tests/peeling/execution_test.cpp: against Effects::needed
-#include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shared.h"
+#include "pipeline/region/region_stages.h"
+#include "pipeline/region/region_targets.h"
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/blend.h"
 #include "pipeline/stages/stencil.h"
@@ -14,23 +16,23 @@
 namespace strata::pipeline {
 
 // Whatever the alpha is, its 8-bit code is at least 0.
-void Region::idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out) {
+void Stages::idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out) {
     if (!state.color[0].exists()) return;  // no alpha of colour 0
     constexpr AlphaTest passes_all{.enabled = true, .func = CompareFunc::gequal, .ref = 0.0f};
     alpha_test(passes_all, true, out.color[0][3].data(), out.alive.data(), batch.count);
 }
 
-void Region::idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
+void Stages::idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
     const PixelLanes at_pixels{batch.pixel.data(), static_cast<std::size_t>(batch.count)};
-    if (idles(Effect::depth_test, state.depth.enabled)) {
+    if (shared_.idles(Effect::depth_test, state.depth.enabled)) {
         constexpr DepthTest passes_all{.enabled = true, .func = CompareFunc::always, .write = false};
-        TargetStorage& depth = at(opaque_depth_);
+        TargetStorage& depth = targets_.at(targets_.opaque_depth());
         static_cast<void>(test_depth(passes_all, depth_format(depth.format()), depth.depth_plane(0), at_pixels,
                                      batch.code.data(), alive.data()));
     }
-    if (!idles(Effect::stencil_test, state.stencil.enabled)) return;
-    if (!idle_stencil_) idle_stencil_.emplace(Format::s8, 1, rect_.area());
-    RegionScratch& s = *scratch_;
+    if (!shared_.idles(Effect::stencil_test, state.stencil.enabled)) return;
+    if (!idle_stencil_) idle_stencil_.emplace(Format::s8, 1, shared_.rect().area());
+    RegionScratch& s = shared_.scratch;
     const Texels stencil{idle_stencil_->stencil_plane(0), 1, 32};
     gather_codes(stencil, at_pixels, &s.stencil_stored);
     std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
@@ -40,13 +42,13 @@ void Region::idle_tests(const PassState& state, const FragmentBatch& batch, Lane
     scatter_codes(stencil, at_pixels, alive.data(), 1, &s.stencil_stored);
 }
 
-void Region::idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+void Stages::idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
                         const TargetStorage& target, int sample) {
     Blend again = blending;
     again.enabled = true;
     const FormatInfo format = info(target.format());
-    target.gather(batch.pixel, batch.count, sample, scratch_->idle_codes);
-    blend(again, format.type, profile(), format.channels, color, scratch_->idle_codes, batch.count);
+    target.gather(batch.pixel, batch.count, sample, shared_.scratch.idle_codes);
+    blend(again, format.type, shared_.profile(), format.channels, color, shared_.scratch.idle_codes, batch.count);
 }
 
 }  // namespace strata::pipeline

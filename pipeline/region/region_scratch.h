@@ -10,7 +10,7 @@
 #include "pipeline/fragments/visits.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
-#include "pipeline/region/target_storage.h"
+#include "pipeline/stages/target_storage.h"
 #include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {

@@ -13,50 +13,76 @@ namespace strata::pipeline {
 
 using rasterizer::FragmentNeeds;
 
+Trace& RegionShortcuts::trace() noexcept { return region_.scratch_->trace; }
+
 void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
     auto add = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
     };
-    const Frame& frame = region_.frame_;
+    const Frame& frame = region_.frame();
     const rasterizer::Geometry& geometry = frame.transparent->geometry;
-    region_.rasterizer_->draw(geometry, region_.triangles_of(*frame.transparent), frame.key_request(), nothing,
-                              rasterizer::BatchSink{add});
+    region_.source_.rasterizer().draw(geometry, region_.source_.triangles_of(*frame.transparent), frame.key_request(),
+                                      nothing, rasterizer::BatchSink{add});
+}
+
+// Coverage is counted first, before MASK, so that the list is allocated once and not moved while it grows.
+std::vector<CapturedFragment> RegionShortcuts::capture(Bookkeeping bookkeeping) {
+    std::optional<UncountedWork> look;
+    if (bookkeeping == Bookkeeping::silent) look.emplace(region_.shared_.books);
+    std::uint64_t fragments = 0;
+    std::vector<std::uint32_t> coverage(region_.rect().area());
+    count_coverage(coverage);
+    for (const std::uint32_t of_pixel : coverage) fragments += of_pixel;
+    std::vector<CapturedFragment> all;
+    all.reserve(fragments);
+    PassState state;
+    state.needs = {
+        .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
+    static_cast<void>(region_.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            if (out.alive[i] == 0) continue;
+            all.push_back({in.pixel[i],
+                           in.primitive[i],
+                           in.code[i],
+                           in.exact_code[i],
+                           in.shader_z[i],
+                           {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
+        }
+    }));
+    return all;
 }
 
 // Each part has twice as many triangles as the one before. A program that soon has enough is asked soon, and few
 // batches end early.
 void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
                                      const bool& goes_on) {
-    const PreparedDraw& list = *region_.frame_.transparent;
-    const MaterialNeeds& materials = region_.needs_of_tile(list);
+    const PreparedDraw& list = *region_.frame().transparent;
+    const MaterialNeeds& materials = region_.source_.needs_of_tile(list);
     needs.color |= materials.color;  // MASK decides which fragments there are
     needs.texcoord |= materials.texcoord && needs.color;
-    region_.samples_textures_ = needs.texcoord;
-    region_.takes_shadow_ = needs.color && list.needs.shadow != 0;
-    if (region_.takes_shadow_) needs.units |= list.needs.shadow;
+    const bool takes_shadow = needs.color && list.needs.shadow != 0;
+    region_.stages_.set_material(needs.texcoord, takes_shadow);
+    if (takes_shadow) needs.units |= list.needs.shadow;
     rasterizer::TileRasterizer rows{band};
-    auto triangles = region_.triangles_of(list);
+    auto triangles = region_.source_.triangles_of(list);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
         part = std::min(part, triangles.size());
-        rows.draw(list.geometry, triangles.first(part), region_.frame_.key_request(), needs, sink);
+        rows.draw(list.geometry, triangles.first(part), region_.frame().key_request(), needs, sink);
         triangles = triangles.subspan(part);
     }
 }
 
 std::optional<SortedRecord> RegionShortcuts::sorted_record(const FragmentNeeds& needs) {
-    const PreparedDraw& list = *region_.frame_.transparent;
-    if (!region_.may_record(list) || !region_.has_ordered_surface() || !region_.record(list, needs) ||
-        !region_.sort_for({}))
-        return std::nullopt;
+    if (!region_.source_.record_sorted(needs)) return std::nullopt;
     return SortedRecord{region_.scratch_->fragments, region_.scratch_->sorted};
 }
 
 // LESS with a write over a copy of the opaque depth, in the form of the algorithm's key (execution.md 9).
 Target RegionShortcuts::nearest_depth() {
-    const UncountedWork look{region_.books_};
+    const UncountedWork look{region_.shared_.books};
     const Target nearest = region_.make_depth();
-    region_.copy(region_.opaque_depth_, nearest);
+    region_.copy(region_.opaque_depth(), nearest);
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
@@ -67,7 +93,7 @@ Target RegionShortcuts::nearest_depth() {
 }
 
 void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) {
-    TargetStorage& to = region_.at(target);
+    TargetStorage& to = region_.targets_.at(target);
     const auto codes = color_codes(to.format(), region_.profile().color_rounding(), color);
     RegionScratch& s = *region_.scratch_;
     Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
@@ -79,7 +105,7 @@ void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba
 
 std::uint64_t RegionShortcuts::target_words() const {
     std::uint64_t words = 0;
-    for (const TargetStorage& storage : region_.storages_) {
+    for (const TargetStorage& storage : region_.targets_.all()) {
         const std::size_t stencil = storage.format() == Format::d24s8 ? 1 : 0;
         words += static_cast<std::uint64_t>(storage.samples()) * (storage.texels(0).words() + stencil);
     }
@@ -88,24 +114,23 @@ std::uint64_t RegionShortcuts::target_words() const {
 
 // Geometry passes also count for limit_reached, as the passes that are replaced would have.
 void RegionShortcuts::book(const PassCount& passes) {
-    region_.count_pass(passes);
-    region_.books_.geometry_passes += passes.geometry;
-    if (passes.full_screen > 0) region_.show(StepEvent{.step = Step::full_screen});
+    region_.shared_.count_pass(passes);
+    region_.shared_.books.geometry_passes += passes.geometry;
+    if (passes.full_screen > 0) region_.shared_.show(StepEvent{.step = Step::full_screen});
 }
 
 void RegionShortcuts::store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes) {
     RegionScratch& s = *region_.scratch_;
     std::iota(s.screen.pixel.begin(), s.screen.pixel.begin() + pixels, first);
     std::fill_n(s.alive.begin(), pixels, ~0u);
-    region_.at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
+    region_.targets_.at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
 }
 
 void RegionShortcuts::write_image(Target target, Image& frame) const {
-    const rasterizer::Rect& whole = region_.frame_.rect();
-    const rasterizer::Rect& own = region_.rect_;
+    const rasterizer::Rect& whole = region_.frame().rect();
+    const rasterizer::Rect own = region_.rect();
     for (int y = 0; y < own.height(); ++y)
-        region_.read_row(region_.storage(target), y,
-                         &frame.codes[frame.index(own.x0 - whole.x0, own.y0 - whole.y0 + y)]);
+        region_.targets_.read_row(target, y, &frame.codes[frame.index(own.x0 - whole.x0, own.y0 - whole.y0 + y)]);
     finish_words();
 }
 

@@ -7,7 +7,9 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "pipeline/frame/captured_fragment.h"
 #include "pipeline/region/region.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 
@@ -35,20 +37,29 @@ class RegionShortcuts {
     // What the tile draws of the list, with the values that `needs` names; nothing where that is not recorded or has no order.
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
 
+    // Every fragment of the transparent list in submission order, after MASK, before any test.
+    [[nodiscard]] std::vector<CapturedFragment> capture(Bookkeeping bookkeeping);
+    // Runs `work`, whose passes, clears and copies are the emulator's own: nothing counts them.
+    template <class Work>
+    void uncounted(Work&& work) {
+        const UncountedWork own{region_.shared_.books};
+        work();
+    }
+
     // Words a pixel that the region's targets have by now, samples and all.
     [[nodiscard]] std::uint64_t target_words() const;
     void book(const PassCount& passes);  // that something stood in for
     // Whether a whole loop was computed from the record: null, or why not, in a sentence.
     void note_resolved(const char* why_not) noexcept {
-        region_.books_.taken.is_resolved = why_not == nullptr;
-        region_.books_.taken.why_unresolved = why_not;
+        region_.shared_.books.taken.is_resolved = why_not == nullptr;
+        region_.shared_.books.taken.why_unresolved = why_not;
     }
-    void count(const Counters& counters) noexcept { region_.count(counters); }
+    void count(const Counters& counters) noexcept { region_.shared_.count(counters); }
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
-    [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }
+    [[nodiscard]] Trace& trace() noexcept;
 
     // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
-    [[nodiscard]] Word* words(Target target) { return region_.at(target).depth_plane(0).words; }
+    [[nodiscard]] Word* words(Target target) { return region_.targets_.at(target).depth_plane(0).words; }
     // Consecutive pixels, all channels, sample 0.
     void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
     // A pixel's colour, converted like a write without blending.
@@ -67,12 +78,12 @@ class RegionShortcuts {
 
 template <class P>
 bool RegionShortcuts::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
-    const UncountedWork look{region_.books_};
+    const UncountedWork look{region_.shared_.books};
     bool goes_on = true;
     auto sink = [&](FragmentBatch& batch) {
         if (!goes_on) return;
-        Outputs& out = region_.start_batch(batch);
-        region_.shade(*region_.frame_.transparent, batch, out);
+        Outputs& out = region_.stages_.start_batch(batch);
+        region_.stages_.shade(*region_.frame().transparent, batch, out);
         goes_on = program(static_cast<const FragmentBatch&>(batch), static_cast<const Outputs&>(out));
     };
     rasterize_band(needs, band, rasterizer::BatchSink{sink}, goes_on);

@@ -1,5 +1,7 @@
 // pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
 // (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. fragment-stages.md 1.
+#include "pipeline/region/region_stages.h"
+
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -12,8 +14,9 @@
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/check_pass.h"
-#include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shared.h"
+#include "pipeline/region/region_targets.h"
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/blend.h"
 #include "pipeline/stages/depth_test.h"
@@ -70,62 +73,74 @@ std::uint64_t pixel_bytes(const TargetStorage& s) {
 
 }  // namespace
 
-const Loads& Region::loads() const noexcept { return scratch_->loads; }
-FragmentBatch& Region::screen_batch() noexcept { return scratch_->screen; }
-std::uint64_t Region::alive_count(const Outputs& out, int count) noexcept { return count_lanes(out.alive, count); }
+Stages::Stages(const RegionShared& shared, Targets& targets) noexcept : shared_{shared}, targets_{targets} {}
+Stages::~Stages() = default;
+
+const Loads& Stages::loads() const noexcept { return shared_.scratch.loads; }
+std::uint64_t Stages::alive_count(const Outputs& out, int count) noexcept { return count_lanes(out.alive, count); }
+
+void Stages::show(Stage stage, const PassState& state, const FragmentBatch& batch, const Outputs& out,
+                  const Lanes<std::uint32_t>& alive, int sample) const {
+    if (const Observer* o = shared_.instruments.observer; o != nullptr && o->stage)
+        o->stage(shared_.region,
+                 {stage, state, batch, out, alive, sample, kind_ == PassKind::geometry, shared_.books.counts});
+}
 
 // Checks a pass, and books all of it that does not depend on its fragments. Fragments bring one code each, so a depth
 // target must have the format of the frame's codes. All targets have one number of samples: check_pass has seen to it.
-void Region::begin_pass(const PassState& state, PassKind kind) {
+void Stages::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
-    check_pass(profile(), state, storages_);
-    opaque_depth_is_cleared_ &= !(writes_depth(state.depth) && state.depth_target == opaque_depth_);
+    check_pass(shared_.profile(), state, targets_.all());
+    if (writes_depth(state.depth)) targets_.note_written(state.depth_target);
     depth_ = DepthOutcome::open;
-    if (state.depth.enabled && depth_format(at(state.depth_target).format()) != frame_.key_request().format)
+    if (state.depth.enabled &&
+        depth_format(targets_.at(state.depth_target).format()) != shared_.frame.key_request().format)
         throw std::logic_error("pass state: the depth target's format is not that of the frame's depth codes");
-    pass_samples_ = 1;
+    samples_ = 1;
     for (const Target t : {state.depth_target, state.stencil_target})
-        if (t.exists()) pass_samples_ = at(t).samples();
+        if (t.exists()) samples_ = targets_.at(t).samples();
     for (const Target t : state.color)
-        if (t.exists()) pass_samples_ = at(t).samples();
+        if (t.exists()) samples_ = targets_.at(t).samples();
     if (kind == PassKind::geometry) {
-        count_pass({.geometry = 1});
-        if (books_.counts) ++books_.geometry_passes;
+        shared_.count_pass({.geometry = 1});
+        if (shared_.books.counts) ++shared_.books.geometry_passes;
         return;
     }
-    count_pass({.full_screen = 1});
+    shared_.count_pass({.full_screen = 1});
     for (std::size_t k = 0; k < state.color.size();
          ++k)  // a quad's traffic is every pixel's, whatever its program discards
-        if (state.color[k].exists()) count_color_bytes(state.blend[k], at(state.color[k]), rect_.area());
+        if (state.color[k].exists())
+            count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.rect().area());
 }
 
-void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
-    count(of_color(pixel_bytes(target), pixels, blending.enabled));
+void Stages::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
+    shared_.count(of_color(pixel_bytes(target), pixels, blending.enabled));
 }
 
 // The pixels of a full-screen pass, row by row. Window positions fit 16 bits: a frame has at most 16,384 pixels a side.
-bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
-    const std::size_t left = rect_.area() - next;
+FragmentBatch* Stages::next_screen_batch(std::size_t& next) {
+    FragmentBatch& batch = shared_.scratch.screen;
+    const std::size_t left = shared_.rect().area() - next;
     const std::size_t count = std::min<std::size_t>(left, batch_capacity);
-    const auto width = static_cast<std::size_t>(rect_.width());
+    const auto width = static_cast<std::size_t>(shared_.rect().width());
     std::iota(batch.pixel.begin(), batch.pixel.begin() + static_cast<std::ptrdiff_t>(count), static_cast<Word>(next));
     for (std::size_t i = 0; i < count;) {
         const std::size_t x = (next + i) % width, y = (next + i) / width, end = std::min(count, i + width - x);
-        const auto first_x = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.x0) + x);
+        const auto first_x = static_cast<std::uint16_t>(static_cast<std::size_t>(shared_.rect().x0) + x);
         for (std::size_t k = i; k < end; ++k) batch.x[k] = static_cast<std::uint16_t>(first_x + (k - i));
         std::fill(batch.y.begin() + static_cast<std::ptrdiff_t>(i), batch.y.begin() + static_cast<std::ptrdiff_t>(end),
-                  static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.y0) + y));
+                  static_cast<std::uint16_t>(static_cast<std::size_t>(shared_.rect().y0) + y));
         i = end;
     }
     next += count;
     batch.count = static_cast<int>(count);
-    return count > 0;
+    return count > 0 ? &batch : nullptr;
 }
 
 // Colours are not cleared: a program writes the outputs that its pass has targets for.
-Outputs& Region::start_batch(const FragmentBatch& batch) {
-    Outputs& out = scratch_->out;
+Outputs& Stages::start_batch(const FragmentBatch& batch) {
+    Outputs& out = shared_.scratch.out;
     std::fill_n(out.alive.begin(), batch.count, ~0u);
     out.traced = out.replaces_depth = false;
     return out;
@@ -133,86 +148,103 @@ Outputs& Region::start_batch(const FragmentBatch& batch) {
 
 // fragment-stages.md 2: texture, shadow, MASK. MASK cuts at the material's own alpha, so the alpha scale comes behind
 // it; its precision is that of the frame's colour format, whatever the pass's targets are.
-void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
-    books_.fragments_drawn += static_cast<std::uint64_t>(batch.count);
-    count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
+void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
+    shared_.books.fragments_drawn += static_cast<std::uint64_t>(batch.count);
+    shared_.count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
     const MaterialStage& material = list.materials[batch.material];
     if (material.texture != nullptr && samples_textures_) {
-        sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel,
-               batch.count);
+        sample(*material.texture, shared_.profile().texture_filter, batch.texcoord[0], batch.texcoord[1],
+               shared_.scratch.texel, batch.count);
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-                batch.color[c][i] *= scratch_->texel[c][i];
+                batch.color[c][i] *= shared_.scratch.texel[c][i];
     }
-    if (takes_shadow_) cast_shadow(*frame_.shadow, profile(), batch, scratch_->texel);
+    if (takes_shadow_) cast_shadow(*shared_.frame.shadow, shared_.profile(), batch, shared_.scratch.texel);
     if (!material.mask.enabled) return;
-    const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
+    const bool eight_bit = is_eight_bit_alpha(shared_.profile().alpha_test, info(shared_.frame.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
-    count({.alpha_killed = static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count)});
+    shared_.count({.alpha_killed = static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count)});
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.color[3][i] *= material.alpha_scale;
 }
 
 // Dead lanes load, too: the traffic is that of every fragment of the batch (execution.md 8.1).
-void Region::load(const PassState& state, const FragmentBatch& batch) {
+void Stages::load(const PassState& state, const FragmentBatch& batch) {
     for (const Target t : state.textures)
-        if (t.exists()) count(of_loads(pixel_bytes(at(t)), static_cast<std::uint64_t>(batch.count)));
+        if (t.exists()) shared_.count(of_loads(pixel_bytes(targets_.at(t)), static_cast<std::uint64_t>(batch.count)));
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
-        TargetStorage& from = at(state.reads[r]);
-        count(of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count)));
+        TargetStorage& from = targets_.at(state.reads[r]);
+        shared_.count(of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count)));
         load_target(from, r, batch);
-        if (instruments_.once_more == Effect::loads) load_target(from, r, batch);
+        if (shared_.instruments.once_more == Effect::loads) load_target(from, r, batch);
     }
 }
 
 // A depth is loaded as its code. Of a colour, channels that the format lacks read 0, and alpha 1.
-void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
+void Stages::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
     if (is_depth(from.format()))
-        return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &scratch_->loads.depth_[read]);
+        return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &shared_.scratch.loads.depth_[read]);
     const FormatInfo format = info(from.format());
-    from.gather(batch.pixel, batch.count, 0, scratch_->codes);
+    from.gather(batch.pixel, batch.count, 0, shared_.scratch.codes);
     for (std::size_t c = 0; c < 4; ++c) {
-        Lanes<float>& values = scratch_->loads.color_[read][c];
+        Lanes<float>& values = shared_.scratch.loads.color_[read][c];
         const auto each = [&](auto value) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-                values[i] = value(scratch_->codes[c][i]);
+                values[i] = value(shared_.scratch.codes[c][i]);
         };
-        const UnormRounding unorm = profile().unorm_rounding;
-        const HalfRounding half = profile().half_rounding;
+        const UnormRounding unorm = shared_.profile().unorm_rounding;
+        const HalfRounding half = shared_.profile().half_rounding;
         const bool is_there = c < static_cast<std::size_t>(format.channels);
         if (is_there && format.type == ChannelType::unorm8 && unorm != UnormRounding::half_up)
             each([&](std::uint32_t code) { return code_value(code, unorm); });
         else if (is_there && format.type == ChannelType::half && half == HalfRounding::no_infinity)
             each([&](std::uint32_t code) { return half_value(static_cast<std::uint16_t>(code), half); });
         else if (is_there)
-            decode(format.type, scratch_->codes[c], values, batch.count);
+            decode(format.type, shared_.scratch.codes[c], values, batch.count);
         else
             std::fill_n(values.begin(), batch.count, c == 3 ? 1.0f : 0.0f);
     }
 }
 
+void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& out,
+                         const std::function<void()>& program) {
+    const std::uint64_t before = alive_count(out, batch.count);
+    const std::uint64_t tally = out.tally;
+    if (const Alteration* a = shared_.alteration(); a != nullptr && a->program)
+        a->program({state, kind_, batch, loads(), out}, program);
+    else
+        program();
+    if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
+    tallied_ += out.tally - tally;
+    show(Stage::program, state, batch, out, out.alive);
+    if (kind_ != PassKind::geometry) return;
+    shared_.count({.discarded = before - alive_count(out, batch.count)});
+    if (shared_.books.counts) shared_.books.fragments_visited += static_cast<std::uint64_t>(batch.count);
+}
+
 // The alpha test compares 8-bit codes unless target 0 holds floats and the profile goes by the target
 // (fragment-stages.md 3).
-void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
+void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
     if (state.alpha.enabled) {
         const std::uint64_t before = alive_count(out, batch.count);
-        const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
-        alpha_test(state.alpha, is_eight_bit_alpha(profile().alpha_test, type), out.color[0][3].data(),
+        const ChannelType type =
+            state.color[0].exists() ? info(targets_.at(state.color[0]).format()).type : ChannelType::unorm8;
+        alpha_test(state.alpha, is_eight_bit_alpha(shared_.profile().alpha_test, type), out.color[0][3].data(),
                    out.alive.data(), batch.count);
-        count({.alpha_killed = before - alive_count(out, batch.count)});
+        shared_.count({.alpha_killed = before - alive_count(out, batch.count)});
     }
-    if (idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
+    if (shared_.idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
     show(Stage::alpha_test, state, batch, out, out.alive);
-    for (int sample = 0; sample < pass_samples_; ++sample)
+    for (int sample = 0; sample < samples_; ++sample)
         if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
     drawn.tallied = Count{tallied_};
 }
 
 // Every sample has the same colour and code, and tests of its own. Queries count samples; the counter `blended` and the
 // trace look at sample 0 alone (fragment-stages.md 10.3).
-void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                            Drawn& drawn) {
-    Lanes<std::uint32_t>& alive = scratch_->alive;
+    Lanes<std::uint32_t>& alive = shared_.scratch.alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
     if (state.depth_unit_count > 0) test_depth_units(state, batch, sample, alive);
     show(Stage::depth_units, state, batch, out, alive, sample);
@@ -224,38 +256,38 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
     show(Stage::tests, state, batch, out, alive, sample);
     // Without a test, fragments that a program discards fetch tiles, too (fragment-stages.md 9.5).
     if (passed == 0 && (cache_ == nullptr || is_tested)) return;
-    if (kind_ == PassKind::geometry && sample == 0) count({.blended = passed});
+    if (kind_ == PassKind::geometry && sample == 0) shared_.count({.blended = passed});
     write_colors(state, batch, out, sample, alive, passed);
     show(Stage::written, state, batch, out, alive, sample);
-    if (out.traced && frame_.trace && books_.counts && sample == 0) record_trace(batch, out, alive);
+    if (out.traced && shared_.frame.trace && shared_.books.counts && sample == 0) record_trace(batch, out, alive);
 }
 
 // A quad composites a layer and no fragment of its own, so it names no primitive: then the audit compares keys alone.
-void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
+void Stages::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
-            trace({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0, out.side[i],
-                   kind_ == PassKind::geometry});
+            shared_.trace({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
+                           out.side[i], kind_ == PassKind::geometry});
 }
 
 // The units test one after the other, without a write; a fragment stops at the first that fails (fragment-stages.md 4).
-void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, int sample,
+void Stages::test_depth_units(const PassState& state, const FragmentBatch& batch, int sample,
                               Lanes<std::uint32_t>& alive) {
     for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
-        TargetStorage& target = at(state.depth_units[unit].depth);
+        TargetStorage& target = targets_.at(state.depth_units[unit].depth);
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
         const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(sample),
                                               lanes_of(batch), batch.code.data(), alive.data());
-        count(of_depth_test(pixel_bytes(target), result.arriving, result.passed, false));
+        shared_.count(of_depth_test(pixel_bytes(target), result.arriving, result.passed, false));
     }
 }
 
 // Three ways to one result: the test is known to pass and only booked (depth_outcome), depth alone in one kernel, or
 // stencil and depth together, because the stencil operation depends on both (fragment-stages.md 5).
-std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                              Lanes<std::uint32_t>& alive) {
-    RegionScratch& s = *scratch_;
-    TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
+    RegionScratch& s = shared_.scratch;
+    TargetStorage* const depth = state.depth.enabled ? &targets_.at(state.depth_target) : nullptr;
     DepthResult tested;
     std::uint64_t stencil_killed = 0;
     if (depth_ == DepthOutcome::passes) {
@@ -277,36 +309,37 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
             scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
     // What is compared may be wider than what is kept (depth.md 2.9).
-    if (wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
+    if (shared_.wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
             depth->depth_plane(sample).words[batch.pixel[i]] &= rasterizer::max_code(depth_format(depth->format()));
-    count({.stencil_killed = stencil_killed});
+    shared_.count({.stencil_killed = stencil_killed});
     if (depth != nullptr)
-        count(of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write));
+        shared_.count(
+            of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write));
     return tested.passed;
 }
 
 // Dead lanes are written back with the value that they had: no pixel occurs twice in a batch. A stencil value is a byte
 // of traffic, read and written by every fragment that arrives.
-std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                    Lanes<std::uint32_t>& alive) {
-    RegionScratch& s = *scratch_;
-    const Texels stencil = codes_in(at(state.stencil_target).stencil_plane(sample));
+    RegionScratch& s = shared_.scratch;
+    const Texels stencil = codes_in(targets_.at(state.stencil_target).stencil_plane(sample));
     const std::uint64_t arriving = count_lanes(alive, batch.count);
     gather_codes(stencil, lanes_of(batch), &s.stencil_stored);
     const int killed = stencil_test(state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
                                                     s.stencil_stored.data(), s.saturated.data(), batch.count});
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
-    count({.bytes_read = arriving, .bytes_written = arriving});
+    shared_.count({.bytes_read = arriving, .bytes_written = arriving});
     if (!state.saturates_by_design) report_saturation(batch);
     return static_cast<std::uint64_t>(killed);
 }
 
 // A pixel is reported once, however often it saturates, so that the report does not depend on batches.
-void Region::report_saturation(const FragmentBatch& batch) {
-    const Lanes<std::uint32_t>& saturated = scratch_->saturated;
+void Stages::report_saturation(const FragmentBatch& batch) {
+    const Lanes<std::uint32_t>& saturated = shared_.scratch.saturated;
     if (count_lanes(saturated, batch.count) == 0) return;
-    has_saturated_.resize(rect_.area());
+    has_saturated_.resize(shared_.rect().area());
     std::uint64_t pixels = 0;  // that had not saturated before
     std::uint32_t first = ~0u;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
@@ -315,63 +348,60 @@ void Region::report_saturation(const FragmentBatch& batch) {
         first = std::min(first, batch.pixel[i]);
         ++pixels;
     }
-    report(Fault::stencil_saturated, pixels, first, saturated_stencil);
+    shared_.report(Fault::stencil_saturated, pixels, first, saturated_stencil);
 }
 
-void Region::report_saturation(std::uint32_t pixel) {
-    has_saturated_.resize(rect_.area());
-    if (has_saturated_[pixel]) return;
-    has_saturated_[pixel] = true;
-    report(Fault::stencil_saturated, 1, pixel, saturated_stencil);
-}
-
-void Region::open_tile_cache(const PassState& state) {
-    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(rect_, frame_.rect());
+void Stages::open_cache(const PassState& state) {
+    if (shared_.profile().blend_storage == BlendStorage::target) return;
+    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect());
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         if (!state.color[k].exists()) continue;
-        const TargetStorage& target = at(state.color[k]);
+        const TargetStorage& target = targets_.at(state.color[k]);
         if (!TileCache::knows(state.blend[k], target.format())) continue;
         CachedPlanes planes{target.format(), target.pixels(), {}};
         for (int sample = 0; sample < target.samples(); ++sample) planes.samples.push_back(target.texels(sample));
-        cache_->hold(k, profile(), state.blend[k], std::move(planes));
+        cache_->hold(k, shared_.profile(), state.blend[k], std::move(planes));
     }
 }
 
-void Region::close_tile_cache() { cache_->close(); }
+void Stages::close_cache() {
+    if (cache_ != nullptr) cache_->close();
+}
 
 // Sums into halves have a kernel that adds in place; on sets that do not convert halves it answers false, and the
 // general way below, its definition, runs. Stored values are fetched only where blending or a partial write mask looks
 // at them.
-void Region::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+void Stages::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                           const Lanes<std::uint32_t>& alive, std::uint64_t passed) {
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         const Blend& blending = state.blend[k];
         if (!state.color[k].exists() || blending.write_mask == 0) continue;
-        TargetStorage& target = at(state.color[k]);
+        TargetStorage& target = targets_.at(state.color[k]);
         const FormatInfo format = info(target.format());
         if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
         if (cache_ != nullptr && cache_->holds(k)) {
             const auto& fetched = state.depth.enabled || state.stencil.enabled ? alive : every_lane;
-            if (idles(Effect::blending, true)) idle_blend(blending, batch, out.color[k], target, sample);
+            if (shared_.idles(Effect::blending, true)) idle_blend(blending, batch, out.color[k], target, sample);
             cache_->blend(k, {batch, out.color[k], alive, fetched, sample});
             continue;
         }
-        const bool is_idle = idles(Effect::blending, blending.enabled);
+        const bool is_idle = shared_.idles(Effect::blending, blending.enabled);
         const bool keeps_source =
             is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do
         if (is_idle && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
-        const bool adds_halves = frame_.effects == Effects::needed && format.type == ChannelType::half &&
-                                 profile().half_rounding == HalfRounding::nearest_even && blending == blend_mode::sum;
+        const bool adds_halves = shared_.frame.effects == Effects::needed && format.type == ChannelType::half &&
+                                 shared_.profile().half_rounding == HalfRounding::nearest_even &&
+                                 blending == blend_mode::sum;
         if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
-                                      profile().denormals == DenormalRule::flush))
+                                      shared_.profile().denormals == DenormalRule::flush))
             continue;
         const Blend used = keeps_source ? idle(blending) : blending;
-        if (used.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
-            target.gather(batch.pixel, batch.count, sample, scratch_->codes);
-        const ColorLanes& source = blended_source(target.format(), out.color[k], scratch_->texel, batch.count);
-        blend(used, format.type, profile(), format.channels, source, scratch_->codes, batch.count);
-        if (is_narrow(target.format())) narrow(target.format(), scratch_->codes, batch.count);
-        target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
+        if (used.enabled || blending.write_mask != 0xf || shared_.frame.effects == Effects::all)
+            target.gather(batch.pixel, batch.count, sample, shared_.scratch.codes);
+        const ColorLanes& source = blended_source(target.format(), out.color[k], shared_.scratch.texel, batch.count);
+        blend(used, format.type, shared_.profile(), format.channels, source, shared_.scratch.codes, batch.count);
+        if (is_narrow(target.format())) narrow(target.format(), shared_.scratch.codes, batch.count);
+        target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, shared_.scratch.codes);
     }
 }
 

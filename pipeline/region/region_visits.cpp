@@ -1,12 +1,14 @@
 // pipeline/region/region_visits.cpp - geometry passes that visit only what decides: the fragments that a selection keeps go through the
 // stages, and no others (execution.md 7.1). Literal execution never takes this way: it is what this one is tested against.
 #include <algorithm>
-#include <stdexcept>
 
 #include "pipeline/fragments/find_visits.h"
 #include "pipeline/frame/effects.h"
-#include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shared.h"
+#include "pipeline/region/region_source.h"
+#include "pipeline/region/region_stages.h"
+#include "pipeline/region/region_targets.h"
 #include "pipeline/stages/alpha_test.h"
 
 namespace strata::pipeline {
@@ -57,90 +59,87 @@ bool bounds_suit(const PassState& state, DepthKey key) {
 
 }  // namespace
 
-bool Region::has_ordered_surface() const {
-    const TargetStorage& surface = storage(opaque_depth_);
-    const auto is_beyond = [format = depth_format(surface.format())](std::uint32_t code) {
-        return rasterizer::is_beyond_range(code, format);
-    };
-    return !wraps_depths() || std::none_of(surface.depth(0), surface.depth(0) + rect_.area(), is_beyond);
-}
-
 // Of a tile whose fragments fit into memory, and are sortable.
-bool Region::find_visits(const PassState& state, const PreparedDraw& list) {
+bool Source::find_visits(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run =
-        may_record(list) && !instruments_.log_passes && frame_.termination.rule != TerminationRule::ratio;
+        may_record(list) && !shared_.instruments.log_passes && shared_.frame.termination.rule != TerminationRule::ratio;
     const bool tests_codes = state.depth.enabled && selection.keeps != Keeps::window;
-    if (!is_plain_run || state.replaces_depth || !has_tests_of_its_kind(state, pass_samples_) ||
-        (tests_codes && frame_.key != DepthKey::stored_code) || !bounds_suit(state, frame_.key) ||
-        !has_ordered_surface())
+    if (!is_plain_run || state.replaces_depth || !has_tests_of_its_kind(state, stages_.samples()) ||
+        (tests_codes && shared_.frame.key != DepthKey::stored_code) || !bounds_suit(state, shared_.frame.key) ||
+        !targets_.has_ordered_surface())
         return false;
-    FragmentNeeds kept = pass_needs(state, needs_of_tile(list), frame_.effects);
+    FragmentNeeds kept = pass_needs(state, needs_of_tile(list), shared_.frame.effects);
     kept.texcoord = state.needs.texcoord;
     kept.units = state.needs.units;
     if (!record(list, kept) || !sort_for(state)) return false;
     const bool has_order = selection.keeps == Keeps::ends || selection.outside == Outside::writes_alike;
     const bool is_float = std::ranges::any_of(
-        state.color, [&](Target t) { return t.exists() && info(at(t).format()).type != ChannelType::unorm8; });
-    if (has_order && is_float && state.needs.color && !scratch_->fragments.has_plain_colors()) return false;
-    scratch_->visits.start();
-    return find_kept(state);
+        state.color, [&](Target t) { return t.exists() && info(targets_.at(t).format()).type != ChannelType::unorm8; });
+    if (has_order && is_float && state.needs.color && !shared_.scratch.fragments.has_plain_colors()) return false;
+    shared_.scratch.visits.start();
+    if (!find_kept(state)) return false;
+    shared_.books.taken.reads_record = true;
+    return true;
 }
 
 // The sorting that this pass looks into: one of two, for passes in turn may ask for two parts of a list.
-bool Region::sort_for(const PassState& state) {
-    SortRequest request{.key = frame_.key,
-                        .is_float = frame_.key_request().format == DepthFormat::d32f,
+bool Source::sort_for(const PassState& state) {
+    SortRequest request{.key = shared_.frame.key,
+                        .is_float = shared_.frame.key_request().format == DepthFormat::d32f,
                         .by_arrival = state.selection.keeps == Keeps::arrivals,
                         .primitives = {state.primitives.begin(), state.primitives.end()}};
     if (state.alpha.enabled && state.selection.keeps == Keeps::nearest) {
         request.alpha = state.alpha;
-        const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
-        request.eight_bit_alpha = is_eight_bit_alpha(profile().alpha_test, type);
+        const ChannelType type =
+            state.color[0].exists() ? info(targets_.at(state.color[0]).format()).type : ChannelType::unorm8;
+        request.eight_bit_alpha = is_eight_bit_alpha(shared_.profile().alpha_test, type);
     }
-    RegionScratch& s = *scratch_;
+    RegionScratch& s = shared_.scratch;
     if (!s.sorted.is_of(request)) std::swap(s.sorted, s.other_sorted);
     if (s.sorted.is_of(request)) return s.sorted.is_sorted();
     const std::uint64_t taken = s.fragments.bytes() + s.other_sorted.bytes();
-    return s.sorted.sort(s.fragments, request, rect_.area(), frame_.replay.bytes - std::min(taken, frame_.replay.bytes),
-                         request.by_arrival ? codes_of(opaque_depth_) : nullptr);
+    return s.sorted.sort(s.fragments, request, shared_.rect().area(),
+                         shared_.frame.replay.bytes - std::min(taken, shared_.frame.replay.bytes),
+                         request.by_arrival ? targets_.codes_of(targets_.opaque_depth()) : nullptr);
 }
 
-Windows Region::windows_of(const FragmentSelection& s) const {
+Windows Source::windows_of(const FragmentSelection& s) const {
     const auto plane = [&](const KeyBound& bound) {
         if (!bound.exists()) return BoundPlane{};
-        const TargetStorage& from = storage(bound.target);
+        const TargetStorage& from = targets_.at(bound.target);
         const bool is_value = bound.channel >= 0;
-        const auto holds = is_value                           ? BoundPlane::Holds::values
-                           : frame_.key == DepthKey::shader_z ? BoundPlane::Holds::depths
-                                                              : BoundPlane::Holds::codes;
+        const auto holds = is_value                                  ? BoundPlane::Holds::values
+                           : shared_.frame.key == DepthKey::shader_z ? BoundPlane::Holds::depths
+                                                                     : BoundPlane::Holds::codes;
         const auto channel = static_cast<std::size_t>(is_value ? bound.channel : 0);
-        return BoundPlane{from.texels(0).plane(channel).words, bound.includes, holds, frame_.key_request().format};
+        return BoundPlane{from.texels(0).plane(channel).words, bound.includes, holds,
+                          shared_.frame.key_request().format};
     };
     Windows windows{.near = plane(s.near),
                     .far = {plane(s.far[0]), plane(s.far[1])},
                     .least = s.least,
                     .end = std::uint64_t{s.most} + 1};
     if (s.range.exists()) {
-        windows.range_near = storage(s.range).texels(0).plane(0).words;
-        windows.range_far = storage(s.range).texels(0).plane(1).words;
+        windows.range_near = targets_.at(s.range).texels(0).plane(0).words;
+        windows.range_far = targets_.at(s.range).texels(0).plane(1).words;
     }
     return windows;
 }
 
-bool Region::find_kept(const PassState& state) {
+bool Source::find_kept(const PassState& state) {
     const FragmentSelection& selection = state.selection;
-    RegionScratch& s = *scratch_;
+    RegionScratch& s = shared_.scratch;
     const Windows windows = windows_of(selection);
     const bool one_outside = selection.outside == Outside::writes_alike;
-    const StoredCodes stored{codes_of(state.depth_target),
-                             state.depth_target.exists() && storage(state.depth_target).format() == Format::d32f};
+    const StoredCodes stored{targets_.codes_of(state.depth_target),
+                             state.depth_target.exists() && targets_.at(state.depth_target).format() == Format::d32f};
     switch (selection.keeps) {
         case Keeps::nearest:
             if (selection.compared && selection.near.exists())
                 find_nearest_behind(s.sorted, s.fragments, *selection.compared,
                                     {.far = windows.far, .least = windows.least, .end = windows.end},
-                                    codes_of(selection.near.target), stored, s.visits);
+                                    targets_.codes_of(selection.near.target), stored, s.visits);
             else
                 find_nearest(s.sorted, windows, stored, s.visits);
             return true;
@@ -158,11 +157,11 @@ bool Region::find_kept(const PassState& state) {
 }
 
 // Whether sample s of every pixel with fragments takes arrival number first_arrival + s.
-bool Region::waits_in_order(const PassState& state) const {
-    if (state.selection.far[0].target != opaque_depth_) return false;
-    const SortedColumns& sorted = scratch_->sorted;
-    for (int s = 0; s < pass_samples_; ++s) {
-        const std::uint32_t* const stored = storage(state.stencil_target).stencil(s);
+bool Source::waits_in_order(const PassState& state) const {
+    if (state.selection.far[0].target != targets_.opaque_depth()) return false;
+    const SortedColumns& sorted = shared_.scratch.sorted;
+    for (int s = 0; s < stages_.samples(); ++s) {
+        const std::uint32_t* const stored = targets_.at(state.stencil_target).stencil(s);
         const std::uint32_t expected =
             state.stencil.front.ref + state.selection.first_arrival + static_cast<std::uint32_t>(s);
         for (std::size_t p = 0; p < sorted.pixels(); ++p)
@@ -171,28 +170,29 @@ bool Region::waits_in_order(const PassState& state) const {
     return true;
 }
 
-void Region::find_arrivals(const PassState& state) {
-    const SortedColumns& sorted = scratch_->sorted;
-    const std::uint32_t first = state.selection.first_arrival, end = first + static_cast<std::uint32_t>(pass_samples_);
+void Source::find_arrivals(const PassState& state) {
+    const SortedColumns& sorted = shared_.scratch.sorted;
+    const std::uint32_t first = state.selection.first_arrival,
+                        end = first + static_cast<std::uint32_t>(stages_.samples());
     for (std::size_t p = 0; p < sorted.pixels(); ++p)
         for (std::uint32_t k = first; k < std::min(sorted.count(p), end); ++k)
-            scratch_->visits.add(k - first, p, sorted.column(p)[k]);
+            shared_.scratch.visits.add(k - first, p, sorted.column(p)[k]);
 }
 
 // Those that come before have counted the stencil down by the time that the kept ones come, and met no sample's test. Sample s takes kept
 // arrival s, which fails the tests of the others.
-void Region::route_arrivals(const PassState& state) {
-    for (std::size_t s = 0; s < scratch_->visits.waves(); ++s) {
-        std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
-        for (const std::uint32_t p : scratch_->visits.wave(s).pixel) stored[p] = state.stencil.front.ref;
+void Source::route_arrivals(const PassState& state) {
+    for (std::size_t s = 0; s < shared_.scratch.visits.waves(); ++s) {
+        std::uint32_t* const stored = targets_.at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
+        for (const std::uint32_t p : shared_.scratch.visits.wave(s).pixel) stored[p] = state.stencil.front.ref;
     }
 }
 
 // What all of a pixel's fragments leave of stencils that waited in order.
-void Region::finish_arrivals(const PassState& state) {
-    const SortedColumns& sorted = scratch_->sorted;
-    for (int s = 0; s < pass_samples_; ++s) {
-        std::uint32_t* const stored = at(state.stencil_target).stencil_plane(s).words;
+void Source::finish_arrivals(const PassState& state) {
+    const SortedColumns& sorted = shared_.scratch.sorted;
+    for (int s = 0; s < stages_.samples(); ++s) {
+        std::uint32_t* const stored = targets_.at(state.stencil_target).stencil_plane(s).words;
         const std::uint32_t before =
             state.stencil.front.ref + state.selection.first_arrival + static_cast<std::uint32_t>(s);
         for (std::size_t p = 0; p < sorted.pixels(); ++p)
@@ -202,9 +202,11 @@ void Region::finish_arrivals(const PassState& state) {
 
 // Where the pixels of a batch lie in the window. A tile has at most 2^14 pixels in rows of up to 2^7, so that the reciprocal's
 // error, below 2^-21 a pixel, is less than one part of a row.
-void Region::find_positions(FragmentBatch& batch) const {
-    const auto width = static_cast<std::uint32_t>(rect_.width()), x0 = static_cast<std::uint32_t>(rect_.x0);
-    const std::uint32_t reciprocal = ((1u << 21) + width - 1) / width, y0 = static_cast<std::uint32_t>(rect_.y0);
+void Source::find_positions(FragmentBatch& batch) const {
+    const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
+               x0 = static_cast<std::uint32_t>(shared_.rect().x0);
+    const std::uint32_t reciprocal = ((1u << 21) + width - 1) / width,
+                        y0 = static_cast<std::uint32_t>(shared_.rect().y0);
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
         const std::uint32_t row = batch.pixel[i] * reciprocal >> 21;
         batch.x[i] = static_cast<std::uint16_t>(x0 + batch.pixel[i] - row * width);
@@ -213,48 +215,27 @@ void Region::find_positions(FragmentBatch& batch) const {
 }
 
 // Stored codes are keys, which need no fetching.
-FragmentBatch* Region::next_visit(const PassState& state) {
-    const Visits::Part part = scratch_->visits.next();
+FragmentBatch* Source::next_visit(const PassState& state) {
+    const Visits::Part part = shared_.scratch.visits.next();
     if (part.pixel.empty()) return nullptr;
-    FragmentBatch& batch = scratch_->recorded;
+    FragmentBatch& batch = shared_.scratch.recorded;
     batch.count = static_cast<int>(part.pixel.size());
     batch.material = 0;
     Lanes<std::uint32_t> places;
-    const bool is_code = frame_.key == DepthKey::stored_code;
+    const bool is_code = shared_.frame.key == DepthKey::stored_code;
     for (std::size_t i = 0; i < part.pixel.size(); ++i) {
         batch.pixel[i] = part.pixel[i];
         places[i] = place_of(part.word[i]);
         if (is_code) batch.code[i] = key_of(part.word[i]);
     }
     find_positions(batch);
-    FragmentNeeds needs = pass_needs(state, {}, frame_.effects);
+    FragmentNeeds needs = pass_needs(state, {}, shared_.frame.effects);
     needs.code &= !is_code;
-    scratch_->fragments.fetch({places.data(), part.pixel.size()}, needs, batch);
+    shared_.scratch.fragments.fetch({places.data(), part.pixel.size()}, needs, batch);
     wave_ = part.wave;
     return &batch;
 }
 
-std::uint64_t Region::recorded() const noexcept { return scratch_->fragments.size(); }
-
-Region::Snapshot Region::snapshot() { return {storages_, scratch_->trace.size()}; }
-
-void Region::restore(Snapshot& from) {
-    std::swap(storages_, from.targets);
-    scratch_->trace.shorten(from.traced);
-}
-
-void Region::require_equal(const Snapshot& selected, Count selected_passed, Count passed) {
-    const auto require = [](bool holds, const char* what) {
-        if (!holds)
-            throw std::logic_error(std::string{"pass state: what a pass promises differs from its program in "} + what);
-    };
-    require((selected_passed.own_ > 0) == (passed.own_ > 0), "what it answers a query");
-    for (std::size_t t = 0; t < storages_.size(); ++t)
-        for (int channel = 0; channel < std::max(1, info(storages_[t].format()).channels); ++channel)
-            for (int sample = 0; sample < storages_[t].samples(); ++sample)
-                for (std::size_t p = 0; p < storages_[t].pixels(); ++p)
-                    require(storages_[t].code(p, channel, sample) == selected.targets[t].code(p, channel, sample),
-                            "what it leaves in a target");
-}
+std::uint64_t Source::recorded() const noexcept { return shared_.scratch.fragments.size(); }
 
 }  // namespace strata::pipeline

@@ -175,12 +175,12 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
 
 // A narrow surface stores 8-bit codes with the bits that it lacks filled in, so its image is one of rgba8.
 Image Surface::color() const {
-    Image image = state_->region.image(state_->color);
+    Image image = state_->region.targets().image(state_->color);
     image.format = Format::rgba8;
     return image;
 }
 
-Image Surface::depth() const { return state_->region.image(state_->depth); }
-Image Surface::stencil() const { return state_->region.image(state_->stencil); }
+Image Surface::depth() const { return state_->region.targets().image(state_->depth); }
+Image Surface::stencil() const { return state_->region.targets().image(state_->stencil); }
 
 }  // namespace strata::pipeline

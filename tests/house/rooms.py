@@ -15,7 +15,7 @@ import sys
 
 FLOORS = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "chip", "values", "walk"],
-    "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region", "selections"],
+    "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "loops", "algorithms", "audit", "", "truth"],
     "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
     "tools": ["port", "hardware_check", "oracle", "probe", "library", "python", "recipes", "strata", "bench", "web"],

@@ -145,7 +145,7 @@ void peel(Region& region) {
         const Drawn drawn = region.draw(state, program);
         layers.color.push_back(color);
         layers.depth.push_back(map = region.make_depth());
-        region.copy_rectangle(depth, region.frame().rect(), map, 0, 0);
+        region.targets().copy_rectangle(depth, region.frame().rect(), map, 0, 0);
         if (!region.any(drawn.passed, Idle::no)) break;
     }
     const Target result = region.make_color();

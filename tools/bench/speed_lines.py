@@ -14,7 +14,7 @@ MOST = 6500
 GROUPS = {
     "dual to its end at once": ["peeling/loops/block_passes*", "peeling/loops/columns.h", "peeling/loops/dual_closed.*"],
     "the record of a tile's fragments": [
-        "pipeline/fragments/tile_fragments.*", "pipeline/fragments/record_rows*", "pipeline/region/region_replay.cpp", "pipeline/region/tile_parts.*"],
+        "pipeline/fragments/tile_fragments.*", "pipeline/fragments/record_rows*", "pipeline/region/region_source.cpp", "pipeline/fragments/tile_parts.*"],
     "passes visit what they keep": [
         "pipeline/fragments/sort*", "pipeline/fragments/find_visits.*", "pipeline/fragments/visits.h",
         "pipeline/frame/selection.h", "pipeline/region/region_visits.cpp"],

@@ -101,10 +101,10 @@ class Collector {
             if (event.state->stencil.enabled) add(next_.writes, event.state->stencil_target);
         }
         if (kind == PassKind::published)
-            next_.targets.push_back({"picture", region.image(event.to)});
+            next_.targets.push_back({"picture", region.targets().image(event.to)});
         else
-            for (int id = 0; id < region.target_count(); ++id)
-                next_.targets.push_back({names_.of({id}), region.image({id})});
+            for (int id = 0; id < region.targets().count(); ++id)
+                next_.targets.push_back({names_.of({id}), region.targets().image({id})});
         for (NamedImage& target : next_.targets) shown_.turn(target.image);
         flush();
         ended_ = std::exchange(next_, {});

@@ -100,8 +100,8 @@ Answer drawn(const DeviceProfile& profile, const Item& item, YDirection y) {
                 for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
             }));
     }
-    Answer answer{.color = region.image(color)};
-    if (item.depth) answer.depth = region.image(depth);
+    Answer answer{.color = region.targets().image(color)};
+    if (item.depth) answer.depth = region.targets().image(depth);
     return answer;
 }
 

@@ -7,7 +7,7 @@
 
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/unorm8_product.h"
-#include "pipeline/region/target_storage.h"
+#include "pipeline/stages/target_storage.h"
 #include "tests/support/random_numbers.h"
 
 namespace {

@@ -178,7 +178,7 @@ TEST_CASE(
         RegionBooks books;
         Region region{test.frame, {test.frame.rect()}, books};
         add_twice(region);
-        return region.storage({region.target_count() - 2}).code(5, 0, 0);
+        return region.storage({region.targets().count() - 2}).code(5, 0, 0);
     };
     CHECK(red_on("geforce8") == 0);
     CHECK(red_on("llvmpipe") == 0);

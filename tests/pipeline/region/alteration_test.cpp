@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "pipeline/region/region_shortcuts.h"
 #include "tests/pipeline/frames.h"
 
 namespace {
@@ -47,7 +48,7 @@ std::vector<float> reds_after_pass(const Alteration& alteration, bool by_quad = 
     else
         static_cast<void>(m.region.draw(state, program));
     std::vector<float> reds;
-    for (std::uint32_t p = 0; p < 8; ++p) reds.push_back(m.region.color(target, p)[0]);
+    for (std::uint32_t p = 0; p < 8; ++p) reds.push_back(m.region.targets().color(target, p)[0]);
     return reds;
 }
 
@@ -113,8 +114,8 @@ TEST_CASE("a clear and a copy may be changed, turned elsewhere or left out") {
         const Target from = m.region.make(Format::r32f), to = m.region.make(Format::r32f);
         m.region.clear(from, {.color = {0.25f, 0, 0, 0}});
         m.region.copy(from, to);
-        CHECK(m.region.color(from, 3)[0] == (is_left_out ? 0.0f : 0.5f));
-        CHECK(m.region.color(to, 3)[0] == (is_left_out ? 0.0f : 0.5f));
+        CHECK(m.region.targets().color(from, 3)[0] == (is_left_out ? 0.0f : 0.5f));
+        CHECK(m.region.targets().color(to, 3)[0] == (is_left_out ? 0.0f : 0.5f));
     }
     const Alteration turned{.clear = [](Region&, Target& target, ClearValue&) {
         target = {target.id + 1};
@@ -123,8 +124,8 @@ TEST_CASE("a clear and a copy may be changed, turned elsewhere or left out") {
     AlteredMachine m{turned};
     const Target asked = m.region.make(Format::r32f), hit = m.region.make(Format::r32f);
     m.region.clear(asked, {.color = {1, 0, 0, 0}});
-    CHECK(m.region.color(asked, 0)[0] == 0.0f);
-    CHECK(m.region.color(hit, 0)[0] == 1.0f);
+    CHECK(m.region.targets().color(asked, 0)[0] == 0.0f);
+    CHECK(m.region.targets().color(hit, 0)[0] == 1.0f);
 }
 
 TEST_CASE("an alteration answers queries, hears names, and sees nothing of the emulator's own work") {
@@ -146,7 +147,7 @@ TEST_CASE("an alteration answers queries, hears names, and sees nothing of the e
     CHECK(clears == 0);  // the opaque targets have been cleared by then
     const Target target = m.region.make_color();
     m.region.call(target, "layer");
-    m.region.uncounted([&] { m.region.clear(target, {}); });
+    RegionShortcuts{m.region}.uncounted([&] { m.region.clear(target, {}); });
     CHECK(clears == 0);
     PassState state;
     state.color[0] = target;

@@ -23,7 +23,7 @@ inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes)
     const auto& whole = region.frame().rect();
     const auto& own = region.rect();
     std::size_t plane = 0;
-    for (int t = 0; t < region.target_count(); ++t) {
+    for (int t = 0; t < region.targets().count(); ++t) {
         const pipeline::TargetStorage& storage = region.storage({t});
         for (int channel = 0; channel < std::max(1, info(storage.format()).channels); ++channel)
             for (int sample = 0; sample < storage.samples(); ++sample, ++plane) {

@@ -78,7 +78,7 @@ struct Peel {
         FragmentPath path;
         path.combiners = texture_environment({});
         peel(region, path, peel_state(layer, first));
-        region.copy_rectangle(first, region.frame().rect(), texture, 0, 0);
+        region.targets().copy_rectangle(first, region.frame().rect(), texture, 0, 0);
         peel(region, compare_with(texture, CompareFunc::lequal, unit), peel_state(layer, second));
         region.publish(layer);
     }
@@ -236,7 +236,7 @@ TEST_CASE(
     Peel::peel(region, path, state);
     const RegionBooks before = books;
     const Rect part{2, 1, 14, 7};
-    region.copy_rectangle(from, part, to, 3, -2);
+    region.targets().copy_rectangle(from, part, to, 3, -2);
     std::size_t wrong = 0;
     std::uint64_t pixels = 0;
     for (int y = 0; y < height; ++y)
@@ -256,8 +256,8 @@ TEST_CASE(
     RegionBooks tile_books;
     Region tile{test.frame, {{0, 0, 8, 8}, 0, Extent::tile}, tile_books};
     const Target a = tile.make_depth(), b = tile.make_depth();
-    CHECK_NOTHROW(tile.copy_rectangle(a, test.frame.rect(), b, 0, 0));
-    CHECK_THROWS_AS(tile.copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);
+    CHECK_NOTHROW(tile.targets().copy_rectangle(a, test.frame.rect(), b, 0, 0));
+    CHECK_THROWS_AS(tile.targets().copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);
 }
 
 TEST_CASE("combiners have the primary colour, whether or not the pass asked for colours") {

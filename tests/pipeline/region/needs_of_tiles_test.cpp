@@ -126,7 +126,7 @@ TEST_CASE("an image of rows that are longer than a batch has every pixel, sample
             state.sample_mask = 1;
             region.clear(state.color[0], {.color = {-1, 1, 1, 1}});
             draw_colors(region, state);
-            const Image image = region.image(state.color[0]);
+            const Image image = region.targets().image(state.color[0]);
             const std::size_t channels = format == Format::r32f ? 1 : 4,
                               of_pixel = channels * static_cast<std::size_t>(samples);
             REQUIRE(image.codes.size() == row_px * of_pixel);

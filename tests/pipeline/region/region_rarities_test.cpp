@@ -76,7 +76,7 @@ TEST_CASE(
                                 static_cast<float>(in.pixel[i] * 4 + c) / 255.0f + static_cast<float>(s) / 4;
                 }));
             }
-            const Image image = f.region.image(target);
+            const Image image = f.region.targets().image(target);
             const auto channels = static_cast<std::size_t>(info(format).channels);
             std::size_t at = 0, wrong = 0;
             for (std::size_t p = 0; p < 32; ++p)

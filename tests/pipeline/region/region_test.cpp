@@ -169,8 +169,8 @@ TEST_CASE("a target that is read and written at once is a broken program, and ru
     CHECK_THROWS_AS(device.region.draw(loop(device.region, true), add_red), Refused);
     const PassState ordered = loop(ideal.region, true);
     static_cast<void>(ideal.region.draw(ordered, add_red));
-    CHECK(ideal.region.color(ordered.color[0], 1)[0] == 4.0f);  // four fragments, one after another
-    CHECK(ideal.region.color(ordered.color[0], 2)[0] == 2.0f);
+    CHECK(ideal.region.targets().color(ordered.color[0], 1)[0] == 4.0f);  // four fragments, one after another
+    CHECK(ideal.region.targets().color(ordered.color[0], 2)[0] == 2.0f);
 }
 
 TEST_CASE("a depth target that is tested and loaded is a feedback loop only while it is written") {
@@ -213,7 +213,7 @@ TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil
     state.stencil_target = m.region.make(Format::s8);
     static_cast<void>(m.region.draw(state, pass_color));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 4);
-    CHECK(m.region.color(state.color[0], 0)[0] == 7.0f);
+    CHECK(m.region.targets().color(state.color[0], 0)[0] == 7.0f);
     const Counters& counted = m.books.counters;
     CHECK(counted.fragments_rasterized == 9);
     CHECK(counted.alpha_killed == 5);
@@ -317,7 +317,7 @@ TEST_CASE("a channel that a read target has not is 0, and alpha 1") {
     state.color[0] = out;
     static_cast<void>(
         m.region.draw(state, [](const FragmentBatch&, const Loads& own, Outputs& o) { o.color[0] = own.color(0); }));
-    for (const std::uint32_t p : {0u, 1u, 3u}) CHECK(m.region.color(out, p) == Rgba{0.375f, 0, 0, 1});
+    for (const std::uint32_t p : {0u, 1u, 3u}) CHECK(m.region.targets().color(out, p) == Rgba{0.375f, 0, 0, 1});
 }
 
 TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
@@ -326,9 +326,9 @@ TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     strata::pipeline::RegionShortcuts{m.region}.store_pixel(
         from, 1, {std::bit_cast<float>(0x7fc12345u), std::bit_cast<float>(0xff800001u), -0.0f, 0x1p-149f});
     m.region.copy(from, to);
-    CHECK(m.region.image(to) == m.region.image(from));
-    CHECK(m.region.image(to).codes[4] == 0x7fc12345u);
-    CHECK(m.region.image(to).codes[5] == 0xff800001u);
+    CHECK(m.region.targets().image(to) == m.region.targets().image(from));
+    CHECK(m.region.targets().image(to).codes[4] == 0x7fc12345u);
+    CHECK(m.region.targets().image(to).codes[5] == 0xff800001u);
     CHECK(m.books.loops[0].passes.copies == 1);
 }
 
@@ -345,7 +345,7 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient,
         state.reads = {codes};
         static_cast<void>(m.region.full_screen(
             state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
-        const auto found = m.region.image(values).codes;
+        const auto found = m.region.targets().image(values).codes;
         // A binary32 times a code has 32 bits at most: binary64 holds the product, and the cast rounds it once.
         int wrong = 0, unlike_quotient = 0;
         for (std::uint32_t k = 0; k < 256; ++k) {
@@ -354,7 +354,7 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient,
             const float expected = profile == std::string_view{"llvmpipe"} ? product : quotient;
             for (std::size_t c = 0; c < 4; ++c)
                 wrong += found[4 * k + c] == std::bit_cast<std::uint32_t>(expected) ? 0 : 1;
-            wrong += m.region.color(codes, k) == Rgba{expected, expected, expected, expected} ? 0 : 1;
+            wrong += m.region.targets().color(codes, k) == Rgba{expected, expected, expected, expected} ? 0 : 1;
             unlike_quotient += product == quotient ? 0 : 1;
         }
         CHECK(wrong == 0);
@@ -391,6 +391,6 @@ TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
     Machine m{scene, "geforce8"};
     CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[0] == std::bit_cast<std::uint32_t>(1.0f));
     CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[1] == std::bit_cast<std::uint32_t>(0.25f));
-    CHECK(m.region.color(m.region.opaque_color(), 1) == Rgba{1, 0, 1, 1});  // alphaMode OPAQUE ignores alpha
+    CHECK(m.region.targets().color(m.region.opaque_color(), 1) == Rgba{1, 0, 1, 1});  // alphaMode OPAQUE ignores alpha
     CHECK(m.books.counters == Counters{});
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/simd.h"
 #include "tests/pipeline/frames.h"
 #include "tests/support/random_triangles.h"
@@ -252,7 +253,7 @@ TEST_CASE("parts keep their primitives and lie between their depths, which no fr
         RegionBooks books;
         Region region{test.frame, {test.frame.rect()}, books};
         std::size_t outside = 0;
-        const auto fragments = region.capture(Bookkeeping::counted);
+        const auto fragments = RegionShortcuts{region}.capture(Bookkeeping::counted);
         for (const CapturedFragment& f : fragments)
             for (const DrawPart& part : draw.parts)
                 if (f.primitive >= part.primitives.first && f.primitive < part.primitives.last)
@@ -323,7 +324,7 @@ TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
                 test.frame.color_format = format;
                 RegionBooks books;
                 Region region{test.frame, {test.frame.rect()}, books};
-                const auto fragments = region.capture(Bookkeeping::counted);
+                const auto fragments = RegionShortcuts{region}.capture(Bookkeeping::counted);
                 CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
                 for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);
             }

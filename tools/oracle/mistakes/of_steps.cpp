@@ -1,7 +1,7 @@
 // tools/oracle/mistakes/of_steps.cpp - mistakes in the steps of an algorithm: clears, copies, queries and the state of its passes.
 #include <algorithm>
 
-#include "pipeline/region/region.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "tools/oracle/mistakes/catalogue.h"
 
 namespace strata::oracle {
@@ -129,7 +129,7 @@ bool swaps_nothing(Experiment& e) {
 bool loses_opaque_depth(Experiment& e) {
     const auto lose = [is_lost = false](Region& region) mutable {
         if (std::exchange(is_lost, true)) return;
-        region.uncounted([&] { region.clear(region.opaque_depth(), {.depth = 1.0f}); });
+        RegionShortcuts{region}.uncounted([&] { region.clear(region.opaque_depth(), {.depth = 1.0f}); });
     };
     const auto once = std::make_shared<std::function<void(Region&)>>(lose);
     e.alterations.push_back({.clear =

@@ -1,4 +1,4 @@
-#include "pipeline/region/tile_parts.h"
+#include "pipeline/fragments/tile_parts.h"
 
 #include <algorithm>
 

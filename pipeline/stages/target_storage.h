@@ -1,4 +1,4 @@
-// pipeline/region/target_storage.h - the storage of a render target over one region's rectangle.
+// pipeline/stages/target_storage.h - the storage of a render target over one region's rectangle.
 #pragma once
 #include <array>
 #include <cassert>

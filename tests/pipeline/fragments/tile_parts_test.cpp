@@ -1,5 +1,5 @@
 // Model: the fragments of a scene, given pixel by pixel.
-#include "pipeline/region/tile_parts.h"
+#include "pipeline/fragments/tile_parts.h"
 
 #include <catch2/catch.hpp>
 

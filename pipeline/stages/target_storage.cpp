@@ -1,4 +1,4 @@
-#include "pipeline/region/target_storage.h"
+#include "pipeline/stages/target_storage.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // Render targets as plain arrays: what scatter and fill leave, gather and code find, and nothing else changes.
-#include "pipeline/region/target_storage.h"
+#include "pipeline/stages/target_storage.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,64 @@
+// pipeline/region/region_loop.cpp - how a region iterates, asks and stops. The frame's side of it is executor.cpp.
+#include "pipeline/region/region_loop.h"
+
+#include "pipeline/frame/verdict.h"
+#include "pipeline/region/region_shared.h"
+#include "pipeline/region/region_targets.h"
+
+namespace strata::pipeline {
+
+void Loop::begin_loop() {
+    if (const std::size_t number = shared_.books.loops.size(); number < shared_.books.passes_before.size())
+        shared_.books.geometry_passes = shared_.books.passes_before[number];
+    shared_.books.loops.emplace_back();
+}
+
+void Loop::begin_iteration() {
+    ++shared_.books.iterations;
+    ++shared_.books.loops.back().iterations;
+}
+
+// A tile that counts nothing and has promised to be idle stops on its own word.
+bool Loop::any(Count count, Idle idle) {
+    if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
+    if (shared_.instruments.log_passes) ++shared_.books.pass_log.queries;
+    if (!shared_.instruments.trust_idle) idle = Idle::no;
+    LoopBooks& loop = shared_.books.loops.back();
+    const std::size_t index = loop.decisions.size(), number = shared_.books.loops.size() - 1;
+    const bool is_known = number < shared_.books.script.size() && index < shared_.books.script[number].size();
+    const bool finished = !shared_.is_frame() && count.own_ == 0 && idle != Idle::no;
+    bool answer = false;
+    if (is_known) {
+        answer = shared_.books.script[number][index];
+    } else if (shared_.is_frame()) {
+        answer = continues(shared_.frame.termination, shared_.frame.rect(), count.own_);
+    } else {
+        answer = count.own_ > 0;
+    }
+    if (finished && !is_known) answer = false;
+    if (const Alteration* a = shared_.alteration(); a != nullptr && a->query) answer = a->query(count.own_, answer);
+    loop.decisions.push_back({count.own_, idle, answer});
+    shared_.show({.step = Step::query, .passed = count.own_, .answer = answer});
+    return answer;
+}
+
+// Both limits count geometry passes of the whole algorithm (keys-and-counts.md 3.2). Every region has made as many at
+// this place, so all of them stop together.
+bool Loop::limit_reached(int passes) const {
+    const int fixed = shared_.frame.termination.rule == TerminationRule::fixed ? shared_.frame.termination.passes : 0;
+    const int after = shared_.books.geometry_passes + passes;
+    return (shared_.frame.max_passes > 0 && after > shared_.frame.max_passes) || (fixed > 0 && after > fixed);
+}
+
+void Loop::keep_layer(Target color, Target depth, Side side) {
+    if (!shared_.frame.keep_layers) return;
+    shared_.books.layers.push_back({targets_.image(color), targets_.image(depth), side});
+}
+
+void Loop::keep_no_layer(Target color, Target depth) {
+    if (!shared_.frame.keep_layers) return;
+    shared_.books.layers.push_back({targets_.image(color), targets_.image(depth), Side::front});
+    ++shared_.books.idle_layers;
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,30 @@
+// pipeline/region/region_loop.h - how a region iterates, asks and stops, and what it keeps of an iteration. The frame's side of it is
+// executor.cpp.
+//
+// Source   execution.md 4; keys-and-counts.md 3.
+// Tests    tests/pipeline/region/executor_test.cpp, tests/peeling/execution_test.cpp
+#pragma once
+#include "pipeline/frame/pass.h"
+
+namespace strata::pipeline {
+
+class Targets;
+struct RegionShared;
+
+class Loop {
+  public:
+    Loop(const RegionShared& shared, const Targets& targets) noexcept : shared_{shared}, targets_{targets} {}
+
+    [[nodiscard]] bool any(Count count, Idle idle);
+    void begin_iteration();
+    void begin_loop();
+    [[nodiscard]] bool limit_reached(int passes) const;
+    void keep_layer(Target color, Target depth, Side side);
+    void keep_no_layer(Target color, Target depth);
+
+  private:
+    const RegionShared& shared_;
+    const Targets& targets_;
+};
+
+}  // namespace strata::pipeline

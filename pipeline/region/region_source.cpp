@@ -1,0 +1,195 @@
+// pipeline/region/region_source.cpp - where a geometry pass gets its fragments from: the rasterizer, or what is recorded of the tile.
+#include "pipeline/region/region_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/fragments/record_rows.h"
+#include "pipeline/frame/effects.h"
+#include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shared.h"
+#include "pipeline/region/region_stages.h"
+#include "pipeline/region/region_targets.h"
+#include "rasterizer/rules/depth_code.h"
+#include "rasterizer/set_up/depth_bound.h"
+#include "rasterizer/walk/tile_rasterizer.h"
+
+namespace strata::pipeline {
+
+using rasterizer::FragmentNeeds;
+
+Source::Source(const RegionShared& shared, Targets& targets, Stages& stages)
+    : shared_{shared},
+      targets_{targets},
+      stages_{stages},
+      rasterizer_{std::make_unique<rasterizer::TileRasterizer>(shared.rect())} {}
+Source::~Source() = default;
+
+// A second list's is not asked for tile by tile.
+const MaterialNeeds& Source::needs_of_tile(const PreparedDraw& list) {
+    const bool is_transparent = &list == shared_.frame.transparent, is_opaque = &list == shared_.frame.opaque;
+    if (shared_.is_frame() || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
+    auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
+    if (!needs) needs = needs_of(list, list.geometry.bin(shared_.place.tile));
+    return *needs;
+}
+
+// Numbers of the triangles that may touch the region, in submission order.
+std::span<const std::uint32_t> Source::triangles_of(const PreparedDraw& list) const noexcept {
+    return shared_.is_frame() ? std::span<const std::uint32_t>{list.geometry.all_triangles}
+                              : list.geometry.bin(shared_.place.tile);
+}
+
+// Without ranges all triangles are drawn. Triangles stand in submission order, and the pieces of a clipped one carry
+// its number, so that a range of primitives is a run of triangles.
+void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
+                       rasterizer::BatchSink given) {
+    stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
+    const auto& geometry = list.geometry;
+    const auto triangles = triangles_of(list);
+    auto checked = [&](FragmentBatch& batch) {
+        require_range(batch);
+        given(batch);
+    };
+    // A silent look orders nothing.
+    const bool checks = shared_.wraps_depths() && needs.code && (shared_.books.counts || from_ == From::recording);
+    const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
+    if (primitives.empty()) rasterizer_->draw(geometry, triangles, shared_.frame.key_request(), needs, sink);
+    const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
+        return geometry.triangles[triangle].primitive < primitive;
+    };
+    for (const PrimitiveRange& range : primitives) {
+        const auto first = std::lower_bound(triangles.begin(), triangles.end(), range.first, before);
+        const auto last = std::lower_bound(first, triangles.end(), range.last, before);
+        const auto part = triangles.subspan(static_cast<std::size_t>(first - triangles.begin()),
+                                            static_cast<std::size_t>(last - first));
+        rasterizer_->draw(geometry, part, shared_.frame.key_request(), needs, sink);
+    }
+}
+
+// Codes beyond the range order as no key does: where one comes, the frame is drawn as its definition has it (execution.md 5.4).
+void Source::require_range(const FragmentBatch& batch) const {
+    const rasterizer::DepthFormat format = shared_.frame.key_request().format;
+    const auto is_beyond = [&](std::uint32_t code) { return rasterizer::is_beyond_range(code, format); };
+    if (!shared_.is_frame() && std::any_of(batch.code.begin(), batch.code.begin() + batch.count, is_beyond))
+        throw NeedsFrame{};
+}
+
+// Whether passes may look at what was recorded, rather than rasterize the list again.
+bool Source::may_record(const PreparedDraw& list) const {
+    return !shared_.is_frame() && shared_.frame.effects == Effects::needed &&
+           shared_.instruments.once_more == Effect::none && shared_.frame.replay.bytes > 0 &&
+           &list == shared_.frame.repeated();
+}
+
+// What all passes look at is recorded before the first of them. False where that does not fit, or is not recorded at all.
+bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
+    TileFragments& fragments = shared_.scratch.fragments;
+    if (fragments.serves(needs)) return true;
+    const FragmentNeeds kept = needs | shared_.frame.replay.needs;
+    if (!TileFragments::records(kept) || !fragments.may_start()) return false;
+    fragments.start(kept, shared_.frame.replay.bytes);
+    shared_.scratch.sorted.forget();
+    shared_.scratch.other_sorted.forget();
+    const MaterialNeeds& materials = needs_of_tile(list);
+    if (rows_have(kept) && may_walk_rows(list) && materials == MaterialNeeds{} &&
+        shared_.profile().raster.color == rasterizer::ColorInterpolation::exact_plane) {
+        shared_.books.fragments_drawn +=
+            record_rows(fragments, list.geometry, triangles_of(list), shared_.frame.key_request(), shared_.rect());
+        fragments.finish();
+        return fragments.serves(needs);
+    }
+    FragmentNeeds drawn = kept;
+    drawn.color |= materials.color;
+    drawn.texcoord |= materials.texcoord && drawn.color;
+    if (drawn.color) drawn.units |= materials.shadow;
+    auto sink = [&](FragmentBatch& batch) {
+        Outputs& out = stages_.start_batch(batch);
+        stages_.shade(list, batch, out);
+        fragments.append(batch, out.alive);
+    };
+    const From before = std::exchange(from_, From::recording);
+    rasterize(list, drawn, {}, rasterizer::BatchSink{sink});
+    from_ = before;
+    fragments.finish();
+    return fragments.serves(needs);
+}
+
+// Sends all recorded fragments down the stages, in the order of arrival.
+void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
+    const From before = std::exchange(from_, From::record);
+    FragmentBatch& batch = shared_.scratch.recorded;
+    TileFragments::Reading& reading = shared_.scratch.reading;
+    reading = {0, 0, std::move(reading.stamp)};
+    reading.stamp.assign(shared_.rect().area(), 0);
+    Lanes<std::uint32_t> places;
+    for (auto next = shared_.scratch.fragments.next_places(reading, places); !next.empty();
+         next = shared_.scratch.fragments.next_places(reading, places)) {
+        batch.count = static_cast<int>(next.size());
+        batch.material = 0;
+        for (std::size_t i = 0; i < next.size(); ++i) batch.pixel[i] = shared_.scratch.fragments.pixel()[next[i]];
+        find_positions(batch);
+        shared_.scratch.fragments.fetch(next, needs, batch);
+        sink(batch);
+    }
+    from_ = before;
+}
+
+// Whether the test against a cleared opaque depth can be left out in this tile.
+DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& list) const {
+    using rasterizer::DepthPath;
+    const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
+                          state.depth_target == targets_.opaque_depth() && !state.stencil.enabled &&
+                          state.depth_unit_count == 0 && !state.replaces_depth;
+    const rasterizer::DepthRequest depth = shared_.frame.key_request();
+    const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
+    if (!is_plain || !has_bound || shared_.wraps_depths() || state.needs.code || !targets_.opaque_depth_is_cleared() ||
+        shared_.is_frame() || shared_.frame.effects == Effects::all || &list != shared_.frame.transparent)
+        return DepthOutcome::open;
+    const double bound = depth_bound(list.geometry, list.geometry.bin(shared_.place.tile));
+    const auto code = [&](float z) { return to_depth_code(z, depth.format, shared_.profile().raster.depth_rounding); };
+    return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
+}
+
+// Of passes over the list that may be recorded.
+void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
+    PathTaken& taken = shared_.books.taken;
+    taken.rasterizes = true;
+    if (taken.why_rasterized != nullptr) return;
+    taken.why_rasterized = shared_.frame.effects == Effects::all ? "--effects all simulates every effect in every pass"
+                           : shared_.frame.replay.bytes == 0     ? "--fragment-memory 0 records nothing"
+                           : !TileFragments::records(needs)
+                               ? "a pass looks at texture coordinates or facing, which are not recorded"
+                           : !state.primitives.empty() ? "a pass looks at all fragments of a part of the list"
+                                                       : "a tile's fragments take more than --fragment-memory";
+}
+
+// A list that did not fit is rasterized every time.
+void Source::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
+    const DepthOutcome depth = depth_outcome(state, list);
+    stages_.set_depth(depth);
+    const MaterialNeeds& materials = needs_of_tile(list);
+    const FragmentNeeds needs =
+        with_value(pass_needs(state, materials, shared_.frame.effects, depth), shared_.instruments.once_more);
+    if (shared_.instruments.log_passes)
+        shared_.books.pass_log.passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
+                                                 needs.color && materials.texcoord, &list == shared_.frame.opaque,
+                                                 shared_.books.iterations});
+    FragmentNeeds looked_at = needs;
+    looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with their texture and shadow
+    looked_at.units = state.needs.units;
+    if (may_record(list) && state.primitives.empty() && record(list, looked_at)) {
+        shared_.books.taken.reads_record = true;
+        visit_all(looked_at, sink);
+    } else {
+        if (shared_.books.counts && &list == shared_.frame.repeated()) note_rasterized(state, looked_at);
+        rasterize(list, needs, state.primitives, sink);
+    }
+}
+
+bool Source::record_sorted(const FragmentNeeds& needs) {
+    const PreparedDraw& list = *shared_.frame.transparent;
+    return may_record(list) && targets_.has_ordered_surface() && record(list, needs) && sort_for({});
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,91 @@
+// pipeline/region/region_source.h - where a geometry pass gets its fragments from: the rasterizer, what is recorded of the tile, the part
+// of that which decides, or rows that go straight into the targets.
+//
+// Rule     Literal execution rasterizes, in every pass: it is what all other ways are tested against.
+// Source   execution.md 5 and 7.
+// Tests    tests/peeling/execution_test.cpp, selection_test.cpp, tests/pipeline/region/needs_of_tiles_test.cpp
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "pipeline/frame/pass.h"
+#include "pipeline/vertices/prepare.h"
+#include "rasterizer/walk/batch_sink.h"
+#include "rasterizer/walk/depth_drawn.h"
+
+namespace strata::rasterizer {
+class TileRasterizer;
+}
+
+namespace strata::pipeline {
+
+class Stages;
+class Targets;
+struct RegionShared;
+struct Windows;
+
+class Source {
+  public:
+    Source(const RegionShared& shared, Targets& targets, Stages& stages);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+    ~Source();
+
+    // All fragments of a pass, from the record where that is possible.
+    void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
+    [[nodiscard]] bool reads_record() const noexcept { return from_ == From::record; }
+
+    // The fragments that a selection keeps, if they can be found: batch after batch, null after the last.
+    [[nodiscard]] bool find_visits(const PassState& state, const PreparedDraw& list);
+    [[nodiscard]] FragmentBatch* next_visit(const PassState& state);
+    [[nodiscard]] std::size_t wave() const noexcept { return wave_; }  // of that batch
+    [[nodiscard]] std::uint64_t recorded() const noexcept;             // fragments
+    // Around visits of arrivals: before the first, and behind the last.
+    void route_arrivals(const PassState& state);
+    void finish_arrivals(const PassState& state);
+
+    // Passes that rows can draw. Whether they can, and what they did.
+    [[nodiscard]] bool depth_suits_rows(const PassState& state);
+    [[nodiscard]] rasterizer::DepthDrawn draw_depth_rows(const PassState& state);
+    [[nodiscard]] bool sums_suit_rows(const PassState& state);
+    [[nodiscard]] rasterizer::DepthDrawn draw_sum_rows(const PassState& state);
+
+    // The record of the transparent list with the values that `needs` names, in the order of the frame's key. False where that is not
+    // recorded or has no order.
+    [[nodiscard]] bool record_sorted(const rasterizer::FragmentNeeds& needs);
+    // Numbers of the triangles that may touch the region, in submission order, and what their materials need.
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
+    [[nodiscard]] const MaterialNeeds& needs_of_tile(const PreparedDraw& list);
+    [[nodiscard]] rasterizer::TileRasterizer& rasterizer() noexcept { return *rasterizer_; }
+
+  private:
+    enum class From : std::uint8_t { rasterizer, recording, record };
+
+    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
+                   std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
+    void require_range(const FragmentBatch& batch) const;
+    [[nodiscard]] bool may_record(const PreparedDraw& list) const;
+    [[nodiscard]] bool record(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs);
+    void visit_all(const rasterizer::FragmentNeeds& needs, rasterizer::BatchSink sink);
+    void note_rasterized(const PassState& state, const rasterizer::FragmentNeeds& needs);
+    [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
+    [[nodiscard]] bool sort_for(const PassState& state);
+    [[nodiscard]] bool find_kept(const PassState& state);
+    [[nodiscard]] Windows windows_of(const FragmentSelection& selection) const;
+    void find_positions(FragmentBatch& batch) const;
+    [[nodiscard]] bool waits_in_order(const PassState& state) const;
+    void find_arrivals(const PassState& state);
+    [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
+    [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list);
+
+    const RegionShared& shared_;
+    Targets& targets_;
+    Stages& stages_;
+    std::unique_ptr<rasterizer::TileRasterizer> rasterizer_;
+    std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
+    From from_ = From::rasterizer;
+    std::size_t wave_ = 0;
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,88 @@
+// pipeline/region/region_stages.h - one pass over batches: a batch's way from its values to the render targets, in OpenGL's order.
+//
+// Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first, close_cache behind the
+//          last.
+// Source   fragment-stages.md 1.
+// Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pipeline/frame/alteration.h"
+#include "pipeline/frame/observer.h"
+#include "pipeline/stages/target_storage.h"
+#include "pipeline/vertices/prepare.h"
+
+namespace strata::pipeline {
+
+class Targets;
+class TileCache;
+struct RegionShared;
+
+class Stages {
+  public:
+    Stages(const RegionShared& shared, Targets& targets) noexcept;
+    Stages(const Stages&) = delete;
+    Stages& operator=(const Stages&) = delete;
+    ~Stages();
+
+    void begin_pass(const PassState& state, PassKind kind);
+    void begin_look() noexcept { kind_ = PassKind::full_screen; }  // that is no pass
+    // What the depth test of this pass comes to, and whether anyone looks at its colours' textures and shadow.
+    void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
+    void set_material(bool samples_textures, bool takes_shadow) noexcept {
+        samples_textures_ = samples_textures;
+        takes_shadow_ = takes_shadow;
+    }
+    [[nodiscard]] int samples() const noexcept { return samples_; }  // of the pass's targets
+
+    // Around the batches of a pass whose blends binary32 holds (tile_cache.h); nothing for other profiles.
+    void open_cache(const PassState& state);
+    void close_cache();
+    [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
+    // The pixels of a full-screen pass, row by row, from number `next` on; null after the last.
+    [[nodiscard]] FragmentBatch* next_screen_batch(std::size_t& next);
+    void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
+    void load(const PassState& state, const FragmentBatch& batch);
+    [[nodiscard]] const Loads& loads() const noexcept;
+    // `program` runs the pass's program over the batch.
+    void run_program(const PassState& state, FragmentBatch& batch, Outputs& out, const std::function<void()>& program);
+    void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
+    void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
+    void show(Stage stage, const PassState& state, const FragmentBatch& batch, const Outputs& out,
+              const Lanes<std::uint32_t>& alive, int sample = 0) const;
+
+  private:
+    void load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
+    void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                       Drawn& drawn);
+    std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                         Lanes<std::uint32_t>& alive);  // answers how many pass
+    std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                               Lanes<std::uint32_t>& alive);
+    void test_depth_units(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
+    void idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
+    void idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+                    const TargetStorage& target, int sample);
+    void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
+    void report_saturation(const FragmentBatch& batch);
+    void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                      const Lanes<std::uint32_t>& alive, std::uint64_t passed);
+    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
+
+    const RegionShared& shared_;
+    Targets& targets_;
+    std::optional<TargetStorage> idle_stencil_;
+    std::unique_ptr<TileCache> cache_;         // of profiles with BlendStorage::cached_tiles
+    DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
+    PassKind kind_ = PassKind::geometry;
+    int samples_ = 1;
+    bool samples_textures_ = false, takes_shadow_ = false;
+    std::uint64_t tallied_ = 0;
+    std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
+};
+
+}  // namespace strata::pipeline

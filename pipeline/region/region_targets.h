@@ -1,0 +1,77 @@
+// pipeline/region/region_targets.h - a region's render targets: made, cleared, copied, read; among them those of the opaque scene.
+//
+// Rule     Numbers of targets are the same in every region of a frame: bodies make them in one order. Clears fill the region: scissor and
+//          write masks belong to passes.
+// Source   execution.md 1.1; formats.md 5.
+// Tests    tests/pipeline/region/region_test.cpp, region_rarities_test.cpp
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipeline/stages/target_storage.h"
+#include "pipeline/textures/depth_texels.h"
+
+namespace strata::pipeline {
+
+struct RegionShared;
+
+class Targets {
+  public:
+    // With the opaque scene's two, depth 1 and the background in them.
+    explicit Targets(const RegionShared& shared);
+
+    [[nodiscard]] Target make(Format format, int samples = 1);
+    [[nodiscard]] Target make_depth();
+    [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
+    [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
+    // 1 everywhere, as before the first opaque triangle.
+    [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
+    // Whether its depths lie within the range, as those do that are sorted: codes beyond it have no order (depth.md 2.9).
+    [[nodiscard]] bool has_ordered_surface() const;
+    void note_written(Target target) noexcept { opaque_depth_is_cleared_ &= target != opaque_depth_; }
+
+    void call(Target target, std::string_view name) const;
+    void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
+    void copy(Target from, Target to);  // same format and samples: a bit copy
+    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
+    // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
+    // NeedsFrame where a region would have to look beyond itself.
+    void copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy);
+
+    [[nodiscard]] int count() const noexcept { return static_cast<int>(storages_.size()); }
+    [[nodiscard]] std::vector<TargetStorage>& all() noexcept { return storages_; }
+    [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
+    [[nodiscard]] const TargetStorage& at(Target t) const { return storages_[static_cast<std::size_t>(t.id)]; }
+    [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && at(t).samples() == 1; }
+    // Null where there is no such target.
+    [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? at(t).depth(0) : nullptr; }
+    // A depth target as texture units see it; `t` runs up where the frame's y does.
+    [[nodiscard]] DepthTexels depth_texels(Target depth) const;
+    // The contents of a target: one colour as a program would load it, or all codes as an image of the region.
+    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;
+    [[nodiscard]] Image image(Target target) const;
+    // Row y of the region, from 0 on, as Image orders it.
+    void read_row(Target target, int y, std::uint32_t* out) const;
+    // Reports colour targets that hold infinity or NaN and were not cleared to it: all of them where Frame::checks_targets, else what is
+    // published. For the executor, when the body has ended.
+    void report_non_finite(Target published) const;
+    // Throws std::logic_error where a target holds other codes than in `others`, which a selection has left.
+    void require_equal(const std::vector<TargetStorage>& others) const;
+
+  private:
+    void copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
+                  TargetStorage& texture);
+
+    const RegionShared& shared_;
+    std::vector<TargetStorage> storages_;
+    mutable std::vector<std::pair<int, std::string>>
+        names_;                            // where Frame::checks_targets: of targets by their numbers
+    std::vector<int> cleared_non_finite_;  // targets that were
+    Target opaque_depth_, opaque_color_;
+    bool opaque_depth_is_cleared_ = true;
+};
+
+}  // namespace strata::pipeline
