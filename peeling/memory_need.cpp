@@ -90,7 +90,7 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     const RenderResult result = renderer.render(watched);
     found.is_refused = result.outcome == Outcome::refused;
     found.is_tiled = result.frame.work.tile_size != 0;
-    found.is_replayed = found.is_tiled && algorithm.replayed.has_value();
+    found.is_replayed = found.is_tiled && algorithm.draws_again();
     found.density = coverage.density();
     found.layers = result.frame.layers.size();
     found.channels = result.frame.color.channels();

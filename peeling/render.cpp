@@ -47,7 +47,7 @@ bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcep
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     constexpr std::int64_t large = 128, many = 32;
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
-    if (!algorithm.replayed) return options.tile_size.value_or(has_many ? large : 64);
+    if (!algorithm.draws_again()) return options.tile_size.value_or(has_many ? large : 64);
     // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form looks at them once.
     return options.tile_size.value_or(is_closed(options, algorithm) ? 64 : 32);
 }
@@ -80,7 +80,7 @@ struct Renderer::State {
 
     // What the executor does not know. An algorithm of one pass has nothing to gain from a record.
     void note_path(const Algorithm& algorithm, const Instruments& instruments, Work& work) const {
-        if (work.path == Path::tiled && !algorithm.replayed) work.why.clear();
+        if (work.path == Path::tiled && !algorithm.draws_again()) work.why.clear();
         if (work.path != Path::literal) return;
         if (options.counters)
             work.why = "--counters counts in literal execution";
@@ -117,8 +117,8 @@ struct Renderer::State {
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
         const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
-        if (!replays || !algorithm.replayed) return {};
-        rasterizer::FragmentNeeds needs = *algorithm.replayed;
+        if (!replays || !algorithm.draws_again()) return {};
+        rasterizer::FragmentNeeds needs = algorithm.recorded();
         needs.reference = compares_apart;
         return {.bytes = options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)),
                 .needs = needs,

@@ -49,14 +49,23 @@ struct Algorithm {
     // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some of them twice.
     std::function<void(pipeline::Region&)> body{};
     bool (*closed_form)(pipeline::Region&) = nullptr;  // its whole loop from the record, or false; null if it has none
-    // All values of fragments that its geometry passes look at: replay captures these. Empty: one pass, so nothing is
-    // replayed.
-    std::optional<rasterizer::FragmentNeeds> replayed{};
-    std::vector<pipeline::Feature> features{};  // what a profile must have
+    std::vector<pipeline::Feature> features{};         // what a profile must have
     int render_targets = 1;
     int samples = 1;
     std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say
     std::optional<rasterizer::DepthPath> compares{};  // the one that it compares, unless the options say otherwise
+
+    // Whether a tile's fragments are recorded for it: of an algorithm that draws them once that would be work for nothing.
+    [[nodiscard]] bool draws_again() const {
+        const bool draws_once = geometry_passes != nullptr && geometry_passes(9) == 1;
+        const bool is_known = run != nullptr || geometry_passes != nullptr;  // unlike a body of a user's own
+        return is_known && !is_oracle && !whole_frame && !draws_once;
+    }
+    // What is recorded: colours, and the depths that it has its key from.
+    [[nodiscard]] rasterizer::FragmentNeeds recorded() const noexcept {
+        const bool is_code = key == pipeline::DepthKey::stored_code;
+        return {.shader_z = !is_code, .code = is_code, .color = true};
+    }
 };
 
 }  // namespace strata::peeling

@@ -133,7 +133,6 @@ std::vector<Algorithm> entries() {
                       .runs_loops = true,
                       .compares_own_codes = true,
                       .run = run,
-                      .replayed = code_and_color,
                       .features = {fragment_programs, separate_alpha_blend}}};
 }
 

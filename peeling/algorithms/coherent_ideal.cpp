@@ -161,7 +161,6 @@ std::vector<Algorithm> entries() {
                   .compares_own_codes = true,
                   .has_published_form = true,
                   .run = run,
-                  .replayed = code_and_color,
                   .features = {ordered_rmw, float_targets, fragment_programs, separate_alpha_blend},
                   .render_targets = 2}};
 }

@@ -60,7 +60,6 @@ std::vector<Algorithm> entries() {
                       .compares_own_codes = true,
                       .has_published_form = true,
                       .run = run,
-                      .replayed = code_and_color,
                       .features = {fragment_programs, separate_alpha_blend}}};
 }
 

@@ -78,7 +78,6 @@ std::vector<Algorithm> entries() {
                       .makes_layers = true,
                       .geometry_passes = every_layer_and_one,
                       .run = run,
-                      .replayed = code_and_color,
                       .features = {sequential_depth_units}}};
 }
 

@@ -127,7 +127,6 @@ std::vector<Algorithm> entries() {
                       .geometry_passes = [](int layers) { return 1 + std::max(1, (layers + 1) / 2); },
                       .run = run,
                       .closed_form = dual_closed,
-                      .replayed = z_and_color,
                       .features = {float_targets, fragment_programs},
                       .render_targets = 3}};
 }

@@ -94,7 +94,6 @@ std::vector<Algorithm> entries() {
                       .takes_both_ends = true,
                       .geometry_passes = [](int layers) { return (layers + 1) / 2 + 2; },
                       .run = run,
-                      .replayed = z_and_color,
                       .features = {independent_blend, separate_alpha_blend, float_targets, fragment_programs},
                       .render_targets = 3}};
 }

@@ -19,8 +19,4 @@ using rasterizer::DepthPath;
 inline int one_pass(int) { return 1; }
 inline int every_layer_and_one(int layers) { return layers + 1; }
 
-// The values that an algorithm's geometry passes look at, and so what a tile records: by key, the code or the float.
-inline constexpr rasterizer::FragmentNeeds code_and_color{.shader_z = false, .code = true, .color = true};
-inline constexpr rasterizer::FragmentNeeds z_and_color{.shader_z = true, .code = false, .color = true};
-
 }  // namespace strata::peeling::listing

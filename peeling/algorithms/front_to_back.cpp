@@ -78,7 +78,6 @@ std::vector<Algorithm> entries() {
                       .premultiplied_layers = true,
                       .geometry_passes = every_layer_and_one,
                       .run = run,
-                      .replayed = code_and_color,
                       .features = {fragment_programs, separate_alpha_blend}}};
 }
 

@@ -25,7 +25,6 @@ std::vector<Algorithm> entries() {
                   .has_published_form = true,
                   .geometry_passes = [](int layers) { return 2 * layers + 1; },
                   .run = run,
-                  .replayed = code_and_color,
                   .features = {fragment_programs, separate_alpha_blend}}};
 }
 

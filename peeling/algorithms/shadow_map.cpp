@@ -101,7 +101,6 @@ std::vector<Algorithm> entries() {
             .kills_alpha_zero = true,
             .geometry_passes = every_layer_and_one,
             .run = run,
-            .replayed = code_and_color,
             .compares = DepthPath::perspective_rq},
         Algorithm{
             .name = "shadow_map_depth_replace",
@@ -117,7 +116,6 @@ std::vector<Algorithm> entries() {
             .kills_alpha_zero = true,
             .geometry_passes = every_layer_and_one,
             .run = run,
-            .replayed = code_and_color,
             .features = {depth_replace},
             .stores = DepthPath::depth_replace,
             .compares = DepthPath::perspective_rq}};

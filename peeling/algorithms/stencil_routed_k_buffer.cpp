@@ -137,7 +137,6 @@ std::vector<Algorithm> entries() {
                       .exact = true,
                       .compares_own_codes = true,
                       .run = run,
-                      .replayed = code_and_color,
                       .features = {fragment_programs},
                       .samples = 8}};
 }
