@@ -1,11 +1,11 @@
 #include "scenes/files/profile_json.h"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
 #include <fstream>
 
 #include "pipeline/device/profile_fields.h"
 #include "rasterizer/base/input_error.h"
+#include "tests/scenes/scenes_support.h"
 
 using namespace strata::pipeline;
 using strata::InputError;
@@ -121,10 +121,9 @@ TEST_CASE("text that is no JSON object is refused with its place") {
 
 TEST_CASE("a profile is loaded by name or from a file, and a name that is neither suggests the nearest") {
     CHECK(load_profile("ideal") == *find_profile("ideal"));
-    const auto path = std::filesystem::temp_directory_path() / "strata_profile_json_test.json";
-    std::ofstream{path} << changed(R"("max_samples": 2)");
-    CHECK(load_profile(path.string()).max_samples == 2);
-    std::filesystem::remove(path);
+    const strata::test::TemporaryFolder folder;
+    std::ofstream{folder / "mine.json"} << changed(R"("max_samples": 2)");
+    CHECK(load_profile(folder / "mine.json").max_samples == 2);
     CHECK_THROWS_WITH(load_profile("gefroce8"),
                       "--profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
                       "softpipe, swiftshader, or a JSON file, "

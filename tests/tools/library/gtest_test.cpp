@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 namespace {
 
@@ -29,7 +30,9 @@ TEST(MatchesReference, AcceptsAnEqualPicture) {
 }
 
 TEST(MatchesReference, NamesKindPixelAndPicturesOfADifference) {
-    const auto folder = std::filesystem::temp_directory_path() / "strata-gtest-pictures";
+    std::string pattern = (std::filesystem::temp_directory_path() / "strata-gtest-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    const std::filesystem::path folder{pattern};
     setenv("STRATA_PICTURES", folder.c_str(), 1);
     EXPECT_NONFATAL_FAILURE(EXPECT_THAT(small_picture(103), strata::MatchesReference(reference())),
                             "color at 1 pixels, first at (1, 1)");
