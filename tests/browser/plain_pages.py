@@ -22,7 +22,7 @@ PAGES = {
                         "mkdir -p mine; cp -r other/expected/dual mine/dual; strata compare pack mine --report folders.html", "folders.html"),
     "hardware-check": ("mkdir -p captures/Clear; strata render showroom --size 640x480 --algorithm unsorted -q -o captures/Clear/C00000000_Depth_y.png;"
                        "strata hardware-check captures --report captures.html", "captures.html"),
-    "diagnose": ("strata render showroom --size 64x64 -q -o mine.png; strata diagnose showroom mine.png --report diagnose.html", "diagnose.html"),
+    "diagnose": ("strata render showroom --size 64x64 -q --algorithm unsorted -o mine.png; strata diagnose showroom mine.png --report diagnose.html", "diagnose.html"),
     "cost": ("strata cost planes:count=3 --size 32x24 --knob average_count --repeat 1 -o cost --report cost.html", "cost.html"),
     "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth-format d16,d32f --no-moves -o hard --report hard.html",
                    "hard.html"),
@@ -57,6 +57,8 @@ def check_phone(driver):
     """Whether the page is wider than a screen of 390 pixels, or numbers of a scale overlap there."""
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 800, "deviceScaleFactor": 1, "mobile": True})
     wrong = [] if driver.execute_script("return document.documentElement.scrollWidth") <= 390 else ["wider than a phone"]
+    wrong += driver.execute_script("return [...document.querySelectorAll('caption, figcaption')].filter((c) => c.getBoundingClientRect().right > 390)"
+                                   ".map((c) => 'off a phone: ' + c.textContent)")
     ends = driver.execute_script("return [...document.querySelectorAll('.scale span')].map((s) => s.getBoundingClientRect()).map((b) => [b.top, b.left, b.right])")
     wrong += ["numbers of a scale overlap" for (top, _, right), (other, left, _) in zip(ends, ends[1:]) if top == other and left <= right]
     driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

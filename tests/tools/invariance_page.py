@@ -92,6 +92,8 @@ def check_html():
     yield "it fits a phone", "width=device-width" in page
     yield "its title is text", "<h1>A &lt;title&gt;</h1>" in page
     yield "it begins with a sentence", page.index('class="lead"') < page.index("<figure" if "<figure" in page else "<table")
+    yield "plots have no background of their own", report.element_of('<?xml?><svg><rect fill="#ffffff"/></svg>') == '<svg><rect fill="none"/></svg>'
+    yield "plots are turned light on a dark page", "filter: invert(1)" in page
     yield "tables scroll alone", page.count("<table") == page.count('class="scroll"')
 
 

@@ -48,6 +48,7 @@ TEST_CASE("a sweep gives the same bytes for any threads, in shards, and taken up
     CHECK(told[1].starts_with("in every cell: scene planes:gap=64,count=4, size 24x16"));
     CHECK(told[2].find("duplicated") != std::string::npos);
     CHECK(told[15].find("refused") != std::string::npos);
+    CHECK(told[15].find(" 0 ") == std::string::npos);  // nothing was counted
     CHECK(told[16] ==
           "All of it: whole/results.csv and whole/results.jsonl. A page with plots, whole/index.html: "
           "tools/invariance/report.py whole");

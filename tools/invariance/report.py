@@ -85,6 +85,15 @@ def table_of(header, rows):
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>")
 
 
+# gnuplot's ink is black and its curves are dark: on a dark page they are turned light, each in its own hue.
+DARK = "@media (prefers-color-scheme: dark) { figure.wide svg { filter: invert(1) hue-rotate(180deg); } }\n"
+
+
+def element_of(svg):
+    """gnuplot's SVG as an element of a page, whose background shows through."""
+    return svg[svg.index("<svg"):].replace('fill="#ffffff"', 'fill="none"')
+
+
 def html_of(blocks):
     title, body, is_first = html.escape(blocks[0][1]), [], True
     for kind, *content in blocks:
@@ -99,7 +108,7 @@ def html_of(blocks):
             body.append(table_of(*content))
         elif kind == "plot":
             _, caption, svg = content
-            body.append(f'<figure class="wide" tabindex="0">{svg[svg.index("<svg"):]}<figcaption>{inline(caption)}</figcaption></figure>')
+            body.append(f'<figure class="wide" tabindex="0">{element_of(svg)}<figcaption>{inline(caption)}</figcaption></figure>')
         elif kind == "picture":
             path, caption = content
             data = base64.b64encode(path.read_bytes()).decode()
@@ -107,7 +116,7 @@ def html_of(blocks):
             body.append(f'<figure><img alt="{words}" src="data:image/png;base64,{data}"><figcaption>{inline(caption)}</figcaption></figure>')
     style, script = ((PAGE / name).read_text() for name in ("style.css", "plain.js"))
     return ('<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n<header><h1>{title}</h1></header>\n<main>\n" + "\n".join(body)
+            f"<title>{title}</title>\n<style>\n{style}{DARK}</style>\n</head>\n<body>\n<header><h1>{title}</h1></header>\n<main>\n" + "\n".join(body)
             + f"\n</main>\n<script>\n{script}</script>\n</body>\n</html>\n")
 
 

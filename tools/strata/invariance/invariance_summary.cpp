@@ -87,10 +87,11 @@ Table summary_table(const Lines& lines) {
         table.columns.push_back({title, Align::right});
     table.columns.push_back({"outcome"});
     for (const ordered_json& line : lines) {
+        const bool is_refused = line.at("outcome") == "refused";  // its counts are 0, for nothing was counted
         std::vector<std::string> row{line.at("cell").dump()};
         for (const Knob& knob : knobs) row.push_back(knob.text_of(line));
         for (const char* key : {"passes", "differing", "ulp_max", "duplicated", "lost", "pixels_touched"})
-            row.push_back(line.at(key).dump());
+            row.push_back(is_refused ? "-" : line.at(key).dump());
         const std::string safe = safe_text(line.at("safe_bias"));
         row.push_back(safe.empty() ? "-" : safe);
         row.push_back(line.at("outcome"));
