@@ -33,8 +33,13 @@ void check_options(const RenderOptions& o) {
     if (o.depth) its.listed("depth", *o.depth);
     if (o.depth_path) its.listed("depth_path", *o.depth_path);
     if (o.reference_path) its.listed("reference_path", *o.reference_path);
-    if (o.color_format && (!is_listed(*o.color_format) || !is_color(*o.color_format)))
-        its.fail(FieldName{"color_format"}, "a colour format", static_cast<int>(*o.color_format));
+    const auto of_color = [&](const char* name, const std::optional<pipeline::Format>& format) {
+        if (format && (!is_listed(*format) || !is_color(*format)))
+            its.fail(FieldName{name}, "a colour format", static_cast<int>(*format));
+    };
+    of_color("color_format", o.color_format);
+    of_color("result_format", o.result_format);
+    of_color("back_format", o.back_format);
 }
 
 Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {

@@ -163,6 +163,8 @@ struct Renderer::State {
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
         f.color_format = color_format;
+        if (options.result_format != color_format) f.published_format = options.result_format;
+        if (options.back_format != color_format) f.back_format = options.back_format;
         f.background = options.background;
         f.termination = options.termination;
         f.formulation = options.formulation;
@@ -197,7 +199,11 @@ struct Renderer::State {
         if (compares_w_with_depth(request))
             return Refusal{"comparison of w with a depth, of which one is stored and the other compared", "",
                            "use w_buffer for both: --depth-path w_buffer --reference-path w_buffer"};
-        if (auto lacking = check(profile, color_format)) return lacking;
+        for (const auto& format : {std::optional(color_format), options.result_format, options.back_format})
+            if (auto lacking = format ? check(profile, *format) : std::nullopt) return lacking;
+        if (options.back_format && !algorithm.takes_both_ends)
+            return Refusal{"back of its own in " + algorithm.name + ", which composites at one end", "",
+                           "use dual or dual_independent"};
         if (auto lacking = check_order()) return lacking;
         if (options.raster.depth_clamp)
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;

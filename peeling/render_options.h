@@ -47,6 +47,8 @@ struct RenderOptions {
     const pipeline::DrawList* second_list = nullptr;  // the same surfaces split otherwise, for all passes but the first
     std::optional<bool> second_depth_clamp{};         // and their depth clamp
     std::optional<pipeline::Format> color_format{};   // default: rgba8; rgba32f on a profile with exact depth ("ideal")
+    std::optional<pipeline::Format> result_format{};  // of the picture; default: color_format
+    std::optional<pipeline::Format> back_format{};    // of dual's back and its layers; default: color_format
     std::optional<float> alpha{};                     // draws everything as transparent, its own alpha times this
     pipeline::Rgba background{0, 0, 0, 1};  // premultiplied, as every picture is whose background lets light through
     pipeline::Termination termination{};

@@ -47,10 +47,10 @@ void count_pass(Region& region) {
 }  // namespace
 
 void run(Region& region) {
-    const Target result = region.make_color();
+    const Target result = region.make(region.frame().picture_format());
     region.call(result, "result");
     region.begin_iteration();
-    region.copy(region.opaque_color(), result);
+    copy_color(region, region.opaque_color(), result);
     const std::vector<std::uint32_t> coverage = coverage_of(region);
     const auto pixels = static_cast<std::uint32_t>(coverage.size());
     const auto range_from = [&](std::uint32_t first) {

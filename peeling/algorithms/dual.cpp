@@ -84,8 +84,12 @@ void trace_peel(Region& region, const DualTargets& t) {
 
 void run(Region& region) {
     const auto rg = Format::rg32f;
-    DualTargets t{region.make(rg),     region.make(rg),     region.make_color(),
-                  region.make_color(), region.make_color(), region.make_color()};
+    DualTargets t{region.make(rg),
+                  region.make(rg),
+                  region.make_color(),
+                  region.make_color(),
+                  region.make(region.frame().behind_format()),
+                  region.make(region.frame().behind_format())};
     region.call(t.min_max, "min_max");
     region.call(t.next_min_max, "min_max");
     region.call(t.front, "front");

@@ -60,7 +60,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
 
 void run(Region& region) {
     Target min_max = region.make(Format::rg32f), next_min_max = region.make(Format::rg32f);
-    const Target front = region.make_color(), back = region.make_color();
+    const Target front = region.make_color(), back = region.make(region.frame().behind_format());
     region.call(min_max, "min_max");
     region.call(next_min_max, "min_max");
     region.call(front, "front");

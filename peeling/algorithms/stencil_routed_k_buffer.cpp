@@ -81,7 +81,7 @@ std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Cap
 // One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's books.
 Target resolve(Region& region, const std::vector<Capture>& captures) {
     RegionShortcuts shortcuts{region};
-    const Target result = region.make_color();
+    const Target result = region.make(region.frame().picture_format());
     region.call(result, "result");
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
     SampleColumns columns{samples_of(region, captures), empty, region.profile().color_rounding()};

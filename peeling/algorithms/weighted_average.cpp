@@ -62,7 +62,7 @@ void run(Region& region) {
     const bool wide = region.frame().color_format == Format::rgba32f;
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Format count_format = wide ? Format::r32f : region.frame().average_count;
-    const Target count = region.make(count_format), result = region.make_color();
+    const Target count = region.make(count_format), result = region.make(region.frame().picture_format());
     region.call(sums, "sums");
     region.call(count, "count");
     region.call(result, "result");

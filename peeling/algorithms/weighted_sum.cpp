@@ -15,7 +15,7 @@ using namespace pipeline;
 
 void run(Region& region) {
     const Target sums = region.make(region.frame().color_format == Format::rgba32f ? Format::rgba32f : Format::rgba16f);
-    const Target result = region.make_color();
+    const Target result = region.make(region.frame().picture_format());
     region.call(sums, "sums");
     region.call(result, "result");
     region.clear(sums, {});

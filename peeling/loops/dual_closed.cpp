@@ -4,8 +4,8 @@
 // sequences_test.cpp compare the two.
 //
 // Declines   where a pixel's fragments alone do not decide how far it is peeled (a ratio, the paper's exit), where passes see another
-//            depth of a fragment, layers are kept, the background's alpha is not 1, the colour format is not one of stored_color.h, or no
-//            record can be sorted; and where MAX asks for an order or changes a depth: float targets with other than plain colours (block_passes.h), visible
+//            depth of a fragment, layers are kept, the background's alpha is not 1, the colour format is not one of stored_color.h or not
+//            that of back and picture, or no record can be sorted; and where MAX asks for an order or changes a depth: float targets with other than plain colours (block_passes.h), visible
 //            depths below the cleared -1, denormals that are flushed. Then the passes run.
 // Source     algorithms.md 0.7.
 // Ties       a depth is one group (block_passes.h).
@@ -34,6 +34,7 @@ const char* why_not(const Frame& frame) {
     if (!is_known) return "the colour format is none of rgba8, rgba16f and rgba32f";
     if (rule != exact && rule != any && rule != fixed) return "--termination asks after every pass how many are left";
     if (!frame.is_invariant()) return "passes compare other depths than they store, or draw other vertices";
+    if (frame.published_format || frame.back_format) return "the back or the picture has a format of its own";
     if (!frame.is_opaque()) return "the background's alpha is not 1";
     return frame.keep_layers ? "layers are kept" : nullptr;
 }

@@ -38,7 +38,7 @@ inline namespace strict {
 inline void publish_over(pipeline::Region& region, pipeline::Target front, FrontAlpha meaning,
                          pipeline::Target behind) {
     using namespace pipeline;
-    const Target result = region.make_color();
+    const Target result = region.make(region.frame().picture_format());
     region.call(result, "result");
     PassState state;
     state.color[0] = result;

@@ -22,10 +22,8 @@ using Color = std::array<double, 4>;
 // The colour target of a chain: its format, and what becomes of a value there.
 class ChainTarget {
   public:
-    ChainTarget(const ChainScene& scene, const Chain& chain)
-        : profile_{scene.profile},
-          type_{chain.store ? ChannelType::single : info(scene.color_format()).type},
-          keeps_{chain.store} {}
+    ChainTarget(const ChainScene& scene, const Chain& chain, Format format)
+        : profile_{scene.profile}, type_{chain.store ? ChannelType::single : info(format).type}, keeps_{chain.store} {}
 
     // Written without blending and read again.
     [[nodiscard]] Color stored(const Color& color) const {
@@ -169,7 +167,8 @@ RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     const ChainList transparent{scene, chain, scene.options.alpha ? Selection::all : Selection::transparent};
     std::optional<ChainList> opaque;
     if (has_opaque(scene)) opaque.emplace(scene, chain, Selection::opaque);
-    const ChainTarget target{scene, chain};
+    const ChainTarget target{scene, chain, scene.color_format()},
+        picture{scene, chain, scene.options.result_format.value_or(scene.color_format())};
     RealImage image{scene.options.width, scene.options.height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     parallel_for(transparent.tile_count(), scene.options.threads, [&](std::size_t number) {
@@ -185,7 +184,7 @@ RealImage render_chain(const ChainScene& scene, const Chain& chain) {
             const auto width = static_cast<std::size_t>(rect.width());
             const std::size_t x = static_cast<std::size_t>(rect.x0) + pixel % width;
             const std::size_t y = static_cast<std::size_t>(rect.y0) + pixel / width;
-            const Color shown = target.shown(tile.color(pixel));
+            const Color shown = picture.shown(picture.stored(tile.color(pixel)));
             for (std::size_t c = 0; c < 3; ++c)
                 image.rgb[3 * (y * static_cast<std::size_t>(image.width) + x) + c] = shown[c];
         }

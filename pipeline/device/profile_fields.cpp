@@ -327,6 +327,9 @@ std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {
     const rasterizer::RasterRules& rules = profile.raster;
     if (profile.blend_rounding == BlendRounding::unrounded_source && profile.has_signed_blend)
         return FieldConflict{"blend_rounding", "another with has_signed_blend", "unrounded_source"};
+    // A peel need not end there: binary32 beyond the range is stored as codes that have no order.
+    if (profile.depth24 == Depth24::binary32 && rules.depth_limits == rasterizer::DepthLimits::wrap)
+        return FieldConflict{"depth24", "codes with raster.depth_limits wrap", "binary32"};
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return std::nullopt;
     const auto beside = [](std::string_view other) {
         return FieldConflict{"raster.coverage", "snapped_edges with " + std::string{other}, "float_spans"};

@@ -34,7 +34,8 @@ struct Frame {
     bool quantize_reference = true;  // false: they compare a depth that is not rounded like the stored one
     DepthKey key = DepthKey::stored_code;
     Format color_format = Format::rgba8;
-    std::optional<Format> published_format;  // of what the body publishes, if it is not a colour of the frame
+    std::optional<Format> published_format;  // of what the body publishes, if it is another
+    std::optional<Format> back_format;       // of the colour that far layers are blended onto, if it is another
     Rgba background{0, 0, 0, 1};             // premultiplied
     Termination termination;
     Formulation formulation = Formulation::resolved;
@@ -68,6 +69,9 @@ struct Frame {
         const rasterizer::DepthRequest request = key_request();
         return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
     }
+    // Of what a last quad stores, and of what layers are blended onto from behind.
+    [[nodiscard]] Format picture_format() const noexcept { return published_format.value_or(color_format); }
+    [[nodiscard]] Format behind_format() const noexcept { return back_format.value_or(color_format); }
     // Whether alpha is 1 everywhere, as nothing that is drawn lowers it.
     [[nodiscard]] bool is_opaque() const noexcept { return background[3] == 1.0f; }
     // The list that passes of a peel draw: `second`, where the same triangles come by another way.

@@ -42,8 +42,7 @@ class FrameRun {
         twin_.assign(regions_.size(), no_twin);
         for (std::size_t r = 0; r < regions_.size(); ++r) weight_of_all_ += weight(r);
         const rasterizer::Rect rect = frame.rect();
-        result_.color =
-            Image::for_overwrite(frame.published_format.value_or(frame.color_format), rect.width(), rect.height());
+        result_.color = Image::for_overwrite(frame.picture_format(), rect.width(), rect.height());
         if (frame.nearest_depth)
             result_.depth =
                 Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());

@@ -44,6 +44,27 @@ void Region::report(Fault fault, std::string detail) {
     merge(shared_.books.diagnostics, {fault, 0, -1, -1, std::move(detail)});
 }
 
+void copy_color(Region& region, Target from, Target to) {
+    if (region.storage(from).format() == region.storage(to).format()) return region.copy(from, to);
+    PassState state;
+    state.color[0] = to;
+    state.reads[0] = from;
+    static_cast<void>(region.full_screen(
+        state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+}
+
+void Region::publish(Target color) {
+    const auto format = frame().published_format;
+    if (format && storage(color).format() != *format) {
+        const Target picture = make(*format);
+        call(picture, "picture");
+        copy_color(*this, color, picture);
+        color = picture;
+    }
+    shared_.books.published = color;
+    shared_.show({.step = Step::publish, .to = color});
+}
+
 PassState Region::altered(const PassState& state, PassKind kind) {
     PassState changed = state;
     if (const Alteration* a = shared_.alteration(); a != nullptr && a->pass) a->pass(*this, changed, kind);

@@ -88,11 +88,8 @@ class Region {
     void keep_layer(Target color, Target depth, Side side = Side::front) { loop_.keep_layer(color, depth, side); }
     // After the last one: what this region shows in layers that other regions have more than it.
     void keep_no_layer(Target color, Target depth) { loop_.keep_no_layer(color, depth); }
-    // Hands over the final colour, which is an algorithm's result.
-    void publish(Target color) {
-        shared_.books.published = color;
-        shared_.show({.step = Step::publish, .to = color});
-    }
+    // Hands over the final colour, which is an algorithm's result. Where the picture has another format, a quad copies it.
+    void publish(Target color);
 
     // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
     template <FragmentProgram P>
@@ -127,6 +124,9 @@ class Region {
     Source source_;
     Loop loop_;
 };
+
+// The colours of a target in another one: a bit copy, or a quad where its format is another.
+void copy_color(Region& region, Target from, Target to);
 
 template <FragmentProgram P>
 Drawn Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {

@@ -74,7 +74,7 @@ FoundPixels non_finite_pixels(const TargetStorage& storage, ChannelType type) {
 // The opaque targets are numbers 0 and 1 in every region. Priming them is the emulator's own work and counted nowhere.
 Targets::Targets(const RegionShared& shared) : shared_{shared} {
     opaque_depth_ = make_depth();
-    opaque_color_ = make(shared_.frame.color_format);
+    opaque_color_ = make(shared_.frame.behind_format());  // the background of what is blended from behind
     const UncountedWork priming{shared_.books};
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = shared_.frame.background});

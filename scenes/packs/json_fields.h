@@ -49,10 +49,10 @@ class JsonWriter {
         else
             object[key] = nullptr;
     }
-    // Left out, or an object.
-    template <class T, class Fields>
-    void nested_if_any(const std::string& key, const std::optional<T>& value, Fields fields) {
-        if (value) nested(key, *value, fields);
+    // Left out where there is none.
+    template <class T, class Write>
+    void if_any(const std::string& key, const std::optional<T>& value, Write write) {
+        if (value) write(*this, key, *value);
     }
     template <class T, class Fields>
     void nested(const std::string& key, const T& value, Fields fields) {
@@ -105,10 +105,10 @@ class JsonReader {
         value.emplace();
         fill(*this, key, *value);
     }
-    template <class T, class Fields>
-    void nested_if_any(const std::string& key, std::optional<T>& value, Fields fields) {
+    template <class T, class Fill>
+    void if_any(const std::string& key, std::optional<T>& value, Fill fill) {
         if (!value_.contains(key)) return value.reset();
-        nested(key, value.emplace(), fields);
+        fill(*this, key, value.emplace());
     }
     template <class T, class Fields>
     void nested(const std::string& key, T& value, Fields fields) {

@@ -160,6 +160,15 @@ Way way(ByteSource& bytes, const Running& running, Simd simd) {
     return w;
 }
 
+// A picture or a back of another format than its colours.
+void choose_other_formats(ByteSource& bytes, const DeviceProfile& profile, const peeling::Algorithm* algorithm,
+                          peeling::RenderOptions& o) {
+    constexpr std::array formats{Format::rgba8, Format::rgba16f, Format::rgba32f};
+    if (!profile.has_float_targets) return;
+    if (bytes.one_in(6)) o.result_format = bytes.pick(formats);
+    if (algorithm != nullptr && algorithm->takes_both_ends && bytes.one_in(4)) o.back_format = bytes.pick(formats);
+}
+
 std::vector<Way> ways(ByteSource& bytes) {
     std::vector<Way> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
                          way(bytes, replaying, Simd::best)};
@@ -184,6 +193,8 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
     frame.view = view_of(bytes);
     vary_rules(bytes, frame.profile);
     frame.list = list_of(bytes, frame.view, frame.options.width, frame.options.height);
+    choose_other_formats(bytes, frame.profile, algorithm,
+                         frame.options);  // last, so that kept inputs mean what they did
     return frame;
 }
 

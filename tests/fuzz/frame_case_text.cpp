@@ -30,6 +30,8 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
     if (o.vertex_paths.first) out << ", first vertex_path " << number(*o.vertex_paths.first);
     if (o.vertex_paths.second) out << ", second vertex_path " << number(*o.vertex_paths.second);
     if (o.color_format) out << ", color_format " << number(*o.color_format);
+    if (o.result_format) out << ", result_format " << number(*o.result_format);
+    if (o.back_format) out << ", back_format " << number(*o.back_format);
     if (o.alpha) out << ", alpha " << *o.alpha;
     out << ", formulation " << number(o.formulation) << ", sort " << number(o.sort.rule) << ' ' << o.sort.buckets << ' '
         << o.sort.fraction << ' ' << o.sort.seed;

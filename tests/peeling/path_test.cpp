@@ -36,6 +36,7 @@ TEST_CASE("a run says which way it took, and why it did not go a faster one") {
     const auto all_effects = [](RenderOptions& o) { o.effects = Effects::all; };
     const auto layered = [](RenderOptions& o) { o.keep_layers = true; };
     const auto over_clear = [](RenderOptions& o) { o.background = {0, 0, 0, 0}; };
+    const auto in_halves = [](RenderOptions& o) { o.result_format = Format::rgba16f; };
     const auto by_ratio = [](RenderOptions& o) { o.termination = {TerminationRule::ratio, 0.01}; };
     const auto by_epsilon = [](RenderOptions& o) { o.compare_epsilon.ulps = 1; };
     const auto fixed = [](RenderOptions& o) { o.termination.rule = TerminationRule::fixed, o.termination.passes = 2; };
@@ -49,6 +50,7 @@ TEST_CASE("a run says which way it took, and why it did not go a faster one") {
         {{"geforce8", "weighted_average"}, without_memory, Path::tiled, ""},
         {dual, layered, Path::recorded, "layers are kept"},
         {dual, over_clear, Path::recorded, "the background's alpha is not 1"},
+        {dual, in_halves, Path::recorded, "the back or the picture has a format of its own"},
         {dual, by_ratio, Path::recorded, "--termination asks after every pass how many are left"},
         {dual, by_epsilon, Path::recorded, "passes compare other depths than they store, or draw other vertices"},
         {dual, without_memory, Path::tiled, "--fragment-memory 0 records nothing"},

@@ -70,6 +70,11 @@ TEST_CASE("a colour format is one that is listed and holds colours") {
     CHECK(error_of(options).find("color_format: expected a colour format, found 200") != std::string::npos);
     options.color_format = Format::rgba16f;
     CHECK(error_of(options) == "accepted");
+    options.result_format = Format::d24;
+    CHECK(error_of(options).find("result_format: expected a colour format") != std::string::npos);
+    options.result_format.reset();
+    options.back_format = Format::d24;
+    CHECK(error_of(options).find("back_format: expected a colour format") != std::string::npos);
 }
 
 TEST_CASE("the chip's own depths want its fixed point or 16 and 24-bit floats, and a reference that the device has") {

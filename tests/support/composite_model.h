@@ -74,6 +74,14 @@ struct TargetModel {
     }
 };
 
+// The targets of a peel: what it composites onto from the front, or at all; the back of a peel from both ends, and the background; the picture.
+struct PeelTargets {
+    TargetModel front{}, back{}, picture{};
+    PeelTargets(const TargetModel& all) : front{all}, back{all}, picture{all} {}
+    PeelTargets(Format of_front, Format of_back, Format of_picture)
+        : front{of_front}, back{of_back}, picture{of_picture} {}
+};
+
 // Visible fragments by depth, near to far; within a depth in submission order.
 using DepthGroups = std::map<float, std::vector<Rgba>>;
 
@@ -84,38 +92,39 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
 }
 
 // algorithms.md 2. UNIQUE; layers are stored straight.
-[[nodiscard]] inline Rgba depth_units_model(const TargetModel& target, const DepthGroups& groups,
+[[nodiscard]] inline Rgba depth_units_model(const PeelTargets& targets, const DepthGroups& groups,
                                             const Rgba& background) {
     Rgba result = background;
     for (auto layer = groups.rbegin(); layer != groups.rend(); ++layer) {
         const Rgba& source = layer->second.front();
         for (std::size_t c = 0; c < 3; ++c)
-            result[c] = target.over(target.stored(source[c]), target.stored(source[3]), result[c]);
+            result[c] = targets.front.over(targets.front.stored(source[c]), targets.front.stored(source[3]), result[c]);
     }
+    for (std::size_t c = 0; c < 3; ++c) result[c] = targets.picture.stored(result[c]);
     return result;
 }
 
 // algorithms.md 4. UNIQUE; a layer is stored premultiplied, then blended UNDER.
-[[nodiscard]] inline Rgba front_to_back_model(const TargetModel& target, const DepthGroups& groups,
+[[nodiscard]] inline Rgba front_to_back_model(const PeelTargets& targets, const DepthGroups& groups,
                                               const Rgba& background) {
     Rgba front{0, 0, 0, 1};
     for (const auto& [depth, sources] : groups) {
         const Rgba& source = sources.front();
-        const float alpha = target.stored(source[3]);
+        const float alpha = targets.front.stored(source[3]);
         for (std::size_t c = 0; c < 3; ++c)
-            front[c] = target.under(front[c], front[3], target.stored(source[c] * source[3]));
-        front[3] = target.faded(front[3], alpha);
+            front[c] = targets.front.under(front[c], front[3], targets.front.stored(source[c] * source[3]));
+        front[3] = targets.front.faded(front[3], alpha);
     }
     Rgba result{0, 0, 0, 1};
     for (std::size_t c = 0; c < 3; ++c) {
         const float through = front[3] * background[c];
-        result[c] = target.stored(front[c] + through);
+        result[c] = targets.picture.stored(front[c] + through);
     }
     return result;
 }
 
 // algorithms.md 5. MERGED: all fragments of a peeled depth write, component-wise MAX keeps one mixture.
-[[nodiscard]] inline Rgba dual_model(const TargetModel& target, DepthGroups groups, const Rgba& background,
+[[nodiscard]] inline Rgba dual_model(const PeelTargets& targets, DepthGroups groups, const Rgba& background,
                                      int peels = 1 << 20) {
     Rgba front{0, 0, 0, 0}, back = background;  // front alpha: 1 - transmittance
     for (; peels > 0 && !groups.empty(); --peels) {
@@ -125,48 +134,48 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
             for (std::size_t c = 0; c < 3; ++c) {
                 const float premultiplied = s[3] * s[c];
                 const float added = T * premultiplied;
-                next[c] = std::max(next[c], target.stored(front[c] + added));
+                next[c] = std::max(next[c], targets.front.stored(front[c] + added));
             }
             const float left = T * (1.0f - s[3]);
-            next[3] = std::max(next[3], target.stored(1.0f - left));
+            next[3] = std::max(next[3], targets.front.stored(1.0f - left));
         }
         groups.erase(groups.begin());
         front = next;
         if (groups.empty()) break;
         Rgba dump{0, 0, 0, 0};
         for (const Rgba& s : std::prev(groups.end())->second)
-            for (std::size_t c = 0; c < 4; ++c) dump[c] = std::max(dump[c], target.stored(s[c]));
+            for (std::size_t c = 0; c < 4; ++c) dump[c] = std::max(dump[c], targets.back.stored(s[c]));
         groups.erase(std::prev(groups.end()));
         for (std::size_t c = 0; c < 3; ++c)
-            if (dump[3] != 0.0f) back[c] = target.over(dump[c], dump[3], back[c]);
+            if (dump[3] != 0.0f) back[c] = targets.back.over(dump[c], dump[3], back[c]);
     }
     Rgba result{0, 0, 0, 1};
     for (std::size_t c = 0; c < 3; ++c) {
         const float through = (1.0f - front[3]) * back[c];
-        result[c] = target.stored(front[c] + through);
+        result[c] = targets.picture.stored(front[c] + through);
     }
     return result;
 }
 
 // algorithms.md 6. Every fragment blends: FIRST in the front half, LAST in the back half.
-[[nodiscard]] inline Rgba dual_independent_model(const TargetModel& target, DepthGroups groups,
+[[nodiscard]] inline Rgba dual_independent_model(const PeelTargets& targets, DepthGroups groups,
                                                  const Rgba& background) {
     Rgba front{0, 0, 0, 1}, back = background;
     while (!groups.empty()) {
         for (const Rgba& s : groups.begin()->second) {
-            for (std::size_t c = 0; c < 3; ++c) front[c] = target.under(front[c], front[3], s[c] * s[3]);
-            front[3] = target.faded(front[3], s[3]);
+            for (std::size_t c = 0; c < 3; ++c) front[c] = targets.front.under(front[c], front[3], s[c] * s[3]);
+            front[3] = targets.front.faded(front[3], s[3]);
         }
         groups.erase(groups.begin());
         if (groups.empty()) break;
         for (const Rgba& s : std::prev(groups.end())->second)
-            for (std::size_t c = 0; c < 3; ++c) back[c] = target.over(s[c], s[3], back[c]);
+            for (std::size_t c = 0; c < 3; ++c) back[c] = targets.back.over(s[c], s[3], back[c]);
         groups.erase(std::prev(groups.end()));
     }
     Rgba result{0, 0, 0, 1};
     for (std::size_t c = 0; c < 3; ++c) {
         const float through = front[3] * back[c];
-        result[c] = target.stored(front[c] + through);
+        result[c] = targets.picture.stored(front[c] + through);
     }
     return result;
 }

@@ -44,6 +44,11 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
     CHECK(shell(folder,
                 "strata render pack --size 8x8 --color-format rgba16f -o small.exr && strata digest --json small.exr")
               .out.find("rgba16f") != std::string::npos);
+    CHECK(shell(folder,
+                "strata golden teapot --size 12x9 --algorithm dual --color-format rgba16f --back-format rgba8 "
+                "--result-format rgba32f -q -o formats && strata render formats -o formats.exr && strata compare "
+                "formats formats.exr --exact --algorithm dual && strata compare formats formats.exr")
+              .out.find("equal\n") != std::string::npos);
     // A pack of a pack has the same pictures.
     const auto digest_in = [&](const std::string& pack) {
         const auto manifest = nlohmann::json::parse(content_of(folder / (pack + "/manifest.json")));

@@ -169,6 +169,12 @@ TEST_CASE("float spans stand beside no rule of the chip, and a field below its r
     CHECK(conflict_of(spans)->key == "blend_rounding");
     spans.has_signed_blend = false;
     CHECK_FALSE(conflict_of(spans));
+    DeviceProfile wrapped = *find_profile("swiftshader");
+    CHECK_FALSE(conflict_of(wrapped));
+    wrapped.raster.depth_limits = strata::rasterizer::DepthLimits::wrap;
+    CHECK(conflict_of(wrapped)->key == "depth24");
+    wrapped.depth24 = Depth24::codes;
+    CHECK_FALSE(conflict_of(wrapped));
     DeviceProfile small = *find_profile("geforce8");
     small.max_samples = -1;
     CHECK(profile_error(small).find("expected 1 to") != std::string::npos);

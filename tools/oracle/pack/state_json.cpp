@@ -37,6 +37,9 @@ void fields(Io& io, O& o) {
         optional_choice(inner, "second", paths.second, pipeline::vertex_path_names);
     });
     optional_choice(io, "color_format", o.color_format);
+    const auto choice = [](auto& inner, const std::string& key, auto& v) { inner.choice(key, v); };
+    io.if_any("result_format", o.result_format, choice);
+    io.if_any("back_format", o.back_format, choice);
     io.choice("average_count", o.average_count);
     io.optional("alpha", o.alpha, [](auto& inner, const std::string& key, auto& v) { inner.real(key, v); });
     io.reals("background", components(o.background));
@@ -67,11 +70,13 @@ void fields(Io& io, O& o) {
         inner.real("factor", offset.factor);
         inner.real("units", offset.units);
     });
-    io.nested_if_any("scissor", raster.scissor, [](auto& inner, auto& rect) {
-        inner.whole("left", rect.x0, 0, most_pixels_a_side);
-        inner.whole("top", rect.y0, 0, most_pixels_a_side);
-        inner.whole("right", rect.x1, 0, most_pixels_a_side);
-        inner.whole("bottom", rect.y1, 0, most_pixels_a_side);
+    io.if_any("scissor", raster.scissor, [](auto& outer, const std::string& key, auto& given) {
+        outer.nested(key, given, [](auto& inner, auto& rect) {
+            inner.whole("left", rect.x0, 0, most_pixels_a_side);
+            inner.whole("top", rect.y0, 0, most_pixels_a_side);
+            inner.whole("right", rect.x1, 0, most_pixels_a_side);
+            inner.whole("bottom", rect.y1, 0, most_pixels_a_side);
+        });
     });
     io.choice("y_direction", raster.y_direction);
     io.choice("cull", raster.cull);

@@ -55,6 +55,8 @@ constexpr Simplification all_simplifications[] = {
     {"depth clamp", [](Golden& g) { return becomes(g.options.raster.depth_clamp, false); }},
     {"the depth format", [](Golden& g) { return becomes(g.options.depth, {}); }},
     {"the depth path", [](Golden& g) { return becomes(g.options.depth_path, {}); }},
+    {"the picture's format", [](Golden& g) { return becomes(g.options.result_format, {}); }},
+    {"the back's format", [](Golden& g) { return becomes(g.options.back_format, {}); }},
     {"the colour format", [](Golden& g) { return becomes(g.options.color_format, {}); }},
     {"the limit of passes", [](Golden& g) { return becomes(g.options.max_passes, 0); }},
     {"the rule that ends the peel", [](Golden& g) { return becomes(g.options.termination, {}); }},

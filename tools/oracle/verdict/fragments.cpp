@@ -153,6 +153,7 @@ pipeline::Image SceneFragments::draw(const std::function<void(TileLists&&)>& tak
     profile.has_float_targets = true;  // an unrounded opaque colour is asked for
     peeling::RenderOptions options = input_.options;
     options.color_format = pipeline::Format::rgba32f;
+    options.result_format = options.back_format = std::nullopt;
     options.audit = options.keep_layers = options.nearest_depth = false;
     options.execution = pipeline::Execution::replay;
     options.max_passes = 0;

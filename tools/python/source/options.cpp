@@ -53,6 +53,8 @@ const std::map<std::string, Setter>& setters() {
         {"reference_path", choice<&O::reference_path, rasterizer::DepthPath>()},
         {"quantize_reference", number<&O::quantize_reference>()},
         {"color_format", choice<&O::color_format, pipeline::Format>()},
+        {"result_format", choice<&O::result_format, pipeline::Format>()},
+        {"back_format", choice<&O::back_format, pipeline::Format>()},
         {"alpha", number<&O::alpha>()},
         {"max_passes", number<&O::max_passes>()},
         {"formulation", choice<&O::formulation, pipeline::Formulation>()},

@@ -109,6 +109,8 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
             fmt::format("{},{},{},{}", raster.scissor->x0, raster.scissor->y0, raster.scissor->width(),
                         raster.scissor->height()));
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
+    if (render.result_format) add(words, "--result-format", name_of(color_formats, *render.result_format));
+    if (render.back_format) add(words, "--back-format", name_of(color_formats, *render.back_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));
     if (render.termination != pipeline::Termination{}) add(words, "--termination", to_text(render.termination));

@@ -130,6 +130,10 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
         [](std::string_view text) { return to_region(text); });
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
+    add_choice(app, options.result_format, "--result-format", color_formats,
+               "the picture, where it is not kept as colours are that are composited (default: as --color-format)");
+    add_choice(app, options.back_format, "--back-format", color_formats,
+               "the back of dual and dual_independent (default: as --color-format, which is then that of the front)");
     add_choice(app, options.average_count, "--average-count", count_formats,
                "fragment count of weighted_average (default r16f, as in the paper)");
     add_option(app, options.termination,
