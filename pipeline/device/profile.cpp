@@ -109,6 +109,7 @@ DeviceProfile llvmpipe() {
     p.name = "llvmpipe";
     p.description = "no device: Mesa 22.3's llvmpipe on a processor with fused multiply-add";
     p.raster.tie_rule = TieRule::bottom_left;
+    p.texture_filter = TextureFilterPrecision::code_lerps;
     p.raster.viewport = ViewportArithmetic::fused_given;
     p.raster.plane_rule = PlaneRule::reciprocal_area_fused;
     return p;
@@ -135,6 +136,7 @@ DeviceProfile softpipe() {
     p.blend_rounding = BlendRounding::nearest;
     p.blend_storage = BlendStorage::cached_tiles;
     p.min_max_nan = MinMaxNan::propagate;
+    p.texture_filter = TextureFilterPrecision::single_lerps;
     p.max_samples = 1;
     return p;
 }

@@ -26,9 +26,9 @@ enum class MinMaxNan : std::uint8_t { other_operand, propagate, destination };
 enum class DenormalRule : std::uint8_t { flush, keep };
 // What depth buffers of 24 bits hold: codes of 24 bits, or the binary32 of a D32F buffer (depth.md 2.10).
 enum class Depth24 : std::uint8_t { codes, binary32 };
-// The result of a filtered lookup: a multiple of 1/255, or binary32 (texturing.md 3). Nearest lookups and pass-through
-// coordinates go by it, too (devices.md 4).
-enum class TextureFilterPrecision : std::uint8_t { unorm8, single };
+// The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by lerps, as codes or in binary32 (texturing.md 3). Nearest
+// lookups and pass-through coordinates go by it, too (devices.md 4).
+enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, single_lerps };
 // The corner of the picture at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT), lower_left as
 // OpenGL without that call draws into framebuffer objects. All rules hold in memory order (devices.md 3.8); pictures leave the machine
 // with the upper row first.

@@ -24,7 +24,7 @@ enum class PointSnap : std::uint8_t { none, to_256ths };
 
 // Devices that filter in binary32 are those that follow D3D's texture addressing.
 [[nodiscard]] constexpr PointSnap point_snap(TextureFilterPrecision precision) noexcept {
-    return precision == TextureFilterPrecision::single ? PointSnap::to_256ths : PointSnap::none;
+    return precision == TextureFilterPrecision::unorm8 ? PointSnap::none : PointSnap::to_256ths;
 }
 
 // One axis of a texture: its number of texels, and how coordinates beyond them come back.

@@ -3,6 +3,7 @@
 #include "pipeline/formats/srgb.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/textures/texel_address.h"
+#include "pipeline/textures/texel_lerps.h"
 
 namespace strata::pipeline {
 namespace {
@@ -83,9 +84,12 @@ void round_to_unorm8(ColorLanes& rgba, std::size_t count) noexcept {
 
 void sample(const Texture& texture, TextureFilterPrecision precision, const Lanes<float>& s, const Lanes<float>& t,
             ColorLanes& rgba, int count) noexcept {
+    using enum TextureFilterPrecision;
+    if (precision == code_lerps || precision == single_lerps)
+        return sample_lerps(texture, precision, s, t, rgba, count);
     const TexelAxis s_axis{texture.target, texture.wrap_s, texture.width};
     const TexelAxis t_axis{texture.target, texture.wrap_t, texture.height};
-    const bool is_unorm8 = precision == TextureFilterPrecision::unorm8;
+    const bool is_unorm8 = precision == unorm8;
     const auto n = static_cast<std::size_t>(count);
     Lookup lookup{texture, {}, {}};
     if (texture.filter == TextureFilter::nearest) {

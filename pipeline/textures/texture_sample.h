@@ -3,7 +3,7 @@
 // Rule     Addressing: texel_address.h. `single`: texels become binary32 (k / 255, or the sRGB table), then the
 //          bilinear sum in binary32. `unorm8`: the exact sum of the 8-bit texels is rounded once to 8 bits, half up;
 //          with sRGB decoding the binary32 result is rounded to 8 bits instead, and so is a nearest lookup's. Alpha
-//          is never decoded.
+//          is never decoded. Lerps: texel_lerps.h.
 // Source   texturing.md 2 and 3.
 // Numbers  unorm8: texel * weight <= 255 * 65536 and the weights add up to 65536: below 2^24 with the rounding half.
 // Tests    tests/pipeline/textures/texture_sample_test.cpp

@@ -105,7 +105,7 @@ constexpr FieldOfDevices device_table[] = {
      {"other_operand", "other_operand", "other_operand", "other_operand", "other_operand", "other_operand", "propagate",
       "destination"}},
     {"denormals", {"flush", "flush", "flush", "keep", "flush", "flush", "flush", "flush"}},
-    {"texture_filter", {"unorm8", "single", "single", "single", "single", "single", "single", "single"}},
+    {"texture_filter", {"unorm8", "single", "single", "single", "code_lerps", "code_lerps", "single_lerps", "single"}},
     {"depth24", {"codes", "codes", "codes", "codes", "codes", "codes", "codes", "binary32"}},
     {"has_d16", {"true", "false", "false", "true", "true", "true", "true", "true"}},
     {"has_d24", {"true", "true", "true", "true", "true", "true", "true", "true"}},
@@ -178,7 +178,7 @@ const std::vector<NamesOfField> choice_names{
     {"unorm_rounding", {"half_up", "product_even", "product_even_wide"}},
     {"min_max_nan", {"other_operand", "propagate", "destination"}},
     {"denormals", {"flush", "keep"}},
-    {"texture_filter", {"unorm8", "single"}},
+    {"texture_filter", {"unorm8", "single", "code_lerps", "single_lerps"}},
     {"depth24", {"codes", "binary32"}},
 };
 
