@@ -60,10 +60,10 @@ class Unorm8:
         return max(cls.store(source), code)
 
     @classmethod
-    def over(cls, source, alpha, code):
-        """(SRC_ALPHA, ONE_MINUS_SRC_ALPHA) of one channel, nearest: fragment-stages.md 8.2."""
+    def over(cls, source, alpha, code, factor=None):
+        """(SRC_ALPHA, or the factor given, ONE_MINUS_SRC_ALPHA) of one channel, nearest: fragment-stages.md 8.2."""
         a = cls.store(alpha)
-        t = cls.store(source) * a + code * (255 - a)
+        t = cls.store(source) * (a if factor is None else cls.store(factor)) + code * (255 - a)
         return (t + 128 + (t + 128 >> 8)) >> 8
 
 
@@ -91,10 +91,11 @@ class Half:
         return cls.store(maximum(source, cls.load(code)))
 
     @classmethod
-    def over(cls, source, alpha, code):
+    def over(cls, source, alpha, code, factor=None):
         """fragment-stages.md 9.1: two rounded products, a rounded sum, each flushed; then 9.2."""
         a = flush(alpha)
-        p, q = flush(f32(flush(source) * a)), flush(f32(cls.load(code) * flush(f32(1.0 - a))))
+        f = a if factor is None else flush(factor)
+        p, q = flush(f32(flush(source) * f)), flush(f32(cls.load(code) * flush(f32(1.0 - a))))
         return cls.store(flush(f32(p + q)))
 
 
@@ -145,23 +146,26 @@ def peel(kind, fragments, opaque, rt0, rt1):
 
 
 def blend_back(kind, back, rt2):
-    """The quad of algorithms.md 5.1: keep RT2.a != 0, OVER on red, green and blue."""
+    """The quad of algorithms.md 5.1: keep RT2.a != 0, OVER on red, green and blue; on alpha, where the background's is not 1,
+    with ONE, ONE_MINUS_SRC_ALPHA (algorithms.md 0.4)."""
     r, g, b, a = (kind.load(code) for code in rt2)
     if not a != 0.0:
         return back
-    return [kind.over(s, a, d) for s, d in zip((r, g, b), back)]
+    alpha = back[3] if back[3] == kind.store(1.0) else kind.over(a, a, back[3], factor=1.0)
+    return [kind.over(s, a, d) for s, d in zip((r, g, b), back)] + [alpha]
 
 
 def last_quad(kind, rt1, back):
-    """algorithms.md 0.4: product, then sum, then the store; alpha 1."""
+    """algorithms.md 0.4: product, then sum, then the store; alpha 1 - T (1 - behind.a)."""
     acc = [kind.load(code) for code in rt1]
     through = f32(1.0 - acc[3])
-    return [kind.store(f32(acc[i] + f32(through * kind.load(back[i])))) for i in range(3)] + [kind.store(1.0)]
+    alpha = f32(1.0 - f32(through * f32(1.0 - kind.load(back[3]))))
+    return [kind.store(f32(acc[i] + f32(through * kind.load(back[i])))) for i in range(3)] + [kind.store(alpha)]
 
 
 def dual(kind, limit, opaque, background, fragments):
     """algorithms.md 5.1 with the limit of keys-and-counts.md 3.2: an iteration needs one pass, the first draw counts."""
-    back = [kind.store(x) for x in background[:3]]
+    back = [kind.store(x) for x in background]
     rt0, rt1, passes = first_range(fragments, opaque), [0] * 4, 1
     while not (limit and passes + 1 > limit):
         rt0, rt1, rt2 = peel(kind, fragments, opaque, rt0, rt1)
@@ -187,6 +191,8 @@ def answer(line):
     values = [FLOAT.unpack(WORD.pack(int(x, 16)))[0] for x in t[8:8 + 5 * int(t[7])]]
     fragments = [(values[i], values[i + 1:i + 4], values[i + 4]) for i in range(0, len(values), 5)]
     background = [FLOAT.unpack(WORD.pack(int(x, 16)))[0] for x in t[3:7]]
+    if t[2] != "-":
+        background[3] = 1.0   # an opaque surface: algorithms.md 0.8
     return " ".join(kind.word % code for code in dual(kind, int(t[1]), opaque_key(t[2]), background, fragments))
 
 
