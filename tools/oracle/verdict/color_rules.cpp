@@ -10,13 +10,20 @@ namespace strata::oracle::verdict {
 namespace {
 
 // Of a weighted average by rule.n: how a fragment's straight colour counts.
-// 0 and 1: Bavoil and Myers 2008; 2: Mol* 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and without.
+// 0 and 1: Bavoil and Myers 2008; 2: Mol* 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and without;
+// 5: their equation 9 of window depths; 6: LearnOpenGL, Weighted, Blended.
+float within(float weight) noexcept { return std::min(std::max(weight, 0.01f), 3000.0f); }
+float power(float x, int n) noexcept { return n == 1 ? x : x * power(x, n - 1); }
 float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {
     const float near = 1 - f.shader_z;
     switch (n) {
         case 2: return alpha * alpha * std::min(std::max(near * near, 0.01f), 1.0f);
         case 3: return alpha * alpha * std::max(0.01f, 3000 * near * near * near);
         case 4: return alpha * std::max(0.01f, 3000 * near * near * near);
+        case 5: return alpha * within(0.03f / (1e-5f + power(0.8f * f.shader_z, 4)));
+        case 6:
+            return alpha *
+                   within(power(std::min(1.0f, alpha * 10) + 0.01f, 3) * 1e8f * power(1 - 0.9f * f.shader_z, 3));
         default: return alpha;
     }
 }
@@ -53,7 +60,7 @@ void StackMaker::combine(const Rule& rule) {
     if (from >= items_.size()) return;
     // An average of one is that one.
     if (averages && items_.size() - from == 1) return;
-    const std::uint32_t weights = rule.kind == RuleKind::averaged ? rule.n : 1;
+    const std::uint32_t weights = rule.kind == RuleKind::averaged ? rule.n : rule.value == 0 ? 1 : 0;
     Rgba sum{0, 0, 0, 0};
     float all_weights = 0, through = 1;
     for (std::size_t i = from; i < items_.size(); ++i) {
@@ -80,7 +87,10 @@ void StackMaker::combine(const Rule& rule) {
 }
 
 void StackMaker::recolor(const Rule& rule) {
-    for (Item& item : items_) {
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        Item& item = items_[i];
+        if (rule.scope == Scope::layer && i != rule.of) continue;
+        if (rule.scope == Scope::layer_from_far && items_.size() - 1 - i != rule.of) continue;
         if (!is_in(rule, *item.fragment)) continue;
         Rgba& color = item.layer.color;
         switch (rule.kind) {
@@ -94,6 +104,16 @@ void StackMaker::recolor(const Rule& rule) {
             case RuleKind::not_premultiplied: item.layer.is_premultiplied = true; break;
             case RuleKind::red_for_blue: std::swap(color[0], color[2]); break;
             case RuleKind::alpha_root: color[3] = std::sqrt(color[3]); break;
+            case RuleKind::color_squared:
+                for (std::size_t c = 0; c < 3; ++c) color[c] *= color[c];
+                break;
+            case RuleKind::color_root:
+                for (std::size_t c = 0; c < 3; ++c) color[c] = std::sqrt(std::max(color[c], 0.0f));
+                break;
+            case RuleKind::solid:
+                for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3];
+                color[3] = 1;
+                break;
             case RuleKind::channel_lost: color[static_cast<int>(rule.n)] = 0; break;
             case RuleKind::through_late:
                 for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3] * (1 - color[3]);
@@ -113,9 +133,14 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
         case RuleKind::opaque_lost:
         case RuleKind::opaque_ignored: stack_.background = setting_->cleared; break;
         case RuleKind::background_lost:
-            if (!pixel.has_opaque) stack_.background = nothing;
+            if (rule.n != 0 ? !pixel.visible.empty() : !pixel.has_opaque) stack_.background = nothing;
             break;
         case RuleKind::surface_lost: stack_.background = nothing; break;
+        case RuleKind::surface_mixed:
+            if (pixel.has_opaque)
+                for (std::size_t c = 0; c < 4; ++c)
+                    stack_.background[c] = rule.value * pixel.behind[c] + (1 - rule.value) * setting_->cleared[c];
+            break;
         case RuleKind::background_other:
             if (!pixel.has_opaque && setting_->seen_background) stack_.background = *setting_->seen_background;
             break;
@@ -125,7 +150,8 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             Rgba result = stack_.background;
             for (const Layer& layer : stack_.layers)
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const float color = layer.color[c];
+                    const float color =
+                        layer.color[c] * (rule.kind == RuleKind::greatest && rule.n != 0 ? layer.color[3] : 1);
                     result[c] = rule.kind == RuleKind::multiplied ? result[c] * color
                                 : rule.kind == RuleKind::greatest ? std::max(result[c], color)
                                                                   : std::min(result[c], color);

@@ -23,10 +23,21 @@ double scale_of(Storage storage) noexcept {
     return 0;
 }
 
+// Of an accumulator of so few bits: rounded like the hypothesis' own.
+Keeper few_bits(std::uint8_t bits, Rounding rounding) noexcept {
+    Keeper k{.scale = std::exp2(bits) - 1};
+    k.inverse = 1 / k.scale;
+    k.cuts = rounding == Rounding::cut;
+    k.minus = k.plus = rounding == Rounding::any ? 1 : 0.5 + k.scale * single_error;
+    k.cut_low = -k.scale * single_error;
+    k.cut_high = k.scale * single_error;
+    return k;
+}
+
 // Whether operands of a blend are codes, so that its exact result is a whole number over scale^2.
 bool has_stored_source(Source source) noexcept {
     return source == Source::stored || source == Source::stored_either_way || source == Source::premultiplied ||
-           source == Source::premultiplied_either_way;
+           source == Source::premultiplied_either_way || source == Source::premultiplied_cut;
 }
 
 Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
@@ -66,6 +77,7 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
 // A colour that becomes a code: halves go up, or may go either way.
 Keeper conversion(Storage storage, Source source) {
     if (source == Source::any) return keeper(storage, Rounding::any, false);
+    if (source == Source::premultiplied_cut) return keeper(storage, Rounding::cut, false);
     const bool goes_up = source == Source::stored || source == Source::premultiplied;
     return keeper(storage, Rounding::nearest, goes_up);
 }
@@ -138,7 +150,8 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     const Interval alpha = clamped(given(layer.color[3]));
     o.alpha = clamped(stored(alpha));
     o.color[3] = Interval::of(1);
-    o.is_premultiplied = source == Source::premultiplied || source == Source::premultiplied_either_way;
+    o.is_premultiplied = source == Source::premultiplied || source == Source::premultiplied_either_way ||
+                         source == Source::premultiplied_cut;
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval color = given(layer.color[c]);
         if (!o.is_premultiplied) {
@@ -161,21 +174,32 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
 Compositor::Channels Compositor::under(const Means& means, std::span<const Layer> near_to_far,
                                        const Stack& stack) noexcept {
     const bool is_linear = stack.is_linear;
-    Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(1)};
+    const Mixing& mixing = stack.mixing;
+    const bool has_few_bits = mixing.color_bits > 0;
+    const Keeper color = has_few_bits ? few_bits(mixing.color_bits, means.end.rounding) : means.under;
+    const Keeper weight = has_few_bits ? few_bits(mixing.weight_bits, means.end.rounding) : means.weight;
+    Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(mixing.first_through)};
+    if (mixing.first_through != 1) {
+        const Interval kept = means.weight.kept(sum[3], 1);  // as a clear value it is, as a factor it need not be
+        sum[3] = {std::min(sum[3].low, kept.low), std::max(sum[3].high, kept.high)};
+    }
     const bool may_be_rounded = means.end.source == Source::any;
     for (const Layer& layer : near_to_far) {
         const Operand o = operand(means, layer, stack.is_moved);
-        const Interval through = sum[3];
+        const Interval through = mixing.attenuates ? sum[3] : Interval::of(1);
         for (std::size_t c = 0; c < 3; ++c) {
             Interval premultiplied = o.is_premultiplied ? o.color[c] : o.color[c] * o.alpha;
             // A product that may be stored as a layer on the way.
             if (may_be_rounded) premultiplied = means.source.kept(premultiplied, premultiplied.magnitude());
             Interval added = through * premultiplied;
             if (means.end.rounding == Rounding::products) added = means.under.kept(added, added.magnitude());
-            sum[c] = kept_by(means.under, sum[c] + added, sum[c].magnitude() + added.magnitude(), is_linear);
+            sum[c] = kept_by(color, sum[c] + added, sum[c].magnitude() + added.magnitude(), is_linear);
         }
         // It may be kept as coverage, 1 - t, whose error is one of 1.
-        sum[3] = clamped(means.weight.kept(through * rest_of(o.alpha), 1));
+        Interval left = sum[3] * rest_of(mixing.through == Mixing::Through::squared ? o.alpha * o.alpha : o.alpha);
+        if (mixing.through == Mixing::Through::summed)
+            left = {below(sum[3].low - o.alpha.high), above(sum[3].high - o.alpha.low)};
+        sum[3] = clamped(weight.kept(clamped(left), 1));
     }
     return sum;
 }
@@ -185,7 +209,12 @@ void Compositor::over(const Means& means, std::span<const Layer> near_to_far, co
     const bool is_linear = stack.is_linear;
     const bool may_be_rounded = means.end.source == Source::any;
     for (std::size_t i = near_to_far.size(); i-- > 0;) {
-        const Operand o = operand(means, near_to_far[i], stack.is_moved);
+        Operand o = operand(means, near_to_far[i], stack.is_moved);
+        if (stack.mixing.through == Mixing::Through::squared) {
+            for (std::size_t c = 0; c < 3 && !o.is_premultiplied; ++c) o.color[c] = o.color[c] * o.alpha;
+            o.is_premultiplied = true;
+            o.alpha = o.alpha * o.alpha;
+        }
         for (std::size_t c = 0; c < 4; ++c) {
             const double magnitude = o.color[c].magnitude() + onto[c].magnitude();
             Interval exact;
@@ -224,6 +253,9 @@ Compositor::Channels Compositor::background_of(const Means& means, const Stack& 
             channels[c] = stored_up(means.source, clamped(x));
         else
             channels[c] = means.source.kept(clamped(x), 1);
+        if (source == Source::premultiplied_cut && means.blend.has_codes)  // a clear value is rounded, a picture is cut
+            channels[c].high = std::max(channels[c].high,
+                                        stored_up(keeper(means.end.storage, Rounding::nearest, true), clamped(x)).high);
     }
     return channels;
 }
@@ -236,8 +268,18 @@ Compositor::Compositor(const Hypothesis& h)
       converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held ||
                 h.result.rounding == Rounding::any} {}
 
+bool Compositor::can_mix(const Stack& stack) const noexcept {
+    Mixing mixing = stack.mixing;
+    if (hypothesis_.order == Order::over) mixing.through = Mixing::Through::product;  // squared: of both
+    return has_front(hypothesis_.order) || (mixing == Mixing{} && stack.mixing.through != Mixing::Through::summed);
+}
+
 Reach Compositor::reach(const Stack& stack) const noexcept {
     const Order order = hypothesis_.order;
+    if (!can_mix(stack)) {
+        constexpr Interval none{1, 0};
+        return {none, none, none, none};
+    }
     const std::span<const Layer> near_to_far = stack.layers;
     std::size_t near = 0;
     if (order == Order::under) near = near_to_far.size();
@@ -271,9 +313,15 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
         return reach;
     }
     const Channels front = under(front_, near_to_far.first(near), stack);
+    const Mixing& mixing = stack.mixing;
+    Interval weight = front[3];
+    if (mixing.behind == Mixing::Behind::twice) weight = weight * weight;
+    if (mixing.behind == Mixing::Behind::inverted && near > 0) weight = rest_of(weight);
     for (std::size_t c = 0; c < 3; ++c) {
-        const Interval added = front[3] * back[c];
-        reach[c] = published(c, front[c] + added, front[c].magnitude() + added.magnitude());
+        const Interval added = weight * back[c];
+        Interval exact = front[c] + added;
+        if (mixing.picture_too) exact = few_bits(mixing.color_bits, front_.end.rounding).kept(exact, 1);
+        reach[c] = published(c, exact, front[c].magnitude() + added.magnitude());
     }
     // Alpha is 1 less what is let through, and the background's share of that.
     const Interval alpha = mixed(front[3], back[3], Interval::of(1));

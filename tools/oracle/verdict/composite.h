@@ -29,6 +29,24 @@ struct Layer {
 // What becomes of a finished picture's colours before they are stored.
 enum class Finish : std::uint8_t { as_is, encoded, decoded };
 
+// How a port blends beside what a hypothesis says: the defaults are right.
+struct Mixing {
+    enum class Through : std::uint8_t {
+        product,
+        squared,
+        summed
+    };                                                           // of 1 - alpha; of 1 - alpha^2; 1 - the sum of alphas
+    enum class Behind : std::uint8_t { once, twice, inverted };  // how what is let through weighs what lies behind
+    float first_through = 1;
+    Through through = Through::product;
+    Behind behind = Behind::once;
+    bool attenuates = true;  // layers by what those before them let through
+    // Bits of the front accumulator's colours and of what is let through; 0: as the hypothesis says.
+    std::uint8_t color_bits = 0, weight_bits = 0;
+    bool picture_too = false;  // the finished picture has passed through as few
+    friend bool operator==(const Mixing&, const Mixing&) = default;
+};
+
 // A pixel's layers, near to far, over its background.
 struct Stack {
     std::vector<Layer> layers{};
@@ -38,6 +56,7 @@ struct Stack {
     std::size_t near = 0, near_without_middle = 0;
     bool is_linear = false;  // colours are in linear light, and what is kept is encoded to sRGB
     Finish finish = Finish::as_is;
+    Mixing mixing{};
     bool is_moved = false;  // positions are snapped otherwise: colours are off by their spreads, too
     friend bool operator==(const Stack&, const Stack&) = default;
 };
@@ -104,6 +123,8 @@ class Compositor {
     };
     using Channels = std::array<Interval, 4>;
 
+    // An order without a front accumulator reaches nothing by a mixing that has to do with one.
+    [[nodiscard]] bool can_mix(const Stack& stack) const noexcept;
     [[nodiscard]] static Means means_of(const End& end, double slack);
     [[nodiscard]] static Operand operand(const Means& means, const Layer& layer, bool is_moved) noexcept;
     // UNDER: the fourth channel is what is let through.

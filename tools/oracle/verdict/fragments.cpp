@@ -127,6 +127,7 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
     : input_{input},
       setting_{setting_of(input.list, input.view, input.options.background)},
       instance_of_{instances_of(input)} {
+    find_nearness(input.list, input.view, instance_of_, setting_);
     std::mutex mutex;
     std::vector<rasterizer::Rect> rects;
     behind_ = draw([&](TileLists&& tile) {
@@ -143,6 +144,7 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
     });
     // Tiles come as threads finish them.
     std::ranges::sort(kept_, {}, [](const TileLists& t) { return std::pair{t.rect.y0, t.rect.x0}; });
+    index_tiles();
     blank_ = rest_of_frame(behind_.width, behind_.height, rects);
     far_code_ = rasterizer::max_code(input.profile.depth_buffer(input.options.depth));
 }
@@ -184,6 +186,29 @@ void SceneFragments::for_each_tile(const std::function<void(const TileLists&)>& 
     }
 }
 
+void SceneFragments::index_tiles() {
+    if (!keeps_) return;
+    tile_of_.assign(static_cast<std::size_t>(behind_.width) * static_cast<std::size_t>(behind_.height), 0);
+    for (std::size_t t = 0; t < kept_.size(); ++t) {
+        const rasterizer::Rect& r = kept_[t].rect;
+        for (int y = r.y0; y < r.y1; ++y) {
+            const auto row = tile_of_.begin() + static_cast<std::ptrdiff_t>(y) * behind_.width;
+            std::fill(row + r.x0, row + r.x1, static_cast<std::uint32_t>(t + 1));
+        }
+    }
+}
+
+std::span<const Fragment> SceneFragments::visible_at(int x, int y) const noexcept {
+    if (x < 0 || y < 0 || x >= width() || y >= height()) return {};
+    const std::uint32_t number =
+        tile_of_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x)];
+    if (number == 0) return {};
+    const TileLists& tile = kept_[number - 1];
+    const std::size_t pixel = static_cast<std::size_t>(y - tile.rect.y0) * static_cast<std::size_t>(tile.rect.width()) +
+                              static_cast<std::size_t>(x - tile.rect.x0);
+    return std::span{tile.fragments}.subspan(tile.start[pixel], tile.hidden[pixel] - tile.start[pixel]);
+}
+
 void SceneFragments::find_coverages() {
     constexpr std::uint64_t most_fragments = std::uint64_t{1} << 21;
     if (coverages_ != nullptr || !keeps_ || count_ > most_fragments) return;
@@ -206,6 +231,7 @@ PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noe
     list.hidden = {tile.fragments.data() + hidden, end - hidden};
     list.opaque = tile.opaque[pixel];
     list.has_opaque = list.opaque != far_code_;
+    list.scene = keeps_ ? this : nullptr;
     for (int c = 0; c < 4; ++c)
         list.behind[static_cast<std::size_t>(c)] =
             std::bit_cast<float>(behind_.codes[behind_.index(list.x, list.y, c)]);

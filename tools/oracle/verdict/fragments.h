@@ -32,16 +32,18 @@ struct Fragment {
 
 struct EdgePixel;  // coverages.h
 class Coverages;
+class SceneFragments;
 
 struct PixelList {
     int x = 0, y = 0;  // in the frame
     std::span<const Fragment> visible{}, hidden{};
-    Rgba behind{};                    // the opaque surface's colour or the background's
-    float behind_spread = 0;          // as a fragment's
-    bool has_spreads = false;         // they are known
-    std::uint32_t opaque = 0;         // its depth's code
-    bool has_opaque = false;          // false: the background lies behind
-    const EdgePixel* edge = nullptr;  // what else may cover it; null: nothing, or it is not known
+    Rgba behind{};                          // the opaque surface's colour or the background's
+    float behind_spread = 0;                // as a fragment's
+    bool has_spreads = false;               // they are known
+    std::uint32_t opaque = 0;               // its depth's code
+    bool has_opaque = false;                // false: the background lies behind
+    const SceneFragments* scene = nullptr;  // that knows other pixels, too; null: it does not
+    const EdgePixel* edge = nullptr;        // what else may cover it; null: nothing, or it is not known
 };
 
 struct TileLists {
@@ -72,10 +74,14 @@ class SceneFragments {
     // visit(tile) for every tile, from several threads.
     void for_each_tile(const std::function<void(const TileLists&)>& visit) const;
     [[nodiscard]] PixelList at(const TileLists& tile, std::size_t pixel) const noexcept;  // `pixel` counts in the tile
+    // Of lists that are kept; no fragments beyond the frame.
+    [[nodiscard]] std::span<const Fragment> visible_at(int x, int y) const noexcept;
 
   private:
     // Draws the scene once; `take` gets the tiles that run: all that are not blank. Returns the opaque scene's colours.
     pipeline::Image draw(const std::function<void(TileLists&&)>& take) const;
+
+    void index_tiles();
 
     RunInput input_;
     Setting setting_;
@@ -83,6 +89,7 @@ class SceneFragments {
     std::uint32_t far_code_ = 0;                // where no opaque surface is
     pipeline::Image behind_{};                  // rgba32f
     std::vector<TileLists> kept_{};
+    std::vector<std::uint32_t> tile_of_{};   // of each pixel of the frame, from 1; 0: it has no fragments
     std::vector<rasterizer::Rect> blank_{};  // what no tile that ran holds
     std::shared_ptr<const Coverages> coverages_{};
     bool keeps_ = true;

@@ -61,6 +61,7 @@ std::string_view words(Source source) noexcept {
         case Source::stored_either_way: return "";
         case Source::premultiplied:
         case Source::premultiplied_either_way: return ", premultiplied layers";
+        case Source::premultiplied_cut: return ", premultiplied layers that are cut";
         case Source::unrounded: return ", sources not rounded";
         case Source::any: return ", sources rounded or not";
     }
@@ -87,6 +88,7 @@ std::vector<End> ends(Storage storage) {
             {storage, stored, R::cut},
             {storage, premultiplied_either_way, R::cut},
             {storage, unrounded, R::cut},
+            {storage, premultiplied_cut, R::cut},
             {storage, stored_either_way, R::products},
             {storage, premultiplied_either_way, R::products},
             {storage, unrounded, R::held},
@@ -106,6 +108,7 @@ std::vector<End> ends_of_pairs(Storage storage) {
             {storage, unrounded, R::cut},
             {storage, stored, R::cut},
             {storage, premultiplied_either_way, R::cut},
+            {storage, premultiplied_cut, R::cut},
             {storage, stored_either_way, R::products},
             {storage, premultiplied_either_way, R::products}};
 }

@@ -29,8 +29,9 @@ enum class Source : std::uint8_t {
     stored_either_way,  // the same, halves up or down
     premultiplied,      // times alpha, then rounded like `stored`
     premultiplied_either_way,
-    unrounded,  // binary32, as Direct3D allows
-    any         // any of these
+    premultiplied_cut,  // the same, cut
+    unrounded,          // binary32, as Direct3D allows
+    any                 // any of these
 };
 
 // How a blend's exact result becomes a stored one. Floats have `nearest` and `any`; the latter may cut.

@@ -22,6 +22,7 @@ struct Interval {
     [[nodiscard]] static constexpr Interval of(double x) noexcept { return {x, x}; }
     [[nodiscard]] bool holds(double x) const noexcept { return low <= x && x <= high; }
     [[nodiscard]] double magnitude() const noexcept { return std::max(std::fabs(low), std::fabs(high)); }
+    friend constexpr bool operator==(const Interval&, const Interval&) = default;
     [[nodiscard]] Interval widened(double by) const noexcept { return {below(low - by), above(high + by)}; }
 };
 

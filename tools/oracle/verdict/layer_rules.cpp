@@ -66,6 +66,9 @@ void StackMaker::choose_by_number(const Rule& rule) {
             return;
         case RuleKind::first_submitted: return by_submission([&](std::size_t at) { return at < n; });
         case RuleKind::last_submitted: return by_submission([&](std::size_t at) { return at >= rest; });
+        case RuleKind::submitted_lost: return by_submission([&](std::size_t at) { return at != n; });
+        case RuleKind::submitted_lost_from_last:
+            return by_submission([&](std::size_t at) { return at + n + 1 != all; });
         case RuleKind::middle_lost:
             if (all % 2 == 1) items_.erase(items_.begin() + static_cast<std::ptrdiff_t>(all / 2));
             return;
@@ -143,6 +146,30 @@ void StackMaker::order(const Rule& rule) {
     };
     switch (rule.kind) {
         case RuleKind::reversed: std::ranges::reverse(items_); return;
+        case RuleKind::near_reversed:
+            std::reverse(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>((items_.size() + 1) / 2));
+            return;
+        case RuleKind::far_reversed:
+            std::reverse(items_.begin() + static_cast<std::ptrdiff_t>((items_.size() + 1) / 2), items_.end());
+            return;
+        case RuleKind::submitted_moved: {
+            if (items_.empty()) return;
+            const auto less = [](const Item& a, const Item& b) {
+                return a.fragment->primitive < b.fragment->primitive;
+            };
+            const auto one =
+                rule.n % 2 == 0 ? std::ranges::min_element(items_, less) : std::ranges::max_element(items_, less);
+            if (rule.n < 2)
+                std::rotate(items_.begin(), one, one + 1);
+            else
+                std::rotate(one, one + 1, items_.end());
+            return;
+        }
+        case RuleKind::by_centroid:
+            return by([&](const Fragment& f) {
+                const auto& nearness = setting_->nearness[rule.n];
+                return std::pair{f.primitive < nearness.size() ? -nearness[f.primitive] : 0.0f, ~f.primitive};
+            });
         case RuleKind::ordered_in_bits:
             return by([&](const Fragment& f) { return std::pair{in_bits(f, rule.n), f.primitive}; });
         case RuleKind::sorted_once:
@@ -229,6 +256,17 @@ void StackMaker::edit_one(const Rule& rule) {
                     if ((c == 3) == (rule.kind == RuleKind::alphas_shifted))
                         items_[i].layer.color[c] = items_[i + 1].layer.color[c];
             return;
+        case RuleKind::alphas_as_submitted:
+        case RuleKind::colors_as_submitted: {
+            std::vector<Item> submitted = items_;
+            std::ranges::stable_sort(submitted, {}, [](const Item& i) { return i.fragment->primitive; });
+            if (rule.n != 0) std::ranges::reverse(submitted);
+            for (std::size_t i = 0; i < all; ++i)
+                for (std::size_t c = 0; c < 4; ++c)
+                    if ((c == 3) == (rule.kind == RuleKind::alphas_as_submitted))
+                        items_[i].layer.color[c] = submitted[i].layer.color[c];
+            return;
+        }
         case RuleKind::nearest_repeated:
             for (Item& item : items_) item.layer = items_[0].layer;
             return;

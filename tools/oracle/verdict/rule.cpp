@@ -96,6 +96,28 @@ std::string_view name(RuleKind kind) noexcept {
         case RuleKind::rows_reversed: return "rows_reversed";
         case RuleKind::columns_reversed: return "columns_reversed";
         case RuleKind::turned: return "turned";
+        case RuleKind::submitted_lost: return "submitted_lost";
+        case RuleKind::submitted_lost_from_last: return "submitted_lost_from_last";
+        case RuleKind::near_reversed: return "near_reversed";
+        case RuleKind::far_reversed: return "far_reversed";
+        case RuleKind::submitted_moved: return "submitted_moved";
+        case RuleKind::by_centroid: return "by_centroid";
+        case RuleKind::alphas_as_submitted: return "alphas_as_submitted";
+        case RuleKind::colors_as_submitted: return "colors_as_submitted";
+        case RuleKind::shifted: return "shifted";
+        case RuleKind::halved: return "halved";
+        case RuleKind::mirrored: return "mirrored";
+        case RuleKind::surface_mixed: return "surface_mixed";
+        case RuleKind::veiled: return "veiled";
+        case RuleKind::through_squared: return "through_squared";
+        case RuleKind::through_summed: return "through_summed";
+        case RuleKind::not_attenuated: return "not_attenuated";
+        case RuleKind::behind_squared: return "behind_squared";
+        case RuleKind::behind_inverted: return "behind_inverted";
+        case RuleKind::few_bits: return "few_bits";
+        case RuleKind::color_squared: return "color_squared";
+        case RuleKind::color_root: return "color_root";
+        case RuleKind::solid: return "solid";
     }
     return "";  // unreachable: the enum is closed
 }

@@ -37,8 +37,25 @@ std::string some(const Rule& rule, const pipeline::DrawList& list) {
         case Scope::material: return "what has " + material_name(rule.of, list);
         case Scope::back_faces: return "back faces";
         case Scope::front_faces: return "front faces";
+        case Scope::layer: return fmt::format("the {} layer", ordinal(rule.of, "nearest"));
+        case Scope::layer_from_far: return fmt::format("the {} layer", ordinal(rule.of, "farthest"));
     }
     return "";  // unreachable: the enum is closed
+}
+
+std::string_view point(std::uint32_t n) {
+    switch (static_cast<TrianglePoint>(n)) {
+        case TrianglePoint::mean: return "their centroids";
+        case TrianglePoint::window_mean: return "the mean of their corners' window depths";
+        case TrianglePoint::nearest: return "their nearest corners";
+        case TrianglePoint::farthest: return "their farthest corners";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+// Of rules that read elsewhere.
+std::string whose(std::uint32_t n) {
+    return n == 0 ? "layers are" : fmt::format("the {} layer is", ordinal(n - 1, "nearest"));
 }
 
 std::string_view weights(std::uint32_t n) {
@@ -47,6 +64,8 @@ std::string_view weights(std::uint32_t n) {
         case 1: return "weighted by alpha";
         case 2: return "weighted by alpha^2 (1 - z)^2";
         case 3: return "weighted by alpha^2 (1 - z)^3";
+        case 5: return "weighted by alpha 0.03 / (1e-5 + (0.8 z)^4)";
+        case 6: return "weighted as weighted, blended transparency (LearnOpenGL) does";
         default: return "weighted by alpha (1 - z)^3";
     }
 }
@@ -60,6 +79,13 @@ std::string sentence(const std::vector<Rule>& rules, const SceneFacts& facts, co
 }
 
 std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list) {
+    if (!rule.region.is_everywhere()) {
+        Rule everywhere = rule;
+        everywhere.region = {};
+        const Region& r = rule.region;
+        return fmt::format("within x {} to {} and y {} to {}, and nowhere else: {}", r.x0, r.x1 - 1, r.y0, r.y1 - 1,
+                           sentence(everywhere, facts, list));
+    }
     if (rule.scope != Scope::all && rule.kind != RuleKind::some_lost && rule.kind != RuleKind::some_doubled) {
         Rule of_all = rule;
         of_all.scope = Scope::all;
@@ -185,7 +211,9 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::opaque_lost: return "opaque surfaces are missing behind the layers";
         case RuleKind::opaque_ignored: return "opaque surfaces are missing, and layers behind them are composited";
         case RuleKind::opaque_in_front: return "opaque surfaces cover the layers before them";
-        case RuleKind::background_lost: return "the background is missing: black behind the layers";
+        case RuleKind::background_lost:
+            return n != 0 ? "where layers are, what lies behind them is missing: black"
+                          : "the background is missing: black behind the layers";
         case RuleKind::background_twice: return "what lies behind the layers is added twice";
         case RuleKind::background_added:
             return "what lies behind the layers is added to them as if they let all of it through";
@@ -210,6 +238,48 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::rows_reversed: return "the picture is upside down";
         case RuleKind::columns_reversed: return "left and right are exchanged";
         case RuleKind::turned: return "the picture is turned by half a turn";
+        case RuleKind::submitted_lost:
+            return fmt::format("the {} layer that was submitted is missing",
+                               n == 0 ? "first" : ordinal(n, "").substr(0, ordinal(n, "").size() - 1));
+        case RuleKind::submitted_lost_from_last:
+            return fmt::format("the {} layer that was submitted is missing", ordinal(n, "last"));
+        case RuleKind::near_reversed: return "the near half of the layers is composited in the reverse order";
+        case RuleKind::far_reversed: return "the far half of the layers is composited in the reverse order";
+        case RuleKind::submitted_moved:
+            return fmt::format("the {} layer that was submitted is composited {} all others",
+                               n % 2 == 0 ? "first" : "last", n < 2 ? "before" : "behind");
+        case RuleKind::by_centroid: return fmt::format("triangles are sorted by {}, not fragments by depth", point(n));
+        case RuleKind::alphas_as_submitted:
+            return fmt::format("layers are sorted, but their alphas stay in the {}order of submission",
+                               n == 0 ? "" : "reverse ");
+        case RuleKind::colors_as_submitted:
+            return fmt::format("layers are sorted, but their colours stay in the {}order of submission",
+                               n == 0 ? "" : "reverse ");
+        case RuleKind::shifted:
+            return fmt::format("{} read {},{} pixels to the right and down", whose(n), rule.dx, rule.dy);
+        case RuleKind::halved:
+            return fmt::format(
+                "layers{} are those of one pixel in two by two, {},{} from the first: textures of half size",
+                n == 0 ? "" : fmt::format(" behind the nearest {}", layers(n)), rule.dx, rule.dy);
+        case RuleKind::mirrored:
+            return fmt::format("{} read {}", whose(n),
+                               rule.dx == 0   ? "upside down"
+                               : rule.dy == 0 ? "with left and right exchanged"
+                                              : "turned by half a turn");
+        case RuleKind::surface_mixed:
+            return fmt::format("opaque surfaces count {:.3g}, the rest is the colour that was cleared to", rule.value);
+        case RuleKind::veiled: return fmt::format("what layers let through begins as {:.3g}, not as 1", rule.value);
+        case RuleKind::through_squared: return "a layer lets through 1 less the square of its alpha";
+        case RuleKind::through_summed: return "alphas are added up: what is let through is 1 less their sum";
+        case RuleKind::not_attenuated: return "layers are added without what those before them let through";
+        case RuleKind::behind_squared: return "what lies behind is attenuated twice";
+        case RuleKind::behind_inverted: return "what lies behind is weighted by what is not let through";
+        case RuleKind::few_bits:
+            return fmt::format("the accumulator keeps colours in {} bits and what is let through in {}{}", n & 0xff,
+                               n >> 8 & 0xff, n >> 16 != 0 ? ", and the picture passes through as few" : "");
+        case RuleKind::color_squared: return "colours are multiplied by themselves";
+        case RuleKind::color_root: return "the square root of colours is taken for colours";
+        case RuleKind::solid: return "nothing is let through, though colours are weighted by alpha";
         case RuleKind::blended_linear:
             return "colours are decoded from sRGB, blended in linear light and encoded again";
     }

@@ -65,6 +65,8 @@ void add_counts(Rules& all, std::uint32_t most) {
                  {farthest_alone, nearest_lost, farthest_lost, rest_averaged, rest_as_submitted, first_submitted,
                   last_submitted},
                  1, most);
+    for (std::uint32_t n = 1; n < most; ++n) all.push_back({.kind = rest_averaged, .n = n, .value = 1});
+    add_numbered(all, {submitted_lost, submitted_lost_from_last}, 0, most);
     if (most > 2) add(all, {odd_lost, even_lost, middle_lost, middle_doubled});
     for (const float through : {1.0f / 255, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.25f, 0.5f})
         all.push_back({.kind = ended_early, .value = through});
@@ -74,6 +76,10 @@ void add_orders(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
     add(all, {reversed, as_submitted_reversed});
     if (facts.most_layers > 1) {
+        add(all, {near_reversed, far_reversed});
+        add_numbered(all, {submitted_moved}, 0, 4);
+        add_numbered(all, {by_centroid}, 0, triangle_point_count);
+        add_numbered(all, {alphas_as_submitted, colors_as_submitted}, 0, 2);
         add(all, {nearest_behind, farthest_before, pairs_swapped, sorted_once, nearest_repeated, colors_shifted,
                   alphas_shifted});
         add_numbered(all, {ordered_in_bits, lost_in_bits}, 6, 24);
@@ -105,8 +111,9 @@ std::vector<Rule> scopes_of(const SceneFacts& facts) {
 
 void add_scoped(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
-    constexpr RuleKind colors[] = {alpha_squared, alpha_inverted, alpha_ignored, premultiplied_twice, not_premultiplied,
-                                   red_for_blue,  decoded,        encoded,       alpha_root};
+    constexpr RuleKind colors[] = {alpha_squared,     alpha_inverted, alpha_ignored, premultiplied_twice,
+                                   not_premultiplied, red_for_blue,   decoded,       encoded,
+                                   alpha_root,        color_squared,  color_root};
     constexpr float factors[] = {0.25f, 0.5f, 0.75f, 0.8f, 0.9f, 1.25f, 1.5f, 2.0f};
     const auto add_colors = [&](const Rule& scope) {
         for (const RuleKind kind : colors) all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
@@ -122,9 +129,18 @@ void add_scoped(Rules& all, const SceneFacts& facts) {
             all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
         add_colors(scope);
     }
-    for (std::size_t i = 1; i < facts.alphas.size(); ++i)
+    std::vector<float> thresholds = facts.alphas;
+    if (thresholds.empty() && facts.most_layers > 0) {
+        for (int i = 1; i < 20; ++i) thresholds.push_back(static_cast<float>(i) / 20);
+        for (const float few : {1.0f / 255, 0.01f, 0.02f}) thresholds.push_back(few);
+    }
+    for (std::size_t i = facts.alphas.empty() ? 0 : 1; i < thresholds.size(); ++i)
         for (const RuleKind kind : {alpha_below_lost, alpha_below_kept})
-            all.push_back({.kind = kind, .value = facts.alphas[i]});
+            all.push_back({.kind = kind, .value = thresholds[i]});
+    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 16));
+    for (std::uint32_t n = 0; n < most; ++n)
+        for (const Scope scope : {Scope::layer, Scope::layer_from_far}) add_colors({.scope = scope, .of = n});
+    for (const Scope scope : {Scope::layer, Scope::layer_from_far}) all.push_back({.kind = solid, .scope = scope});
 }
 
 void add_depths(Rules& all, const SceneFacts& facts) {
@@ -133,10 +149,36 @@ void add_depths(Rules& all, const SceneFacts& facts) {
         if (codes > 0) add_numbered(all, {close_lost, close_merged, close_swapped}, codes, codes + 1);
         if (facts.has_opaque) add_numbered(all, {at_opaque_shown, near_opaque_lost}, codes, codes + 1);
     }
-    for (float power = 1e-8f; power < 0.05f; power *= 10)
-        for (const float times : {1.0f, 2.0f, 5.0f})
+    // One digit, and two where epsilons are meant to be seen.
+    for (const double power : {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1})
+        for (int times = 10; times < 100; times += power < 1e-3 ? 10 : 1)
             for (const RuleKind kind : {within_lost, within_merged})
-                all.push_back({.kind = kind, .value = power * times});
+                if (times * power < 5) all.push_back({.kind = kind, .value = static_cast<float>(times * power / 10)});
+}
+
+// Layers of other pixels.
+void add_elsewhere(Rules& all, const SceneFacts& facts) {
+    using enum RuleKind;
+    const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 3));
+    for (std::uint32_t n = 0; n <= most; ++n) {
+        for (const int by : {-1, 1, -2, 2})
+            for (const bool is_x : {true, false})
+                all.push_back({.kind = shifted, .n = n, .dx = is_x ? by : 0, .dy = is_x ? 0 : by});
+        for (const int x : {-1, 1})
+            for (const int y : {-1, 1}) all.push_back({.kind = shifted, .n = n, .dx = x, .dy = y});
+        for (int i = 0; i < 4; ++i) all.push_back({.kind = halved, .n = n, .dx = i % 2, .dy = i / 2});
+        for (int i = 1; i < 4; ++i) all.push_back({.kind = mirrored, .n = n, .dx = i % 2, .dy = i / 2});
+    }
+}
+
+void add_mixings(Rules& all) {
+    using enum RuleKind;
+    add(all, {through_squared, through_summed, not_attenuated, behind_squared, behind_inverted});
+    for (int i = 0; i < 20; ++i) all.push_back({.kind = veiled, .value = static_cast<float>(i) / 20});
+    for (const std::uint32_t picture : {0u, 1u})
+        for (const auto& [colors, weight] :
+             {std::pair{10, 2}, {7, 7}, {6, 6}, {5, 5}, {5, 1}, {4, 4}, {3, 3}, {2, 2}, {8, 4}, {8, 2}, {8, 1}})
+            all.push_back({.kind = few_bits, .n = static_cast<std::uint32_t>(colors | weight << 8) | picture << 16});
 }
 
 }  // namespace
@@ -147,15 +189,21 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 64));
     add_counts(all, most);
     add_orders(all, facts);
-    add_numbered(all, {averaged}, 0, 5);
+    add_numbered(all, {averaged}, 0, 7);
+    add_mixings(all);
+    all.push_back({.kind = greatest, .n = 1});
     add(all, {added, weighted_sum, through_late, multiplied, greatest, least, composed_twice, all_doubled,
               background_lost, background_twice, background_added, surface_lost, picture_encoded, picture_decoded});
+    all.push_back({.kind = background_lost, .n = 1});
     if (facts.has_other_background) add(all, {background_other});
     if (facts.has_centres_on_edges) add(all, {edges_twice, edges_never});
     if (facts.has_hidden) add(all, {hidden_shown, hidden_alone});
     if (facts.has_opaque) add(all, {opaque_lost, opaque_ignored, opaque_in_front});
+    for (int i = 1; i < 20 && facts.has_opaque; ++i)
+        all.push_back({.kind = surface_mixed, .value = static_cast<float>(i) / 20});
     add_depths(all, facts);
     add_scoped(all, facts);
+    add_elsewhere(all, facts);
     add_numbered(all, {lost, lost_from_far, doubled, doubled_from_far}, 0, most);
     if (most > 1)
         add_numbered(all, {swapped, swapped_from_far, merged, mixed, color_of_next, color_of_previous}, 0, most - 1);
@@ -183,6 +231,10 @@ std::vector<Rule> one_of_each_kind(const SceneFacts& facts) {
     for (const RuleKind kind : {RuleKind::alpha_below_lost, RuleKind::alpha_below_kept})
         of(kind).value = facts.alphas.size() > 1 ? facts.alphas[1] : 0.5f;
     of(RuleKind::alpha_times).value = 0.9f;
+    of(RuleKind::veiled).value = of(RuleKind::surface_mixed).value = 0.9f;
+    of(RuleKind::few_bits).n = 7 | 7 << 8;
+    of(RuleKind::shifted).dx = of(RuleKind::mirrored).dx = 1;
+    of(RuleKind::solid).scope = Scope::layer_from_far;
     of(RuleKind::ended_early).value = 1.0f / 255;
     for (const RuleKind kind : {RuleKind::ordered_in_bits, RuleKind::lost_in_bits}) of(kind).n = 16;
     // Of what the picture alone says, and of what does not change the structure.
@@ -198,6 +250,10 @@ int stage_of(RuleKind kind) noexcept {
     switch (kind) {
         case right:
         case edges_twice:
+        case surface_mixed:
+        case mirrored:
+        case halved:
+        case shifted:
         case edges_never:
         case hidden_shown:
         case hidden_alone:
@@ -216,6 +272,8 @@ int stage_of(RuleKind kind) noexcept {
         case alpha_ignored:
         case alpha_times:
         case alpha_root:
+        case color_root:
+        case color_squared:
         case channel_lost:
         case premultiplied_twice:
         case red_for_blue:
@@ -240,6 +298,8 @@ int stage_of(RuleKind kind) noexcept {
         case first_submitted:
         case last_submitted:
         case odd_lost:
+        case submitted_lost_from_last:
+        case submitted_lost:
         case even_lost:
         case middle_lost:
         case middle_doubled:
@@ -257,6 +317,9 @@ int stage_of(RuleKind kind) noexcept {
         case color_of_next:
         case color_of_previous:
         case colors_shifted:
+        case solid:
+        case colors_as_submitted:
+        case alphas_as_submitted:
         case alphas_shifted:
         case nearest_repeated:
         case nearest_behind:
@@ -268,6 +331,10 @@ int stage_of(RuleKind kind) noexcept {
         case reversed:
         case ordered_in_bits:
         case sorted_once:
+        case by_centroid:
+        case submitted_moved:
+        case far_reversed:
+        case near_reversed:
         case as_submitted:
         case as_submitted_reversed:
         case by_instance:
@@ -278,6 +345,13 @@ int stage_of(RuleKind kind) noexcept {
         case weighted_sum:
         case not_premultiplied:
         case through_late:
+        case few_bits:
+        case behind_inverted:
+        case behind_squared:
+        case not_attenuated:
+        case through_summed:
+        case through_squared:
+        case veiled:
         case multiplied:
         case greatest:
         case least:

@@ -37,7 +37,7 @@ using Rules = std::vector<Rule>;
 bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
     return std::ranges::equal(made.stacks, pixel.right.stacks, [](const Stack& a, const Stack& b) {
         return a.layers == b.layers && a.background == b.background && a.is_linear == b.is_linear &&
-               a.finish == b.finish;
+               a.finish == b.finish && a.mixing == b.mixing;
     });
 }
 
@@ -84,24 +84,37 @@ std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts,
     return left;
 }
 
-// Two of them, of different kinds, in the order in which they are applied. A rule is worth a partner if it explains some wrong pixel or leaves
-// one so that another one may: that is, if it changes one.
-std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts, const Setting& setting) {
-    StackMaker maker{setting};
-    constexpr std::size_t most_looked_at = 64;
-    std::vector<Rule> worth;
-    for (const Rule& rule : rules) {
-        const auto changes = [&](const PartedPixel& pixel) {
-            return !is_unchanged(stacked({&rule, 1}, *pixel.sampled, maker), pixel);
-        };
-        const auto some = std::span{parts.wrong}.first(std::min(parts.wrong.size(), most_looked_at));
-        if (std::ranges::any_of(some, changes)) worth.push_back(rule);
-    }
+// Two of them, of different kinds, in the order in which they are applied. The rules worth a partner are those that explain the most wrong pixels
+// alone, and then those that change any.
+std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts, const Hypothesis& closest,
+                            const Setting& setting) {
+    constexpr std::size_t most_looked_at = 64, most_worth = 60;
+    const Compositor compositor{closest};
+    const auto some = std::span{parts.wrong}.first(std::min(parts.wrong.size(), most_looked_at));
+    struct Worth {
+        const Rule* rule = nullptr;
+        std::size_t explained = 0, changed = 0;
+    };
+    std::vector<Worth> all(rules.size());
+    parallel_for(rules.size(), 0, [&](std::size_t i) {
+        StackMaker maker{setting};
+        all[i].rule = &rules[i];
+        for (const PartedPixel& pixel : some) {
+            const StackedPixel made = stacked({&rules[i], 1}, *pixel.sampled, maker);
+            if (is_unchanged(made, pixel)) continue;
+            ++all[i].changed;
+            all[i].explained += reaching(compositor, made) != nullptr ? 1 : 0;
+        }
+    });
+    std::erase_if(all, [](const Worth& w) { return w.changed == 0; });
+    std::ranges::stable_sort(all, std::ranges::greater{}, [](const Worth& w) { return w.explained; });
+    all.resize(std::min(all.size(), most_worth));
     std::vector<Rules> pairs;
-    for (const Rule& a : worth)
-        for (const Rule& b : worth) {
-            const int first = stage_of(a.kind), second = stage_of(b.kind);
-            if (a.kind != b.kind && (first < second || (first == second && a.kind < b.kind))) pairs.push_back({a, b});
+    for (const Worth& a : all)
+        for (const Worth& b : all) {
+            const int first = stage_of(a.rule->kind), second = stage_of(b.rule->kind);
+            if (a.rule->kind != b.rule->kind && (first < second || (first == second && a.rule->kind < b.rule->kind)))
+                pairs.push_back({*a.rule, *b.rule});
         }
     return pairs;
 }
@@ -112,12 +125,19 @@ double bits_of(const Checked& checked) {
            static_cast<double>(checked.wrong_pixels.size()) * pricing.of_wrong();
 }
 
+std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, std::size_t most) {
+    std::vector<const PartedPixel*> some;
+    const std::size_t step = pixels.size() / most + 1;
+    for (std::size_t i = 0; i < pixels.size(); i += step) some.push_back(&pixels[i]);
+    return some;
+}
+
 // The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the others wrong: what makes
 // these wrong is no rounding.
 Families possible(const Families& all, const Parted& parts, const Hypothesis& closest) {
     const Pricing pricing{closest.result.storage};
-    std::vector<const PartedPixel*> pixels;
-    for (const PartedPixel& pixel : parts.right) pixels.push_back(&pixel);
+    constexpr std::size_t most_looked_at = 300;
+    std::vector<const PartedPixel*> pixels = thinned(parts.right, most_looked_at);
     const std::size_t most_missed = pixels.size() / 50;
     double most_bits = std::numeric_limits<double>::max();
     // Nothing if it is none of them.
@@ -136,7 +156,9 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
         }
         return bits;
     };
-    most_bits = bits_of_right(closest).value_or(0) + pricing.of_wrong() * static_cast<double>(parts.wrong.size());
+    const double share = static_cast<double>(pixels.size()) / std::max(1.0, static_cast<double>(parts.right.size()));
+    most_bits =
+        bits_of_right(closest).value_or(0) + share * pricing.of_wrong() * static_cast<double>(parts.wrong.size());
     Families left;
     for (const HypothesisFamily& family : all) {
         HypothesisFamily own{.widest = family.widest};
@@ -150,6 +172,8 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
 // Of these, those that hold for some of the wrong pixels under the rules.
 Families possible(const Families& all, const Rules& rules, const Parted& parts, const Setting& setting) {
     constexpr std::size_t most_looked_at = 8;
+    // Few bits, and rounded anyhow: that leaves all open.
+    const bool has_few_bits = std::ranges::find(rules, RuleKind::few_bits, &Rule::kind) != rules.end();
     StackMaker maker{setting};
     std::vector<StackedPixel> pixels;
     const std::size_t step = parts.wrong.size() / most_looked_at + 1;
@@ -160,6 +184,7 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
         HypothesisFamily own{.widest = family.widest};
         std::ranges::copy_if(family.members, std::back_inserter(own.members), [&](const Hypothesis& h) {
             const Compositor compositor{h};
+            if (has_few_bits && h.front.rounding == Rounding::any) return false;
             return std::ranges::all_of(pixels,
                                        [&](const StackedPixel& p) { return reaching(compositor, p) != nullptr; });
         });
@@ -168,28 +193,59 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
     return left;
 }
 
+// Those first that explain the most wrong pixels under the closest hypothesis: accounts of the whole picture are dear.
+std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& closest,
+                                const Setting& setting) {
+    constexpr std::size_t most_looked_at = 96;
+    const Compositor compositor{closest};
+    auto wrong = thinned(parts.wrong, most_looked_at);
+    // What another rasterizer has to help may be a mistake as well.
+    for (const PartedPixel* pixel : thinned(parts.right, 4 * most_looked_at))
+        if (const Stack* const found = reaching(compositor, pixel->right); found && !is_as_given(pixel->right, *found))
+            wrong.push_back(pixel);
+    std::vector<std::pair<std::size_t, std::size_t>> explained(all.size());  // how many, and the number
+    parallel_for(all.size(), 0, [&](std::size_t i) {
+        StackMaker maker{setting};
+        explained[i] = {0, i};
+        for (const PartedPixel* pixel : wrong) {
+            const StackedPixel made = stacked(all[i], *pixel->sampled, maker);
+            const Stack* const found = reaching(compositor, made);
+            explained[i].first += found != nullptr && is_as_given(made, *found) ? 1 : 0;
+        }
+    });
+    std::ranges::stable_sort(explained, std::ranges::greater{}, &std::pair<std::size_t, std::size_t>::first);
+    std::vector<Rules> sorted;
+    for (const auto& [count, i] : explained) sorted.push_back(all[i]);
+    return sorted;
+}
+
 // Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells enough.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
-                           const Sample& sample) {
-    constexpr std::size_t most_told = 12, least_decided = 4, most_tried = 24;
+                           const Sample& sample, std::size_t most_tried) {
+    constexpr std::size_t most_told = 12, least_decided = 4, few_sampled = 400;
+    constexpr double most_open = 9;  // bits of a changed pixel: more is room for anything
     std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
-        return std::ranges::equal(a, b,
-                                  [](const Rule& x, const Rule& y) { return x.kind == y.kind && x.scope == y.scope; });
+        return std::ranges::equal(a, b, [](const Rule& x, const Rule& y) {
+            return x.kind == y.kind && x.scope == y.scope && x.kind != RuleKind::few_bits;
+        });
     };
     std::vector<Checked> found;
     for (const Rules& rules : all) {
         if (found.size() == most_told) break;
         if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
+        if (++tried > most_tried) break;
         const Families own_families = possible(definite, rules, parts, scene.setting());
         if (own_families.empty()) continue;
-        if (++tried > most_tried) break;
-        Sample own = sample;
+        Sample own = sample.thinned(few_sampled);
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
         auto one = account_for(own_families, rules, scene, candidate, own, likely);
         // A rule that changes hardly anything that tells is no explanation: among so many rules one fits a few pixels by chance.
-        if (one && one->changed - one->undecided >= least_decided) found.push_back(*std::move(one));
+        if (one && one->changed - one->undecided >= least_decided &&
+            one->bits <= most_open * static_cast<double>(one->changed) + 6 * static_cast<double>(one->at_edges) +
+                             static_cast<double>(one->pixels))
+            found.push_back(*std::move(one));
     }
     return found;
 }
@@ -212,13 +268,6 @@ std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rule
         are_reached.push_back(is_unchanged(made, *pixel) ? unchanged : reaching(compositor, made) != nullptr);
     }
     return are_reached;
-}
-
-std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, std::size_t most) {
-    std::vector<const PartedPixel*> some;
-    const std::size_t step = pixels.size() / most + 1;
-    for (std::size_t i = 0; i < pixels.size(); i += step) some.push_back(&pixels[i]);
-    return some;
 }
 
 // One after the other the rules that explain the most of what those before them do not, less the right pixels that speak against them.
@@ -270,21 +319,33 @@ std::vector<Rules> singles(const std::vector<Rule>& rules) {
 }  // namespace
 
 std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
-                            const Checked& closest, const Sample& sample, int most_rules) {
+                            const Checked& closest, const Sample& sample, int most_rules, const Region& region) {
     constexpr std::size_t least_of_pairs = 8;  // wrong pixels: fewer tell nothing of two mistakes
-    const std::vector<Rule> rules = rules_for(facts_of(scene, sample));
+    // Accounts of the whole picture that are tried: a count of work, so that every machine stops at the same.
+    constexpr std::size_t most_tried = 24, most_tried_again = 12, most_pairs_tried = 8;
+    std::vector<Rule> rules = rules_for(facts_of(scene, sample));
+    for (Rule& rule : rules) rule.region = region;
     const Parted parts = parted(sample, closest.account.hypothesis);
     if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
-    const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts, scene.setting()) : singles(rules);
-    const Families left = possible(definite, parts, closest.account.hypothesis);
-    std::vector<Checked> found = whole(survivors(all, parts, widest(left), scene.setting()), scene, candidate, left,
-                                       closest.account.hypothesis, parts, sample);
+    const std::vector<Rules> all =
+        most_rules > 1 ? pairs_of(rules, parts, closest.account.hypothesis, scene.setting()) : singles(rules);
+    // What holds for the right pixels first; but a mistake may show at all of them, and another hypothesis call some of them right.
+    std::vector<Checked> found;
+    const Families likely = possible(definite, parts, closest.account.hypothesis);
+    const auto find = [&](const Families& some, std::size_t most) {
+        const std::vector<Rules> left = by_explained(survivors(all, parts, widest(some), scene.setting()), parts,
+                                                     closest.account.hypothesis, scene.setting());
+        found = whole(left, scene, candidate, some, closest.account.hypothesis, parts, sample, most);
+    };
+    find(likely, most_rules > 1 ? most_pairs_tried : most_tried);
+    if (found.empty() && most_rules == 1) find(definite, most_tried_again);
     drop_roomy(found, bits_of(closest));
     return found;
 }
 
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
                                 const Sample& sample) {
+    constexpr std::size_t most_tried = 24;
     Parted parts;
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
     // Those that have one structure tell the most, and soonest.
@@ -299,7 +360,7 @@ std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candi
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
     const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());
     if (left.empty()) return {};
-    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample);
+    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried);
     drop_roomy(found, std::numeric_limits<double>::max());
     return found;
 }

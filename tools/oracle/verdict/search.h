@@ -12,10 +12,10 @@ namespace strata::oracle::verdict {
 
 // Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the first is the best.
 // `definite`: the hypotheses under which they have to hold; `closest`: the right structure's account that has the fewest wrong pixels;
-// `sample`: pixels with some of the wrong ones among them.
+// `sample`: pixels with some of the wrong ones among them; `region`: where a port makes the mistake.
 [[nodiscard]] std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate,
                                           const Families& definite, const Checked& closest, const Sample& sample,
-                                          int most_rules);
+                                          int most_rules, const Region& region = {});
 
 // The same with one rule, under hypotheses that leave little open: those that explain every pixel of the sample, whether it is right by another one or not.
 [[nodiscard]] std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate,

@@ -86,4 +86,29 @@ Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, c
     return setting;
 }
 
+void find_nearness(const pipeline::DrawList& list, const pipeline::View& view,
+                   std::span<const std::uint32_t> instance_of, Setting& setting) {
+    std::size_t first = 0;  // triangle of the instance
+    for (std::size_t t = 0; t < instance_of.size(); ++t) {
+        if (t == 0 || instance_of[t] != instance_of[t - 1]) first = t;
+        const pipeline::Instance& instance = list.instances[instance_of[t]];
+        const pipeline::Mesh& mesh = list.meshes[instance.mesh];
+        double sum = 0, window = 0, nearest = -HUGE_VAL, farthest = HUGE_VAL;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const auto& p = mesh.positions[mesh.indices[3 * (t - first) + corner]];
+            const Point eye = transformed(view.view, transformed(instance.model, {p[0], p[1], p[2]}));
+            const auto& m = view.projection;
+            const double z = m[0][2] * eye[0] + m[1][2] * eye[1] + m[2][2] * eye[2] + m[3][2];
+            const double w = m[0][3] * eye[0] + m[1][3] * eye[1] + m[2][3] * eye[2] + m[3][3];
+            sum += eye[2];
+            window -= z / w;
+            nearest = std::max(nearest, eye[2]);
+            farthest = std::min(farthest, eye[2]);
+        }
+        const double of_point[triangle_point_count] = {sum / 3, window / 3, nearest, farthest};
+        for (std::size_t i = 0; i < triangle_point_count; ++i)
+            setting.nearness[i].push_back(static_cast<float>(of_point[i]));
+    }
+}
+
 }  // namespace strata::oracle::verdict

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,13 +42,22 @@ struct DrawingOrder {
 }
 [[nodiscard]] std::string describe(const DrawingOrder& order);
 
+// What a triangle may be sorted by.
+enum class TrianglePoint : std::uint8_t { mean, window_mean, nearest, farthest };
+inline constexpr std::uint32_t triangle_point_count = 4;
+
 struct Setting {
     Rgba cleared{0, 0, 0, 1};               // the colour where nothing is drawn
     std::optional<Rgba> seen_background{};  // what the candidate has there, if that is one other colour
     // By InstanceOrder, then by instance: when it is drawn. Empty: as listed.
     std::array<std::vector<std::uint32_t>, instance_order_count> rank{};
+    // By TrianglePoint, then by submission number: how near it is, more is nearer. Empty: not known.
+    std::array<std::vector<float>, triangle_point_count> nearness{};
 };
 
+// Of the triangles that are drawn, `instance_of` each one's instance in the order of submission.
+void find_nearness(const pipeline::DrawList& list, const pipeline::View& view,
+                   std::span<const std::uint32_t> instance_of, Setting& setting);
 [[nodiscard]] Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, const Rgba& cleared);
 
 }  // namespace strata::oracle::verdict

@@ -39,6 +39,8 @@ bool is_in(const Rule& rule, const Fragment& f) noexcept {
         case Scope::material: return f.material == rule.of;
         case Scope::back_faces: return !f.is_front_facing;
         case Scope::front_faces: return f.is_front_facing;
+        case Scope::layer:
+        case Scope::layer_from_far: return true;  // StackMaker::recolor counts
     }
     return true;  // unreachable: the enum is closed
 }
@@ -101,14 +103,17 @@ void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& t
 void StackMaker::list(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties) {
     items_.clear();
     order_.clear();
-    const auto loses = [&](const Rule& rule) { return rule.kind == RuleKind::hidden_alone && pixel.has_opaque; };
+    const auto is_here = [&](const Rule& rule) { return rule.region.has(pixel.x, pixel.y); };
+    const auto loses = [&](const Rule& rule) {
+        return rule.kind == RuleKind::hidden_alone && pixel.has_opaque && is_here(rule);
+    };
     if (std::ranges::none_of(rules, loses))
         for (const Fragment& f : pixel.visible) order_.push_back(&f);
     const auto shows = [&](const Fragment& f) {
         return std::ranges::any_of(rules, [&](const Rule& rule) {
-            return rule.kind == RuleKind::hidden_shown || rule.kind == RuleKind::hidden_alone ||
-                   rule.kind == RuleKind::opaque_ignored ||
-                   (rule.kind == RuleKind::at_opaque_shown && f.code - pixel.opaque <= rule.n);
+            return is_here(rule) && (rule.kind == RuleKind::hidden_shown || rule.kind == RuleKind::hidden_alone ||
+                                     rule.kind == RuleKind::opaque_ignored ||
+                                     (rule.kind == RuleKind::at_opaque_shown && f.code - pixel.opaque <= rule.n));
         });
     };
     if (!rules.empty())
@@ -149,6 +154,8 @@ void StackMaker::finish(std::span<const Rule> rules) {
 }
 
 void StackMaker::apply(const Rule& rule, const PixelList& pixel) {
+    if (!rule.region.has(pixel.x, pixel.y)) return;
+    read_elsewhere(rule, pixel);
     choose_by_number(rule);
     choose_by_nature(rule, pixel);
     order(rule);
@@ -171,7 +178,12 @@ const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& give
     stack_.is_linear = false;
     stack_.is_moved = is_moved;
     stack_.finish = Finish::as_is;
-    for (const Rule& rule : rules) set_background(rule, pixel);
+    stack_.mixing = {};
+    for (const Rule& rule : rules) {
+        if (!rule.region.has(pixel.x, pixel.y)) continue;
+        set_background(rule, pixel);
+        mix(rule);
+    }
     return stack_;
 }
 

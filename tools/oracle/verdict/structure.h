@@ -43,6 +43,8 @@ class StackMaker {
     void choose_by_nature(const Rule& rule, const PixelList& pixel);
     void order(const Rule& rule);
     void edit_one(const Rule& rule);
+    void read_elsewhere(const Rule& rule, const PixelList& pixel);
+    void mix(const Rule& rule);
     void edit_close(const Rule& rule);
     void combine(const Rule& rule);
     void combine_with_background(const Rule& rule);

@@ -27,7 +27,7 @@ bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule
     std::vector<std::vector<Rule>> ports = all;
     ports.emplace_back();  // the right one
     const End end{Storage::unorm8, Source::stored, Rounding::nearest};
-    const Compositor compositor{{.order = Order::over, .front = end, .back = end, .result = end}};
+    const Compositor compositor{{.order = Order::under, .front = end, .back = end, .result = end}};
     const std::size_t n = ports.size();
     std::vector<bool> apart(n * n);
     std::mutex mutex;

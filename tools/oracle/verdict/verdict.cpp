@@ -158,12 +158,32 @@ Checked closest_account(const SceneFragments& scene, const Colors& candidate, co
         Sample wrong{scene.setting()};
         Checked found = check_all(scene, candidate, {{}, next}, wrong);
         const bool is_better = !best || bits_of(found, storage) < bits_of(*best, storage);
-        for (const SampledPixel& pixel : wrong.pixels()) sample.add(pixel.list, pixel.value);
+        const Sample some = wrong.thinned(few_sampled);
+        for (const SampledPixel& pixel : some.pixels()) sample.add(pixel.list, pixel.value);
         if (is_better) examples = std::move(wrong);
         if (is_better) best = std::move(found);
         if (best->is_whole()) break;
     }
     return *std::move(best);
+}
+
+// The rectangle that has all wrong pixels, if it is a small part of the picture: the tile of a power of two that it lies in, where there is one.
+std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int width, int height) {
+    constexpr std::size_t least = 16;  // pixels: fewer tell no mistake from another one
+    if (wrong.size() < least) return std::nullopt;
+    Region box{width, height, 0, 0};
+    for (const std::uint32_t pixel : wrong) {
+        const int x = static_cast<int>(pixel % static_cast<std::uint32_t>(width));
+        const int y = static_cast<int>(pixel / static_cast<std::uint32_t>(width));
+        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+    }
+    if (2 * (box.x1 - box.x0) * (box.y1 - box.y0) > width * height) return std::nullopt;
+    for (const int size : {8, 16, 32, 64}) {
+        const Region tile{box.x0 / size * size, box.y0 / size * size, (box.x0 / size + 1) * size,
+                          (box.y0 / size + 1) * size};
+        if (box.x1 <= tile.x1 && box.y1 <= tile.y1) return tile;
+    }
+    return box;
 }
 
 }  // namespace
@@ -208,10 +228,14 @@ Verdict judge(SceneFragments& scene, const Colors& candidate) {
         verdict.explanations = {*std::move(found)};
         return verdict;
     }
-    for (const auto& [some, most_rules] : {std::pair{&all.definite, 1}, {&all.coarse, 1}, {&all.definite, 2}}) {
-        verdict.explanations = search(scene, candidate, *some, verdict.right, sample, most_rules);
-        if (!verdict.explanations.empty()) return verdict;
-    }
+    const auto is_found = [&](const Families& some, int most_rules, const Region& region) {
+        verdict.explanations = search(scene, candidate, some, verdict.right, sample, most_rules, region);
+        return !verdict.explanations.empty();
+    };
+    if (is_found(all.definite, 1, {})) return verdict;
+    if (const auto region = region_of(verdict.right.wrong_pixels, scene.width(), scene.height()))
+        if (is_found(all.definite, 1, *region)) return verdict;
+    if (is_found(all.coarse, 1, {}) || is_found(all.definite, 2, {})) return verdict;
     verdict.leads = leads(scene, verdict.right, sample);
     return verdict;
 }

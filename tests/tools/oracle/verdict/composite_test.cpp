@@ -92,6 +92,34 @@ Outside outside_of(Storage result, int lists, std::uint64_t seed) {
 
 }  // namespace
 
+// Two layers over a background: what each mixing leaves of red, by hand.
+TEST_CASE("a port's own way of blending reaches the value that is worked out by hand, and no other") {
+    const End floats{Storage::single, Source::unrounded, Rounding::nearest};
+    const Compositor under{{.order = Order::under, .front = floats, .back = floats, .result = floats}};
+    Stack stack{.layers = {{.color = {1, 0, 0, 0.25f}}, {.color = {0.5f, 0, 0, 0.75f}}}, .background = {1, 1, 1, 1}};
+    const auto red = [&](const Mixing& mixing) {
+        stack.mixing = mixing;
+        const Interval found = under.reach(stack)[0];
+        CHECK(found.high - found.low < 1e-5);
+        return (found.low + found.high) / 2;
+    };
+    using Through = Mixing::Through;
+    using Behind = Mixing::Behind;
+    CHECK(red({}) == Approx(0.25 + 0.75 * 0.375 + 0.1875));
+    CHECK(red({.first_through = 0.5f}) == Approx(0.5 * (0.25 + 0.75 * 0.375 + 0.1875)));
+    CHECK(red({.through = Through::squared}) == Approx(0.25 + 0.9375 * 0.375 + 0.9375 * 0.4375));
+    CHECK(red({.through = Through::summed}) == Approx(0.25 + 0.75 * 0.375));
+    CHECK(red({.behind = Behind::twice}) == Approx(0.25 + 0.75 * 0.375 + 0.1875 * 0.1875));
+    CHECK(red({.behind = Behind::inverted}) == Approx(0.25 + 0.75 * 0.375 + 0.8125));
+    CHECK(red({.attenuates = false}) == Approx(0.25 + 0.375 + 0.1875));
+    // Of two bits: 0.25 is a third of 1 and 0.75 two; 1/3 + 2/3 of 0.4 is 0.6, two thirds; 2/3 of 0.2 is nothing.
+    stack.layers[1].color[3] = 0.8f;
+    CHECK(red({.color_bits = 2, .weight_bits = 2}) == Approx(2.0 / 3));
+    const Compositor over{{.order = Order::over, .front = floats, .back = floats, .result = floats}};
+    stack.mixing = {.behind = Behind::twice};
+    CHECK(over.reach(stack)[0].low > over.reach(stack)[0].high);  // nothing in front, so nothing to weigh by
+}
+
 TEST_CASE("one layer of 8-bit codes reaches the code that integers give, and no other") {
     CHECK(strays_of_one_layer(Rounding::nearest, 15, nearest_code) == 0);
     CHECK(strays_of_one_layer(Rounding::cut, 15, cut_code) == 0);

@@ -93,12 +93,13 @@ class PortModel {
         if (end.storage == Storage::single) return v;
         if (end.storage == Storage::half) return end.source == Source::any ? as_half(v, flips()) : v;
         const double code = std::min(std::max(v, 0.0), 1.0) * top;
+        if (end.source == Source::premultiplied_cut) return std::floor(code + 1e-9) / top;
         const bool goes_up = end.source == Source::stored || end.source == Source::premultiplied || flips();
         return (goes_up ? std::floor(code + 0.5) : std::ceil(code - 0.5)) / top;
     }
     bool premultiplies(const End& end) {
         return end.source == Source::premultiplied || end.source == Source::premultiplied_either_way ||
-               (end.source == Source::any && flips());
+               end.source == Source::premultiplied_cut || (end.source == Source::any && flips());
     }
 
     Color background(const End& end, const Rgba& given) {

@@ -96,6 +96,43 @@ TEST_CASE("rules of colours and of what lies behind change what they say") {
     CHECK(seen.with({.kind = background_other}, true).background == Rgba{0.5f, 0.5f, 0.5f, 1});
 }
 
+TEST_CASE("rules of submission, of halves and of single layers change what they say") {
+    using enum RuleKind;
+    const Five list;  // four visible ones, submitted as 1, 3, 0, 2 from the near end
+    const auto reds = [&](RuleKind kind, std::uint32_t n = 0) { return list.reds({.kind = kind, .n = n}, true); };
+    CHECK(reds(submitted_lost, 0) == Reds{0, 2, 3});
+    CHECK(reds(submitted_lost_from_last, 0) == Reds{0, 1, 3});
+    CHECK(reds(near_reversed) == Reds{1, 0, 2, 3});
+    CHECK(reds(far_reversed) == Reds{0, 1, 3, 2});
+    CHECK(reds(submitted_moved, 0) == Reds{1, 0, 2, 3});
+    CHECK(reds(submitted_moved, 1) == Reds{2, 0, 1, 3});
+    CHECK(reds(submitted_moved, 2) == Reds{0, 2, 3, 1});
+    CHECK(reds(submitted_moved, 3) == Reds{0, 1, 3, 2});
+    CHECK(reds(colors_as_submitted) == Reds{1, 3, 0, 2});
+    CHECK(list.with({.kind = alphas_as_submitted}, true).layers[0].color[3] == 0.25f);
+    CHECK(list.reds({.kind = nearest_alone, .n = 1, .region = {5, 5, 9, 9}}, true) == Reds{0, 1, 2, 3});
+    const Stack second = list.with({.kind = alpha_ignored, .scope = Scope::layer, .of = 1}, true);
+    CHECK(second.layers[1].color[3] == 1);
+    CHECK(second.layers[0].color[3] == 0.125f);
+    const Stack last = list.with({.kind = solid, .scope = Scope::layer_from_far}, true);
+    CHECK(last.layers[3].color == Rgba{1.5f, 0.125f, 0.375f, 1});
+    CHECK(last.layers[2].color[3] == 0.375f);
+}
+
+TEST_CASE("rules of the blend set what they say, and a few bits as many as they say") {
+    using enum RuleKind;
+    const Five list;
+    CHECK(list.with({.kind = veiled, .value = 0.25f}).mixing.first_through == 0.25f);
+    CHECK(list.with({.kind = through_summed}).mixing.through == Mixing::Through::summed);
+    CHECK(list.with({.kind = not_attenuated}).mixing.attenuates == false);
+    const Mixing few = list.with({.kind = few_bits, .n = 5 | 1 << 8 | 1 << 16}).mixing;
+    CHECK(few.color_bits == 5);
+    CHECK(few.weight_bits == 1);
+    CHECK(few.picture_too);
+    CHECK(list.with({.kind = surface_mixed, .value = 0.5f}, true).background == Rgba{0.25f, 0.25f, 0.25f, 1});
+    CHECK(list.with({.kind = surface_mixed, .value = 0.5f}).background == Rgba{0.5f, 0.5f, 0.5f, 1});
+}
+
 TEST_CASE("layers that are composited twice as a whole have the alpha of all of them") {
     Five list;
     list.all.resize(2);

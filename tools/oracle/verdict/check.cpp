@@ -1,0 +1,164 @@
+// tools/oracle/verdict/check.cpp - a structure under a hypothesis held against every pixel of a picture.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <mutex>
+
+#include "tools/oracle/verdict/match.h"
+#include "tools/oracle/verdict/pricing.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+double exact_over(const Layer& layer, std::size_t c, double behind) noexcept {
+    const double alpha = layer.color[3], color = layer.color[c];
+    return (layer.is_premultiplied ? color : alpha * color) + (1 - alpha) * behind;
+}
+
+// Exact OVER in binary64.
+std::array<double, 3> exact(const Stack& stack) noexcept {
+    std::array<double, 3> color{stack.background[0], stack.background[1], stack.background[2]};
+    for (std::size_t i = stack.layers.size(); i-- > 0;)
+        for (std::size_t c = 0; c < 3; ++c) color[c] = exact_over(stack.layers[i], c, color[c]);
+    return color;
+}
+
+double levels_of(Storage storage) noexcept {
+    return storage == Storage::unorm10 ? 1023 : storage == Storage::unorm16 ? 65535 : 255;
+}
+
+// How far a pixel is off the exact result, and could be.
+void measure(const Stack& stack, const Reach& reach, const std::array<double, 4>& value, Storage storage,
+             Checked& found) {
+    const std::array<double, 3> truth = exact(stack);
+    const double levels = levels_of(storage);
+    const auto as_code = [&](double v) {
+        return has_codes(storage) ? std::floor(std::clamp(v, 0.0, 1.0) * levels + 0.5) : v * levels;
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double wanted = as_code(truth[c]);
+        found.observed = std::max(found.observed, std::fabs(as_code(value[c]) - wanted));
+        found.possible = std::max(
+            {found.possible, std::fabs(as_code(reach[c].low) - wanted), std::fabs(as_code(reach[c].high) - wanted)});
+    }
+}
+
+constexpr std::size_t most_examples =
+    64;  // of a tile's pixels that are wrong or at edges: the next choice has to reckon with them
+
+// A tile's part of the picture.
+struct PartChecked {
+    Checked checked{};
+    TieMask everywhere = all_ties;
+    Sample examples;
+};
+
+class Checker {
+  public:
+    Checker(const SceneFragments& scene, const Colors& candidate, const Account& account)
+        : scene_{scene}, candidate_{candidate}, account_{account}, compositor_{account.hypothesis} {}
+
+    [[nodiscard]] PartChecked part(const TileLists& tile) const {
+        StackMaker maker{scene_.setting()};
+        PartChecked part{.examples = Sample{scene_.setting()}};
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) look_at(scene_.at(tile, p), maker, part);
+        return part;
+    }
+
+  private:
+    void look_at(const PixelList& list, StackMaker& maker, PartChecked& part) const {
+        const auto value = candidate_.at(list.x, list.y);
+        Checked& found = part.checked;
+        ++found.pixels;
+        found.covered += list.visible.empty() ? 0 : 1;
+        const TiesFound way = ties_that_hold(compositor_, account_.rules, list, value, maker);
+        const TieMask mask = way.mask;
+        if (mask == 0) {
+            found.wrong_pixels.push_back(static_cast<std::uint32_t>(list.y * scene_.width() + list.x));
+            if (part.examples.pixels().size() < most_examples) part.examples.add(list, value);
+            return;
+        }
+        found.tied += mask != all_ties ? 1 : 0;
+        part.everywhere &= mask;
+        found.at_edges += way.at_edge ? 1 : 0;
+        if (way.at_edge && part.examples.pixels().size() < most_examples) part.examples.add(list, value);
+        const Stack& stack = maker.with(account_.rules, way.list, way.ties, way.is_moved);
+        const Reach reach = compositor_.reach(stack);
+        found.bits += Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
+        if (!way.at_edge) measure(stack, reach, value, account_.hypothesis.result.storage, found);
+        if (account_.rules.empty()) return;
+        Stack own = stack;
+        const Stack& right = maker.right(way.list, way.ties);
+        own.near = right.near;  // the division of a peel is no change of the structure
+        own.near_without_middle = right.near_without_middle;
+        own.is_moved = false;
+        if (own == right || (own.mixing != right.mixing && compositor_.reach(own) == compositor_.reach(right))) return;
+        ++found.changed;
+        found.undecided += ties_that_hold(compositor_, {}, list, value, maker).mask != 0 ? 1 : 0;
+    }
+
+    const SceneFragments& scene_;
+    const Colors& candidate_;
+    const Account& account_;
+    Compositor compositor_;
+};
+
+void merge(const Checked& part, Checked& all) {
+    all.pixels += part.pixels;
+    all.covered += part.covered;
+    all.tied += part.tied;
+    all.at_edges += part.at_edges;
+    all.changed += part.changed;
+    all.undecided += part.undecided;
+    all.bits += part.bits;
+    all.observed = std::max(all.observed, part.observed);
+    all.possible = std::max(all.possible, part.possible);
+    all.wrong_pixels.insert(all.wrong_pixels.end(), part.wrong_pixels.begin(), part.wrong_pixels.end());
+}
+
+}  // namespace
+
+Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account, Sample& examples) {
+    const Checker checker{scene, candidate, account};
+    Checked all{.account = account};
+    TieMask everywhere = all_ties;
+    std::mutex mutex;
+    scene.for_each_tile([&](const TileLists& tile) {
+        const PartChecked part = checker.part(tile);
+        const std::scoped_lock lock{mutex};
+        merge(part.checked, all);
+        everywhere &= part.everywhere;
+        for (const SampledPixel& pixel : part.examples.pixels()) examples.add(pixel.list, pixel.value);
+    });
+    std::ranges::sort(all.wrong_pixels);
+    examples.sort();
+    const TieMask rules = everywhere & (all_ties >> 1);
+    all.has_one_tie_rule = rules != 0;
+    if (rules != 0) all.ties = ties_number(static_cast<std::size_t>(std::countr_zero(rules)));
+    return all;
+}
+
+std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
+                                   const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely) {
+    constexpr int most_tries = 3;  // of one that another rasterizer has to help
+    constexpr std::size_t most_added = 200;
+    std::optional<Checked> best;
+    for (int helped = 0; helped < most_tries;) {
+        const auto hypothesis = best_of(all, rules, sample, Wrong::none, helped == 0 ? likely : std::nullopt);
+        if (!hypothesis || (best && *hypothesis == best->account.hypothesis)) break;
+        Sample examples{scene.setting()};
+        Checked found = check_all(scene, candidate, {rules, *hypothesis}, examples);
+        const bool is_done = found.is_whole() && found.at_edges == 0;
+        if (found.is_whole()) {
+            ++helped;
+            if (!best || found.bits < best->bits) best = std::move(found);
+        }
+        if (is_done) break;
+        const Sample some = examples.thinned(most_added);
+        for (const SampledPixel& pixel : some.pixels()) sample.add(pixel.list, pixel.value);
+    }
+    return best;
+}
+
+}  // namespace strata::oracle::verdict
