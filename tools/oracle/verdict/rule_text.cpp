@@ -83,7 +83,7 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         Rule everywhere = rule;
         everywhere.region = {};
         const Region& r = rule.region;
-        return fmt::format("within x {} to {} and y {} to {}, and nowhere else: {}", r.x0, r.x1 - 1, r.y0, r.y1 - 1,
+        return fmt::format("within x {} to {} and y {} to {}: {}", r.x0, r.x1 - 1, r.y0, r.y1 - 1,
                            sentence(everywhere, facts, list));
     }
     if (rule.scope != Scope::all && rule.kind != RuleKind::some_lost && rule.kind != RuleKind::some_doubled) {

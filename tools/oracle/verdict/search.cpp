@@ -345,7 +345,7 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
 
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
                                 const Sample& sample) {
-    constexpr std::size_t most_tried = 24;
+    constexpr std::size_t most_tried = 8;  // each of them with every hypothesis
     Parted parts;
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
     // Those that have one structure tell the most, and soonest.
