@@ -171,7 +171,7 @@ def dual(kind, limit, opaque, background, fragments):
         rt0, rt1, rt2 = peel(kind, fragments, opaque, rt0, rt1)
         passes += 1
         back = blend_back(kind, back, rt2)
-        if rt0 == EMPTY:   # nobody's tally: the exact exit (algorithms.md 5.2)
+        if rt0 == EMPTY:   # no query: the exact exit (algorithms.md 5.2)
             break
     return last_quad(kind, rt1, back)
 

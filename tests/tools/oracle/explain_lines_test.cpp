@@ -152,7 +152,7 @@ Replayed replay(const json& history) {
         for (const json& held : line["held"]) {
             const std::string name = held["target"];
             formats[name] = held["format"];
-            // The opaque scene is there before the first line; a target that nobody has cleared holds zeros.
+            // The opaque scene is there before the first line; a target that was never cleared holds zeros.
             if (!targets.contains(name)) targets[name] = PixelCodes(held["before"].size(), 0u);
         }
         if (kind == "published") {

@@ -239,8 +239,7 @@ std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::
         case RuleKind::columns_reversed: return "left and right are exchanged";
         case RuleKind::turned: return "the picture is turned by half a turn";
         case RuleKind::submitted_lost:
-            return fmt::format("the {} layer that was submitted is missing",
-                               n == 0 ? "first" : ordinal(n, "").substr(0, ordinal(n, "").size() - 1));
+            return fmt::format("the {} layer is missing", n == 0 ? "first submitted" : ordinal(n, "submitted"));
         case RuleKind::submitted_lost_from_last:
             return fmt::format("the {} layer that was submitted is missing", ordinal(n, "last"));
         case RuleKind::near_reversed: return "the near half of the layers is composited in the reverse order";
