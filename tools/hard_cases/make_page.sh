@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes RESULTS.md and pictures/ of this folder anew, in two shards at once. A run that was ended goes on where it was. Only
-# frame-8192x8192 is left out, which takes 6 GiB: strata hard-cases frame-8192x8192 runs it.
+# Writes RESULTS.md and its picture, and the whole page with a picture per case to build/hard_cases, in two shards at once. An interrupted
+# run continues where it stopped. frame-8192x8192 is left out because it takes 6 GiB: strata hard-cases frame-8192x8192 runs it.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 trap 'echo "tools/hard_cases/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
@@ -20,4 +20,3 @@ shard 2/2
 wait "$first"
 "$strata" hard-cases "${names[@]}" -o "$out" --merge 2
 tools/hard_cases/page.py "$out" -o tools/hard_cases/RESULTS.md
-cp "$out"/pictures/*.png tools/hard_cases/pictures/
