@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Draws every scene with every engine, explains each picture from the engine's source, and writes RESULTS.md: what is true of it, whether
-the rules of that source give the picture, and what `strata compare` says of it with no option given.
+"""Draws every scene with every engine, explains each picture from the engine's source, and writes two pages: what is true of each picture,
+whether the rules of that source give it, and what `strata compare` says of it with no option given. RESULTS.md counts per engine and way, and
+lists the wrong verdicts; build/engines/RESULTS.md has a row for each picture.
 
-    table.py [--build FOLDER] [--only SCENE] [--lot FIRST..LAST] [--keep FOLDER] [-o FILE]
+    table.py [--build FOLDER] [--only SCENE] [--lot FIRST..LAST] [--keep FOLDER] [-o FILE] [--whole FILE]
 
 --lot draws the scenes of these seeds instead: no person chose them. --keep is where packs and pictures stay; what lies there is not drawn
 again. Exit status 1 if a rule does not give its picture or truth.py says something else than the rules; 77, and a sentence, if a program or
@@ -108,21 +109,48 @@ def line_of(row):
     return f"| {row['scene']} | {row['engine']}, {row['way']} | {true} | {row['worst']:.1f} | {sentence_of(row['verdict'])} | {row['judgment']} |"
 
 
+LISTED = 8  # verdicts that are not true, on the short page
+ROW_HEAD = ["| scene | engine, way | true | rule | verdict | which is |", "|---|---|---|---|---|---|"]
+
+
 def tally_of(rows):
-    count = {name: sum(row["judgment"] == name for row in rows) for name in truth.JUDGMENTS}
-    return ["| verdict | pictures | share |", "|---|---:|---:|", *(f"| {name} | {n} | {100 * n / len(rows):.1f} % |" for name, n in count.items())]
+    """Verdicts by engine and way."""
+    lines = ["| engine, way | pictures | right | wrong | " + " | ".join(truth.JUDGMENTS) + " |", "|---" + "|---:" * (3 + len(truth.JUDGMENTS)) + "|"]
+    for name in [*dict.fromkeys(f"{row['engine']}, {row['way']}" for row in rows), "all"]:
+        here = [row for row in rows if name in ("all", f"{row['engine']}, {row['way']}")]
+        right = sum(row["wrong"] == 0 for row in here)
+        counts = [len(here), right, len(here) - right, *(sum(row["judgment"] == judgment for row in here) for judgment in truth.JUDGMENTS)]
+        lines.append(f"| {name} | " + " | ".join(map(str, counts)) + " |")
+    return lines
 
 
 def page_of(rows):
+    """The short page: counts, and the rows whose verdict is not true."""
     explained = sum(row["consistent"] for row in rows)
+    true = sum(row["judgment"] == "true" for row in rows)
+    other = [row for row in rows if row["judgment"] != "true"]
     return "\n".join([
-        "# Pictures of four engines, and what is true of them",
-        "", "Made by `tools/port/engines/table.py`. A picture's truth comes from the engine's source (rules.py, truth.py) and from fragments that are computed",
-        "there, without Strata, at all pixels that are away from edges. \"Rule\" is the greatest distance in codes between that computation and the picture:",
-        f"{explained} of {len(rows)} pictures are explained by it.", "", *tally_of(rows), "",
-        "The verdict is that of `strata compare PACK PICTURE`, with no option. It is true of a right picture that is called right, and of a wrong one whose mistake",
-        "it names, alone or among those that look the same.", "",
-        "| scene | engine, way | true | rule | verdict | which is |", "|---|---|---|---|---|---|", *map(line_of, rows), ""])
+        "# Pictures of four engines, and what Strata says of them", "",
+        "The question: given only a scene and an engine's picture of it, does `strata compare PACK PICTURE`, without any option, say whether the",
+        "picture is right, and if not, why?", "",
+        f"Of {len(rows)} verdicts {true} are true ({100 * true / len(rows):.1f} %). {len({row['scene'] for row in rows})} scenes were drawn by VTK, Babylon.js, Mol* and three.js in each of their ways to draw",
+        "transparent surfaces. A verdict is true if it calls a right picture right, or names the mistake of a wrong one, alone or among those that give",
+        "the same picture in this scene. If the engine differs only where several fragments have one depth, *right* is true if the verdict says that",
+        "such pixels are left open. *Wrong without a name*: called wrong, without the cause. *False*: anything else.", "",
+        *tally_of(rows), "",
+        "*Right* and *wrong* come from the engine's source, not from Strata: [fragments.py](fragments.py) computes every fragment in binary64, and",
+        "[rules.py](rules.py) combines them as the engine's code does. If that computation agrees with the picture within two codes of 8 bits, it",
+        f"explains the picture: {explained} of {len(rows)} are explained. Pixels at edges are left out.", "",
+        "Verdicts that are not true: " + ("; ".join(f"{row['scene']} by {row['engine']}, {row['way']} ({row['why']}): {row['judgment']}" for row in other[:LISTED])
+                                          or "none") + ("; and others" if len(other) > LISTED else "") + ".", "",
+        "## The whole table", "",
+        "    tools/port/engines/install.sh && tools/port/engines/table.py", "",
+        "The commands install the engines ([README.md](README.md) names the versions), draw the pictures and write this page;",
+        "`build/engines/RESULTS.md` then has a row for each picture, with the verdict in full.", ""])
+
+
+def whole_page_of(rows):
+    return "\n".join(["# Pictures of four engines, one by one", "", *ROW_HEAD, *map(line_of, rows), ""])
 
 
 def main():
@@ -132,6 +160,7 @@ def main():
     parser.add_argument("--lot", metavar="FIRST..LAST", type=lambda text: range(int(text.split("..")[0]), int(text.split("..")[1]) + 1), default=())
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("-o", dest="output", type=pathlib.Path, default=draw.HERE / "RESULTS.md")
+    parser.add_argument("--whole", type=pathlib.Path, default=draw.HERE.parents[2] / "build" / "engines" / "RESULTS.md", help="gets a row a picture")
     given = parser.parse_args()
     lacking = [draw.missing(engine) for engine in draw.WAYS if draw.missing(engine)]
     if lacking:
@@ -146,6 +175,8 @@ def main():
         with web.Browser(draw.PACKAGES) as browser:
             rows = [row for name in names for row in rows_of(name, folder, given.build / "strata", browser)]
     given.output.write_text(page_of(rows))
+    given.whole.parent.mkdir(parents=True, exist_ok=True)
+    given.whole.write_text(whole_page_of(rows))
     for row in rows:
         if not row["consistent"]:
             print(f"{row['scene']}, {row['engine']} {row['way']}: the rule is {row['worst']:.1f} codes from the picture, and wrong at {row['wrong']} pixels; truth.py says {row['why'] or 'right'!r}")
