@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Measures drivers and writes RESULTS.md: results.py BUILD -o RESULTS.md [--browser FOLDER]
+"""Measures drivers and writes two pages: results.py BUILD [-o RESULTS.md] [--whole build/probe/RESULTS.md] [--browser FOLDER]
 
+RESULTS.md is introduction.md and a row for each device; the whole page has every operation and every field of a profile with its evidence.
 BUILD holds strata and strata_port_probe (-DSTRATA_PORT=ON). FOLDER is what tests/browser/probe_page.py left in STRATA_KEEP. Each device draws the kit
 and twenty scenes that no field was thought of for; its profile comes from its answers to the kit alone, and draws the twenty.
 """
@@ -12,6 +13,7 @@ import tempfile
 
 DRIVERS = ["llvmpipe", "llvmpipe_sse", "softpipe"]
 UNSEEN = 20
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def run(*words):
@@ -94,10 +96,49 @@ def operations(devices):
     return lines
 
 
+def operation_rows(operated):
+    """For each device: how many operations have a hypothesis that explains every result."""
+    yield "| device | operations drawn | explained by one hypothesis | not explained |"
+    yield "|---|---:|---:|---|"
+    for name, found in operated:
+        drawn = [f for f in found if f["hypotheses"]]
+        broken = [f["operation"] for f in drawn if f["state"] == "broken"]
+        yield f"| {name} | {len(drawn)} | {len(drawn) - len(broken)} | {', '.join(broken) or 'none'} |"
+
+
+DEVICE_HEAD = ["| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 unseen scenes | coverage differs | depth differs | colour differs |",
+               "|---|---|---|---|---|---|---|---|"]
+HOW = """
+Operations of shaders, textures and tests, each compared with several hypotheses:
+
+{operations}
+
+## The whole table
+
+    tools/probe/results.py build/release --browser ANSWERS
+
+It needs `strata_port_probe` (`-DSTRATA_PORT=ON`); ANSWERS is what `tests/browser/probe_page.py` left in STRATA_KEEP. `build/probe/RESULTS.md` then
+has the best hypothesis of each operation with its first counterexample, and each field of each profile with its evidence and the next best values.
+"""
+
+
+def write_pages(short, whole, rows, operated, pages):
+    with open(os.path.join(HERE, "introduction.md"), encoding="utf-8") as file:
+        head = file.read()
+    with open(short, "w", encoding="utf-8") as file:
+        file.write("\n".join([head, *DEVICE_HEAD, *rows, HOW.format(operations="\n".join(operation_rows(operated)))]))
+    os.makedirs(os.path.dirname(os.path.abspath(whole)), exist_ok=True)
+    with open(whole, "w", encoding="utf-8") as file:
+        file.write("\n".join(["# What the kit says of drivers, field by field", "", *DEVICE_HEAD, *rows, "", "## Operations", "",
+                              "The best hypothesis and how many results it explains, all of them; in bold the count where none explains all.", "",
+                              *operations(operated), "", "## Field by field", "", *pages]))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build")
-    parser.add_argument("-o", "--output", required=True)
+    parser.add_argument("-o", "--output", default=os.path.join(HERE, "RESULTS.md"))
+    parser.add_argument("--whole", default=os.path.join(HERE, "..", "..", "build", "probe", "RESULTS.md"))
     parser.add_argument("--browser")
     options = parser.parse_args()
     strata, client = (os.path.join(options.build, name) for name in ("strata", "strata_port_probe"))
@@ -121,12 +162,7 @@ def main():
             if orientation == "down":
                 operated.append((name, found["operations"]))
             pages += details(name, orientation, found)
-    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "introduction.md"), encoding="utf-8") as file:
-        head = file.read()
-    with open(options.output, "w", encoding="utf-8") as file:
-        file.write(head + "\n## Devices\n\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 unseen scenes | coverage differs | depth differs | colour differs |\n"
-                   "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n## Operations\n\nA hypothesis with the number of words that it explains, all of them; in bold the count of the best where none does "
-                   "([README.md](README.md)).\n\n" + "\n".join(operations(operated)) + "\n\n## Field by field\n\n" + "\n".join(pages))
+    write_pages(options.output, options.whole, rows, operated, pages)
 
 
 if __name__ == "__main__":
