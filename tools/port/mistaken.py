@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes tools/port/MISTAKES.md: what `strata diagnose` says of the port when it is right, and when it is wrong by one mistake or by two.
+"""Writes tools/port/MISTAKES.md, how often `strata diagnose` names the port's mistakes, and build/port/MISTAKES.md, a row a picture.
 
     tools/port/mistaken.py [--driver llvmpipe] [--only NAME]
 
@@ -29,6 +29,7 @@ SCENES = {
     "on grey": ["teapot", "--alpha", "0.5", "--background", "0.5,0.5,0.5", "--size", "64x48"],
 }
 SLOW = ["deep", "deep, far first"]  # their rows come last
+MOST_LISTED = 8  # answers other than yes, on the short page
 ALL_ALGORITHMS = ["teapot", "random", "coincident", "opaque", "close"]  # where the right port draws with each
 # Where a mistake shows, if not in the teapot.
 SHOWN_IN = {"less_equal": "coincident", "depth_epsilon": "random", "depth_16": "close", "opaque_ignored": "opaque", "background_lost": "on grey", "half_min_max": "opaque",
@@ -116,25 +117,45 @@ def row(names, words, scene, algorithm, said):
             ", ".join(best["mistakes"]), share, classes, judged(names, said)]
 
 
-def page(rows, driver):
-    right, single, pair = ([c for c in rows if test(c[0])] for test in
-                           (lambda n: n == "(right)", lambda n: n != "(right)" and "," not in n, lambda n: "," in n))
-    unknown = [c for c in single if c[0] not in NAMES]
-    def count(cells, answer="yes"):
-        return f"{sum(c[-1] == answer for c in cells)} of {len(cells)}"
+def kinds_of(rows):
+    """(what they are, rows) of the kinds of pictures, in the order of the table."""
+    def is_single(cells):
+        return cells[0] != "(right)" and "," not in cells[0]
 
-    lines = ["# The port's mistakes, and what the oracle makes of them", "",
-             f"Made by `tools/port/mistaken.py` on {driver}: the port's finished picture, diagnosed under the driver's profile. The oracle gets the scene and the",
-             "picture alone. The mistakes were built into the port before the catalogue was looked at. An answer is right if it names the mistake by what",
-             "the catalogue calls it, both of two, or none where the catalogue has no such machine; a class is then all that can be said. Same picture:",
-             "what is named leaves this very picture, so that nobody could tell the two apart here. Nearest: the right one is ranked first, and a few",
-             "pixels are left over. The scenes were chosen by hand, so that each mistake shows, and some of them after a first answer: a figure without a hand in",
-             "it is that of [BLIND.md](BLIND.md).", "",
-             f"The right port is named right in {count(right)} pictures. Of single mistakes {count(single)} are answered rightly, of those that the catalogue has not",
-             f"{count(unknown)}, and of pairs {count(pair)}. Same picture: {count(single + pair, 'same picture')}; nearest: {count(single + pair, 'nearest')}.", "",
-             "| mistake | what it is | scene | algorithm | verdict | named first | explains | classes of pixels | right |", "|" + "---|" * 9]
-    lines += ["| " + " | ".join(cells) + " |" for cells in rows]
-    return "\n".join(lines) + "\n", all(c[-1] == "yes" for c in right) and bool(rows)
+    yield "the right port", [c for c in rows if c[0] == "(right)"]
+    yield "one mistake that the catalogue has", [c for c in rows if is_single(c) and c[0] in NAMES]
+    yield "one mistake that it has not", [c for c in rows if is_single(c) and c[0] not in NAMES]
+    yield "two mistakes", [c for c in rows if "," in c[0]]
+
+
+def whole_page(rows, driver):
+    return "\n".join([f"# The port's mistakes, one by one, on {driver}", "",
+                      "| mistake | what it is | scene | algorithm | verdict | named first | explains | classes of pixels | right |", "|" + "---|" * 9,
+                      *("| " + " | ".join(cells) + " |" for cells in rows), ""])
+
+
+def page(rows, driver):
+    """The short page, at most 600 words, and whether the right port is always named right."""
+    answers = ["yes", "same picture", "nearest", "does not show", "no"]
+    table = [f"| {name} | {len(cells)} | " + " | ".join(str(sum(c[-1] == answer for c in cells)) for answer in answers) + " |" for name, cells in kinds_of(rows)]
+    other = [f"- `{cells[0]}`, {cells[2]} by {cells[3]}: {cells[4]}{': ' if cells[5] else ''}{cells[5]} ({cells[-1]})" for cells in rows if cells[-1] != "yes"]
+    text = "\n".join([
+        "# What the oracle says of a port with mistakes", "",
+        "The question: a port of the peeling algorithms to OpenGL makes a mistake. Does `strata diagnose` name it from the scene and the finished",
+        f"picture alone? The port ([mistakes.cpp](mistakes.cpp)) has {len({c[0] for c in rows if c[0] != '(right)' and ',' not in c[0]})} mistakes, written before the oracle's catalogue of mistakes was consulted. It draws on",
+        f"{driver}, and the picture is diagnosed under that driver's profile. The scenes were chosen so that each mistake shows, some of them after a",
+        "first answer; [BLIND.md](BLIND.md) has the rates on scenes that nobody chose.", "",
+        "| pictures | number | " + " | ".join(answers) + " |", "|---" + "|---:" * (1 + len(answers)) + "|", *table, "",
+        "*Yes*: the mistake is named, both of two are, or none is if the catalogue has no such mistake; the right port is called right. *Same picture*: the",
+        "mistake that is named leaves the same picture, to the last pixel. *Nearest*: the right one is ranked first and leaves a few pixels.",
+        "*Does not show*: the picture is right.", "",
+        "Answers other than yes:", "", *(other[:MOST_LISTED] or ["- none"]), *(["- and others"] if len(other) > MOST_LISTED else []), "",
+        "## The whole table", "",
+        "    tools/port/mistaken.py", "",
+        "It needs a build with `-DSTRATA_PORT=ON` and the driver. `build/port/MISTAKES.md` then has a row for each picture: what the mistake is, the verdict,",
+        "what is named, and how many pixels it explains. Exit status 1 if the right port is not called right.", ""])
+    right = next(cells for _, cells in kinds_of(rows))
+    return text, all(c[-1] == "yes" for c in right) and bool(rows)
 
 
 def main():
@@ -144,6 +165,7 @@ def main():
     parser.add_argument("--only", help="one mistake, or a pair with a comma between")
     parser.add_argument("--journal", help="a file of rows that are done: a run that was broken off goes on from there")
     parser.add_argument("--out", default=str(HERE / "MISTAKES.md"))
+    parser.add_argument("--whole", type=pathlib.Path, default=ROOT / "build" / "port" / "MISTAKES.md")
     options = parser.parse_args()
     build, rows, made, journal = pathlib.Path(options.build), [], {}, Journal(options.journal)
     with tempfile.TemporaryDirectory() as name:
@@ -164,6 +186,8 @@ def main():
             journal.append(rows[-1])
     text, all_right = page(rows, options.driver)
     pathlib.Path(options.out).write_text(text)
+    options.whole.parent.mkdir(parents=True, exist_ok=True)
+    options.whole.write_text(whole_page(rows, options.driver))
     return 0 if all_right else 1
 
 

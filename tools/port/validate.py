@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes tools/port/RESULTS.md: which driver agrees with which profile, in coverage, depth, order and colour, where not, and why.
+"""Writes tools/port/RESULTS.md, which driver agrees with which profile, and build/port/RESULTS.md: by algorithm, where not, and why.
 
     tools/port/validate.sh [--drivers llvmpipe,llvmpipe_sse,softpipe,hardware] [--quick]
 
@@ -158,19 +158,58 @@ def why_section(bench, driver, other, own):
     return table([f"of {other}, alone in {driver}", *CLASSES, "front_to_back", "dual"], rows)
 
 
-def page(found, whys, scenes):
-    head = f"""# The port on real drivers
+def summary(found):
+    """A row for each driver and profile: the pixels of all scenes whose fragments, depths, order or colours differ."""
+    rows = []
+    for driver, (_, profiles) in found.items():
+        for profile, scenes in profiles.items():
+            total = {}
+            for differences in scenes.values():
+                add(total, differences)
+            equal = sum(not differs(d) for d in scenes.values())
+            rows.append([driver, profile, f"{equal} of {len(scenes)}", *(total.get(k, "-") for k in CLASSES), f"{total['targets that differ']:,} of {total['targets']:,}"])
+    return table(["driver", "profile", "scenes equal", *CLASSES, "targets that differ"], rows)
 
-Made by `tools/port/validate.sh`. The port draws {len(scenes)} small packs ({'; '.join(scenes)}) of each profile on each driver. A column holds pixels:
-`coverage` where the number of fragments differs, `depth` where the depths of the layers do, `order` where the same layers lie in another order,
-`colour` where layers have other colours, then the finished picture of each algorithm. `targets` are all targets after every pass, those with
-a pixel that differs first. Every bit counts. `depth_units` is the port's shadow compare beside sequential depth units.
+
+def page(found, scenes):
+    """The short page: at most 600 words."""
+    names = "\n".join(f"- {driver}: {renderer}" for driver, (renderer, _) in found.items())
+    pixels = max(sum(d["pixels"] for d in scenes.values()) for _, profiles in found.values() for scenes in profiles.values())
+    return f"""# The port on real drivers
+
+The question: does an OpenGL driver draw, bit by bit, what the profile of its name predicts? The port is an OpenGL program of five peeling
+algorithms. It draws {len(scenes)} small packs of each profile on each driver, and every target after every pass is compared: {pixels:,} pixels in all.
+
+{names}
+
+{summary(found)}
+A figure counts pixels: *coverage* where the number of fragments differs, *depth* where a layer has another depth, *order* where the same layers
+have another order, *colour* where a layer has another colour. *Targets* are all targets after every pass.
+
+What is left on softpipe under its own profile is known. softpipe rounds 24-bit depths down, and the port's program rounds them to nearest, as
+llvmpipe does, so that its peel finds other layers. How softpipe blends several fragments of a pass in one pixel is not emulated here: of
+`coincident` every depth and stencil of `coherent_stencil` is equal, and the first blended colours differ by one code.
+[mesa-rasterizers.md](../../pipeline/reference/mesa-rasterizers.md) has each rule of these drivers; [GPU.md](GPU.md) has an NVIDIA GPU.
+
+## The whole table
+
+    tools/port/validate.sh
+
+The command builds the port and Strata, draws on every driver that is installed, and writes this page. `build/port/RESULTS.md` then has the pixels
+of every algorithm's picture, the scenes in which a driver differs from its own profile, and what each rule of another device changes alone. Exit
+status 1 if a driver differs where it should not.
+"""
+
+
+def whole_page(found, whys, scenes):
+    head = f"""# The port on real drivers, in full
+
+Scenes: {'; '.join(scenes)}. After the classes of pixels each algorithm has the pixels of its finished picture that differ. `targets` are all
+targets after every pass, those with a pixel that differs first. `depth_units` is the port's shadow comparison against sequential depth units.
 
 """
     why = "## Why\n\nA driver's own profile with one rule of another device: the pixels of " + "; ".join(WHY) + """ that differ from the
-driver then. A rule that changes nothing decides no pixel of these scenes. softpipe rounds 24-bit depths down, and the port's program rounds
-them to nearest as llvmpipe does: its peel finds other layers there. what softpipe blends several times in a pass is not emulated: of `coincident` every depth
-and stencil of the coherent peel is equal, and the first blended colours differ by one code. mesa-rasterizers.md has each rule.
+driver then. A rule that changes nothing decides no pixel of these scenes.
 
 """
     return head + agreement_section(found) + "\n" + where_section(found) + "\n" + why + "\n".join(whys)
@@ -182,6 +221,7 @@ def main():
     parser.add_argument("--drivers", default=",".join(DRIVERS), help="of %(default)s; those that are not there are left out")
     parser.add_argument("--quick", action="store_true", help="three scenes and no reasons: to try the script")
     parser.add_argument("--out", default=str(HERE / "RESULTS.md"))
+    parser.add_argument("--whole", type=pathlib.Path, default=ROOT / "build" / "port" / "RESULTS.md")
     options = parser.parse_args()
     scenes = WHY if options.quick else list(SCENES)
     with tempfile.TemporaryDirectory() as folder:
@@ -191,7 +231,9 @@ def main():
         measured = measure(bench, list(there), scenes)
         found = {driver: (there[driver], measured[driver]) for driver in there}
         whys = [] if options.quick else [why_section(bench, driver, "geforce8_dx101", measured[driver][driver]) for driver in ("llvmpipe", "softpipe") if driver in there]
-        pathlib.Path(options.out).write_text(page(found, whys, scenes))
+        pathlib.Path(options.out).write_text(page(found, scenes))
+        options.whole.parent.mkdir(parents=True, exist_ok=True)
+        options.whole.write_text(whole_page(found, whys, scenes))
     wrong = [(driver, scene, key) for driver in there for scene, d in measured[driver].get(driver, {}).items()
              for key in d if d[key] and is_owed(driver, scene, key)]
     for driver, scene, key in wrong:
