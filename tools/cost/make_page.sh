@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes RESULTS.md and its pictures anew: all knobs on the dragon and on Sponza, in two shards at once, and the teapot twice.
+# Writes RESULTS.md and its pictures, and the whole page to build/cost/RESULTS.md: all knobs on the dragon and on Sponza, in two shards at
+# once, and the teapot twice.
 #   tools/cost/make_page.sh [MODELS]     (default ../shared/models) Needs a release build. A run that was stopped goes on.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -27,4 +28,4 @@ sweep dragon "$models/dragon.glb" --orbit 120,20 --repeat 5
 sweep sponza "$models/sponza.glb" --repeat 5
 for run in once again; do sweep "$run" teapot --size 128x128; done
 rm -f tools/cost/RESULTS.*.svg
-tools/cost/page.py "$out/dragon" "$out/sponza" --twice "$out/once" "$out/again" -o tools/cost/RESULTS.md
+tools/cost/page.py "$out/dragon" "$out/sponza" --twice "$out/once" "$out/again" -o tools/cost/RESULTS.md --whole "$out/RESULTS.md"

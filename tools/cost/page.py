@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the page of `strata cost` from the folders that it wrote, with the pictures of the frontiers beside it.
+"""Makes two pages from the folders that `strata cost` wrote: a short one to read, and one with every row and every frontier.
 
-usage: page.py FOLDER... [--twice FOLDER FOLDER] -o RESULTS.md
+usage: page.py FOLDER... [--twice FOLDER FOLDER] -o RESULTS.md --whole WHOLE.md
 
-Figures are those of cost.csv, results.csv and timings.jsonl; the page counts, takes least and greatest, and divides two times of one
-column. The two folders of --twice are runs of one command.
+RESULTS.md has at most 600 words and, beside it, the frontier of each scene by default as RESULTS.frontier.SCENE.default.svg. WHOLE.md has
+all frontiers beside it. Figures are those of cost.csv, results.csv and timings.jsonl; a page counts, takes least and greatest, and divides
+two times of one column. The two folders of --twice are runs of one command.
 """
 import argparse
 import csv
@@ -16,9 +17,15 @@ import shutil
 import same
 
 TITLE = "# What accuracy costs\n"
-METHOD = """Made by `tools/cost/make_page.sh`; [reports.md](../../scenes/reference/reports.md) 10 says what is measured and how. Errors are those from
-the truth of the scene (nothing snapped, nothing stored), in 1/255. Times are of the processor, on one thread, and ratios to the cheapest
-cell of their column; beside them stands the spread of the rounds.
+QUESTION = """The question: how much does each choice of algorithm, format and execution change the error of the picture, and how much time does it take?
+"""
+METHOD = """The error is the root mean square difference, in 1/255, from a picture computed exactly: nothing is snapped, rounded or stored on the way. A time
+is processor time on one thread, in multiples of the default's time: `front_to_back` on `geforce8`, RGBA8, D24. Each is the median of at
+least five rounds, in which both are drawn in turn, on %s, beside other programs.
+[reports.md](../../scenes/reference/reports.md) section 10 defines every knob and figure.
+"""
+WHOLE_METHOD = """Errors are root mean square differences from the exact picture, in 1/255. Times are of the processor, on one thread, as ratios to the cheapest
+cell of their column, with the least and the greatest round. Section 10 of scenes/reference/reports.md defines every figure.
 """
 COLUMN_NAMES = {"default": "by default", "literal": "literally", "modelled": "on the card"}
 
@@ -101,24 +108,28 @@ def asked_and_found(folders, twice):
     return table(["asked", "found"], asked)
 
 
+def range_of(values):
+    low, high = (f"{value:.3g}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
 def between(rows, knob):
     """The least and the greatest RMSE among the knob's cells that ran."""
-    errors = [float(row["rmse"]) for row in rows if row["knob"] == knob and row["outcome"] == "done"]
-    return f"{min(errors):.3g} to {max(errors):.3g}"
+    return range_of([float(row["rmse"]) for row in rows if row["knob"] == knob and row["outcome"] == "done"])
 
 
 def price_of_the_best(rows):
-    """The least error of an algorithm in times of the fastest one's time."""
+    """The least error of an algorithm, and its time over the fastest one's."""
     drawn = [row for row in rows if row["default"] and row["knob"] == "algorithm"]
     fastest = min(drawn, key=lambda row: float(row["default"]))
     best = min(drawn, key=lambda row: (float(row["rmse"]), float(row["default"])))
-    return (f"{float(best['default']) / float(fastest['default']):.2f} times on {best['scene']} (`{best['value']}`, RMSE "
-            f"{float(best['rmse']):.3g}/255, beside `{fastest['value']}`, {float(fastest['rmse']):.3g}/255)")
+    return (f"{float(best['default']) / float(fastest['default']):.2f} times as long as the fastest on {best['scene']} (`{best['value']}`, error "
+            f"{float(best['rmse']):.3g}; `{fastest['value']}`, {float(fastest['rmse']):.3g})")
 
 
 def weight_of_knobs(rows):
-    return (f"on {rows[0]['scene']} the algorithm moves the RMSE from {between(rows, 'algorithm')}, depth format and path from "
-            f"{between(rows, 'depth')}, subpixel bits from {between(rows, 'subpixel_bits')}")
+    return (f"on {rows[0]['scene']} the error ranges from {between(rows, 'algorithm')} over the algorithms, from {between(rows, 'depth')} over depth "
+            f"formats and paths, and from {between(rows, 'subpixel_bits')} over subpixel bits")
 
 
 def price_of_emulation(rows):
@@ -133,18 +144,75 @@ def price_of_emulation(rows):
 def three_sentences(folders):
     """What was found, of all scenes, from their figures."""
     scenes = [rows_of(os.path.join(folder, "cost.csv")) for folder in folders]
-    yield f"The least error of any algorithm takes the fastest one's time {' and '.join(map(price_of_the_best, scenes))}."
-    yield f"What to choose first: {'; '.join(map(weight_of_knobs, scenes))}."
+    yield f"The most accurate algorithm takes {' and '.join(map(price_of_the_best, scenes))}."
+    yield f"The algorithm matters most: {'; '.join(map(weight_of_knobs, scenes))}."
     times, moved = zip(*map(price_of_emulation, scenes))
-    yield (f"Running every pass literally, and auditing, take the default's time {', '.join(times)}, and change "
+    yield (f"Emulating every pass literally, and auditing, take {', '.join(times)} as long as the default, and change "
            f"{100 * max(moved):.4g} % of the pixels.")
+
+
+KNOBS = {"algorithm": "algorithm, by colour format", "depth": "depth format and path", "subpixel_bits": "subpixel bits: 4, 8, 12",
+         "peels": "number of passes, 1 to all", "average_count": "format of `weighted_average`'s count", "execution": "execution: literal, tiled",
+         "effects": "all effects simulated", "audit": "audit of every fragment"}
+
+
+def knob_rows(folders):
+    """For each knob and scene: the range of its errors, and of its times over the default's."""
+    scenes = [rows_of(os.path.join(folder, "cost.csv")) for folder in folders]
+    for knob, name in KNOBS.items():
+        cells = [name]
+        for rows in scenes:
+            base = next(float(row["default"]) for row in rows if row["knob"] == "default")
+            drawn = [row for row in rows if row["knob"] == knob and row["default"]]
+            cells += [range_of([float(row["rmse"]) for row in drawn]), range_of([float(row["default"]) / base for row in drawn])] if drawn else ["", ""]
+        yield cells
+
+
+def knob_table(folders):
+    names = [rows_of(os.path.join(folder, "cost.csv"))[0]["scene"] for folder in folders]
+    return table(["choice", *(title for name in names for title in (f"{name}: error", "time"))], knob_rows(folders))
+
+
+def sentence_on_chain(folder):
+    """What remains of the error where the machine's steps are made exact in the order of the pipeline."""
+    rows = rows_of(os.path.join(folder, "cost.csv"))
+    left = {row["value"]: float(row["rmse"]) for row in rows if row["knob"] == "chain"}
+    return f"{left['machine']:.3g} on {rows[0]['scene']}, {left['snap']:.3g} with exact corners, {left['blend']:.3g} with exact blending as well, {left['store']:.3g} stored exactly"
+
+
+def sentence_on_repeats(twice):
+    counts = {column: same.compared(twice, column) for column in same.COLUMNS}
+    figures = ", ".join(f"{len(timed) - len(apart)} of {len(timed)} times {COLUMN_NAMES[column]}" for column, (timed, apart) in counts.items())
+    alike = "the same bytes" if same.is_alike(twice) else "DIFFERENT ERRORS"
+    return f"Two runs on the teapot have {alike} in errors and counts; {figures} agree within the spread of their rounds.\n"
 
 
 def shown_frontier(folder, page):
     """The picture of the error against what one waits, copied beside the page."""
     picture = next(name for name in pictures_of(folder) if name.endswith(".default.svg"))
-    shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), f"RESULTS.{picture}"))
-    return f"![error against time, by default: {picture}](RESULTS.{picture})\n"
+    beside = f"{os.path.splitext(os.path.basename(page))[0]}.{picture}"
+    shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
+    return f"![error against time, by default: {picture}]({beside})\n"
+
+
+def processor():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "an unnamed processor")
+
+
+def short_page(folders, twice, page):
+    yield from [TITLE, QUESTION, " ".join(three_sentences(folders)), ""]
+    yield from (shown_frontier(folder, page) for folder in folders)
+    yield from knob_table(folders)
+    yield f"Where the error of an exact peel (`depth_units`, RGBA8) comes from: {'; '.join(map(sentence_on_chain, folders))}.\n"
+    yield METHOD % processor()
+    if twice:
+        yield sentence_on_repeats(twice)
+    cells = sum(len(rows_of(os.path.join(folder, "cost.csv"))) for folder in folders)
+    yield from ["## The whole table", "", "    tools/cost/make_page.sh MODELS", "",
+                f"MODELS is a folder with dragon.glb and sponza.glb. It measures {cells} cells in a quarter of an hour and writes this page;",
+                "`build/cost/RESULTS.md` then has every cell as a sentence, the frontiers for literal execution and for the modelled card, and the",
+                "error with each step of the machine made exact; `build/cost/dragon/cost.csv` has a row for each cell."]
 
 
 def section(folder, page):
@@ -156,12 +224,9 @@ def section(folder, page):
     yield ""
     yield from chain(rows)
     for picture in pictures_of(folder):
-        beside = f"RESULTS.{picture}"
-        if picture.endswith(".default.svg"):
-            yield "The frontier by default, drawn at the head of the page:"
-        else:
-            shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
-            yield f"![{picture}]({beside})"
+        beside = f"{os.path.splitext(os.path.basename(page))[0]}.{picture}"
+        shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
+        yield f"![{picture}]({beside})"
         yield ""
         yield from frontier(folder, picture, rows)
     yield "Every row as a sentence:"
@@ -171,20 +236,26 @@ def section(folder, page):
     yield ""
 
 
+def whole_page(folders, twice, page):
+    yield from [TITLE, WHOLE_METHOD, *asked_and_found(folders, twice)]
+    for folder in folders:
+        yield from section(folder, page)
+
+
+def write(page, lines):
+    with open(page, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines).rstrip("\n") + "\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+")
     parser.add_argument("--twice", nargs=2)
     parser.add_argument("-o", dest="page", required=True)
+    parser.add_argument("--whole", required=True)
     words = parser.parse_args()
-    lines = [TITLE, " ".join(three_sentences(words.folders)), ""]
-    lines.extend(shown_frontier(folder, words.page) for folder in words.folders)
-    lines.extend([METHOD, *asked_and_found(words.folders, words.twice)])
-    for folder in words.folders:
-        lines.extend(section(folder, words.page))
-    text = "\n".join(lines)
-    with open(words.page, "w", encoding="utf-8") as file:
-        file.write(text.rstrip("\n") + "\n")
+    write(words.page, short_page(words.folders, words.twice, words.page))
+    write(words.whole, whole_page(words.folders, words.twice, words.whole))
 
 
 if __name__ == "__main__":
