@@ -345,16 +345,17 @@ def report(arguments):
     if arguments.first:
         rows = [r for r in rows if r[1]["index"] >= arguments.first]
         return print("\n".join(scores(rows) + ["", *("    " + line for line in survivor_lines(rows))]))
-    parts = [["## The sample", "", *scores([r for r in rows if r[1]["index"] < LOOKED_AT])],
-             ["## Changes that nobody looked at: those that the draw has next", "", *scores([r for r in rows if r[1]["index"] >= LOOKED_AT])],
-             ["## What no test reaches", "", *unreached_lines()],
-             ["## Survivors", "", "File, line of the source, change, and why no test can see it; `?` where one could.", "", *("    " + line for line in survivor_lines(rows))]]
-    page = "\n\n".join("\n".join(part) for part in parts) + "\n"
-    if arguments.page:
-        head = (ROOT / "tests" / "mutants" / "RESULTS.md").read_text().split("## The sample")[0]
-        (ROOT / "tests" / "mutants" / "RESULTS.md").write_text(head + page)
-    else:
-        print(page)
+    beyond = [r for r in rows if r[1]["index"] >= LOOKED_AT]
+    tables = {"The sample": scores([r for r in rows if r[1]["index"] < LOOKED_AT]), **({"Changes beyond the sample": scores(beyond)} if beyond else {}),
+              "What no test reaches": unreached_lines()}
+    survivors = ["## Survivors", "", "File, line of the source, change, and why no test can see it; `?` where one could.", "", *("    " + line for line in survivor_lines(rows))]
+    whole = "\n\n".join(["\n".join([f"## {title}", "", *table]) for title, table in tables.items()] + ["\n".join(survivors)]) + "\n"
+    if not arguments.page:
+        return print(whole)
+    page = ROOT / "tests" / "mutants" / "RESULTS.md"
+    shares = "\n\n".join("\n".join([f"## {title}", "", *table[:2], table[-1]]) for title, table in tables.items())  # the row of all folders
+    page.write_text(page.read_text().split("## The sample")[0] + shares + "\n")
+    (FOLDER / "RESULTS.md").write_text(whole)
 
 
 def main():
@@ -375,7 +376,7 @@ def main():
     verb.add_argument("--most-seconds", type=float, default=40, help="of tests without a change, a change at most (default 40)")
     verb.set_defaults(do=run)
     verb = verbs.add_parser("report")
-    verb.add_argument("--md", dest="page", action="store_true", help="into tests/mutants/RESULTS.md, below what stands at its head")
+    verb.add_argument("--md", dest="page", action="store_true", help="into tests/mutants/RESULTS.md, below its head, and by folder with the survivors into build/mutants/RESULTS.md")
     verb.add_argument("--first", type=int, default=0, help="of the sample, and those behind it alone: the table and the survivors of a part that was drawn later")
     verb.add_argument("--unreached", action="store_true", help="the changes of the draw that no test reaches")
     verb.set_defaults(do=report)
