@@ -41,7 +41,7 @@ struct ClipConvention {
 // The camera's own aspect if it has one, else the image's.
 [[nodiscard]] pipeline::View camera_view(const SceneCamera& camera, double image_aspect);
 
-// Reads a camera file of either form (scenes/README.md); InputError names the file and the JSON pointer.
+// Reads a camera file of either form (scenes.md 7.3); InputError names the file and the JSON pointer.
 [[nodiscard]] pipeline::View load_camera(const std::string& path, double aspect);
 [[nodiscard]] pipeline::View parse_camera(const std::string& text, const std::string& name, double aspect);
 

@@ -1,6 +1,6 @@
 // scenes/files/image_io.h - finished targets to PNG and EXR files and back, without losing a bit or adding one.
 //
-// Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. scenes/README.md lists
+// Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. images.md 2 and 3 list
 //          channels, parts, attributes and the conversion to 8 bits. The same call writes the same bytes: no time, host
 //          or path goes in. Written under a temporary name and renamed: SystemError, and no file, if that fails.
 // Source   images.md 2 to 6; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless

@@ -3,7 +3,7 @@
 // Rule     After check_document every index leads somewhere, every byte range lies in its buffer's declared length,
 //          every value has its type and range, the nodes form a forest. Faults have the Khronos
 //          validator's code; what is sound but not supported is refused if required, else a warning (the table in
-//          README.md).
+//          tools/docs/files.md).
 // Source   glTF 2.0 specification; issue codes: KhronosGroup/glTF-Validator, ISSUES.md.
 // Numbers  Lengths, offsets and counts are below 2^31, element sizes below 2^8: every sum and product fits 64 bits.
 // Tests    tests/scenes/gltf/gltf_bad_*_test.cpp

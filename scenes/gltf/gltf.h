@@ -1,4 +1,4 @@
-// scenes/gltf/gltf.h - glTF 2.0 from memory; from a path it is load_gltf of scene.h. What is supported: README.md, "glTF".
+// scenes/gltf/gltf.h - glTF 2.0 from memory; from a path it is load_gltf of scene.h. What is supported: tools/docs/files.md.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace strata::scenes {
 
-// Limits of one file's contents once unfolded; README.md, "Limits".
+// Limits of one file's contents once unfolded; scenes.md 9.7.
 struct GltfLimits {
     std::uint64_t elements = std::uint64_t{1}
                              << 22;  // vertices and indices, beside 16 for each byte of the file and its buffers

@@ -3,8 +3,17 @@
 
 usage: book_covers.py REPOSITORY [--list]
 
-What there is comes from the sources; what the book must say of each kind stands beside the kind, below and in tests/README.md, "The book
-covers everything". --list prints where each thing stands. Exit status 1 and a line for each thing that the book lacks.
+The lists come from the sources. The specification must have, of each
+
+    field of a profile          a bullet of devices.md that begins with it, says something, and names each of its values or its range
+    algorithm                   a heading of algorithms.md with its name, and a formula below
+    erratum E1 to E26           its heading in errata.md, and the test that proves it
+    format                      a full row in the table of formats.md 1
+    depth path                  a heading of depth.md with its name, and a formula below
+    fault of the diagnostics    a full row in the table of keys-and-counts.md 7.2
+
+--list prints where each is. Exit status 1 and a line for each that is missing; also where a list has become shorter, because then the sources are
+no longer read rightly.
 """
 import argparse
 import glob

@@ -3,7 +3,22 @@
 
 usage: citations.py REPOSITORY
 
-tests/README.md, "Citations", has the syntax. Exit status 1 and a line for each thing that is not there; 77 without git.
+Exit status 1 and a line for each thing that is not there; 77 without git. A page is a Markdown file in a folder `reference`; its name is unique
+in the repository. Text that git tracks is read without line ends and comment signs, so that a citation may break over lines.
+
+    depth.md 4.4                      the page has a heading with that number
+    depth.md 2, 3 and 4.4; 2 to 5     so for each number that is written. A number after a comma counts as a section: put a colon or a semicolon
+                                      before other numbers
+    depth.md 4.4, "It needs"          the words stand in the last section that is named or below it, whatever the line ends, backticks, asterisks
+    errata.md                         a file of that name is there; names in capitals, like README, are checked as paths and links alone
+    E16                               errata.md has the heading `E16:`
+    audit_test, "every tie policy"    the file of that test has the words
+    pipeline/stages/blend.h           the file or folder is there; `*` and `{a,b}` are a shell's; .cpp and .h are optional; a part in capitals,
+                                      like FOLDER, stands for the reader's own
+    `blend_*.cpp`, `audit_test`       in the specification and in READMEs: a file of that name is there
+    [words](file#heading)             the file and its heading are there
+
+A page is linked from the README of its folder, and another file names it. A section's number occurs once on a page.
 """
 import argparse
 import fnmatch

@@ -1,4 +1,4 @@
-// Model: files that the command wrote, copied or cut on purpose; exit statuses of tools/README.md.
+// Model: files that the command wrote, copied or cut on purpose; exit statuses of tools/docs/commands.md.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>

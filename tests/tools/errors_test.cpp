@@ -1,4 +1,4 @@
-// Model: the sentences and exit statuses that people read in tools/README.md.
+// Model: the sentences and exit statuses that people read in tools/docs/commands.md.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"

@@ -37,7 +37,7 @@ def section_of(name):
 
 
 def listed(algorithms, _):
-    return table(["algorithm", "ties", "geometry passes for N layers", "exact", "file", "`algorithms.md`"],
+    return table(["algorithm", "ties", "geometry passes for N layers", "exact", "file", "section"],
                  [[a["name"], TIES[a["ties"]], a["pass_formula"], "yes" if a["exact"] else "no", f"`{file_of(a['name'])}`", section_of(a["name"])]
                   for a in algorithms])
 
@@ -58,7 +58,7 @@ def needs(algorithms, _):
 
 
 TABLES = {"listed": listed, "devices": devices, "needs": needs}
-PAGES = ("peeling/README.md", "pipeline/reference/devices.md", "peeling/reference/keys-and-counts.md")
+PAGES = ("peeling/reference/algorithms.md", "pipeline/reference/devices.md", "peeling/reference/keys-and-counts.md")
 MARKED = re.compile(r"(<!-- table (\w+): [\w/.]+ -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 
 

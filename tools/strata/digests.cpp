@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 using Digests = std::vector<scenes::FileDigest>;
 
-// Of codes that no target of ours has, or of one channel: the hash over a name, the size and the codes (scenes/README.md, "Digests").
+// Of codes that no target of ours has, or of one channel: the hash over a name, the size and the codes (images.md 5).
 std::string digest_of(const oracle::Target& target, int first, int count, const std::string& name) {
     pipeline::WordDigest digest{name};
     digest.add(static_cast<std::uint32_t>(target.width));

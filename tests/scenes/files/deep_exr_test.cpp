@@ -77,7 +77,7 @@ TEST_CASE("a deep file is not a flat one and a flat one not deep, and a deep PNG
     CHECK_THROWS_AS(write_deep(folder / "no/deep.exr", random_fragments(3, 3, 2), {}), strata::SystemError);
 }
 
-// The bytes of scenes/README.md, serialised here word by word, through the one-shot XXH3_128bits.
+// The bytes of images.md 5, serialised here word by word, through the one-shot XXH3_128bits.
 TEST_CASE("a deep digest is XXH3-128 of name, size, counts and fragments, the same before writing and after reading") {
     const DeepFragments fragments = random_fragments(5, 3, 4);
     std::string bytes{"deep"};

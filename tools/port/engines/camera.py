@@ -3,7 +3,7 @@
 
     camera.py ENGINE LOOK.json --size WxH -o CAMERA.json
 
-LOOK.json is a camera file of the first form (scenes/README.md): eye, center, up, fovy_degrees, near, far. Exit status 77 if a program or a
+LOOK.json is a camera file of the first form (tools/docs/files.md): eye, center, up, fovy_degrees, near, far. Exit status 77 if a program or a
 package is missing.
 """
 import argparse

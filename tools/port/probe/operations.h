@@ -1,6 +1,6 @@
 // tools/port/probe/operations.h - the kit's operations by OpenGL: a fragment reads four words of its texel and writes four.
 //
-// Rule     ../../probe/README.md says what a kit and a pack have of them.
+// Rule     ../../probe/DESIGN.md says what a kit and a pack have of them.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
