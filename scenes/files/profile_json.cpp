@@ -34,7 +34,30 @@ constexpr std::string_view raster_prefix = "raster.";
 // In bytes. Names stand in tables and error lines, descriptions in the list of profiles.
 constexpr std::size_t longest_name = 64, longest_description = 1000;
 
+// Fields that came after the first packs were written. A file without one of them, and without a base, means the machine as it was
+// before: the value of DeviceProfile itself. All other fields are required there, so that no default of the program slips into
+// somebody's machine.
+constexpr std::string_view later_fields[] = {"blend_storage",
+                                             "depth24",
+                                             "has_d24f",
+                                             "origin",
+                                             "raster.area_sign",
+                                             "raster.depth_limits",
+                                             "raster.equal_colors",
+                                             "raster.offset_rule",
+                                             "raster.perspective_coordinates",
+                                             "raster.plane_corners",
+                                             "raster.reciprocal_deficit",
+                                             "raster.w_signs",
+                                             "raster.w_slope",
+                                             "raster.weights",
+                                             "raster.y_axis"};
+
 [[nodiscard]] bool is_raster(const ProfileField& field) { return field.key.starts_with(raster_prefix); }
+
+[[nodiscard]] bool is_later(const ProfileField& field) {
+    return std::ranges::find(later_fields, field.key) != std::end(later_fields);
+}
 
 // The last part of the key: what the JSON object says.
 [[nodiscard]] std::string_view leaf(const ProfileField& field) {
@@ -140,13 +163,12 @@ const DeviceProfile* base_of(const json& document, const std::string& file) {
     return base;
 }
 
-// A field that the file leaves out keeps the base's value; without a base every field must be there, so that no
-// default of the program slips into somebody's machine.
+// A field that the file leaves out keeps the base's value.
 void read_field(const ProfileField& field, const json& object, bool has_base, const std::string& file,
                 DeviceProfile& profile) {
     const auto found = object.find(leaf(field));
     if (found == object.end()) {
-        if (has_base) return;
+        if (has_base || is_later(field)) return;
         throw InputError(file, pointer(field), expectation(field), "nothing, and no \"base\" to take it from");
     }
     const std::optional<int> value = value_of(field, *found);

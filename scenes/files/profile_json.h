@@ -1,7 +1,8 @@
 // scenes/files/profile_json.h - device profiles as JSON, both ways.
 //
 // Rule     An object with "name", "description" and every key of pipeline/device/profile_fields.h ("raster" is an object of
-//          its own). A file that names a "base" among the built-in profiles writes only what differs. Unknown keys,
+//          its own). A file that names a "base" among the built-in profiles writes only what differs; one without may leave out fields
+//          that came after the first packs: they have the value that the machine had before. Unknown keys,
 //          values of another type or outside their range are errors that name the file and the JSON pointer.
 // Tests    tests/scenes/files/profile_json_test.cpp
 #pragma once

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "pipeline/device/profile_fields.h"
 #include "rasterizer/base/input_error.h"
@@ -99,7 +101,7 @@ TEST_CASE("a value of the wrong type or outside its range names file, pointer, r
     CHECK(error_of(changed(R"("denormals": 1)")) == "my.json: /denormals: expected one of flush, keep, found 1");
 }
 
-TEST_CASE("without a base every key must be there") {
+TEST_CASE("without a base every key that the first packs had must be there") {
     CHECK(error_of(R"({"name": "mine", "description": ""})") ==
           "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found nothing, and no "
           "\"base\" to take it from");
@@ -108,6 +110,44 @@ TEST_CASE("without a base every key must be there") {
           "my.json: /name: expected a name without control characters, found \"\"");
     CHECK(error_of(R"({"base": "ideal", "name": "a\nb"})") ==
           "my.json: /name: expected a name without control characters, found \"a\\nb\"");
+}
+
+// The fields of profiles in packs of format 1 as the first of them had them; those that came later are not there.
+TEST_CASE(
+    "a file without the fields that came later is the machine as it was before them, each alone and all together") {
+    const std::set<std::string_view> later{"blend_storage",
+                                           "depth24",
+                                           "has_d24f",
+                                           "origin",
+                                           "raster.area_sign",
+                                           "raster.depth_limits",
+                                           "raster.equal_colors",
+                                           "raster.offset_rule",
+                                           "raster.plane_corners",
+                                           "raster.perspective_coordinates",
+                                           "raster.reciprocal_deficit",
+                                           "raster.w_signs",
+                                           "raster.w_slope",
+                                           "raster.weights",
+                                           "raster.y_axis"};
+    DeviceProfile before;
+    before.name = "old";
+    nlohmann::json all = nlohmann::json::parse(to_json(before));
+    for (const ProfileField& field : profile_fields()) {
+        nlohmann::json without = nlohmann::json::parse(to_json(before));
+        const bool is_raster = field.key.starts_with("raster.");
+        const std::string leaf{is_raster ? field.key.substr(7) : field.key};
+        (is_raster ? without["raster"] : without).erase(leaf);
+        INFO(field.key);
+        if (!later.contains(field.key)) {
+            CHECK(error_of(without.dump()).find("found nothing") != std::string::npos);
+            continue;
+        }
+        CHECK(parse_profile(without.dump(), "x.json") == before);
+        (is_raster ? all["raster"] : all).erase(leaf);
+    }
+    CHECK(all.size() + all["raster"].size() == 3 + profile_fields().size() - later.size());
+    CHECK(parse_profile(all.dump(), "x.json") == before);
 }
 
 TEST_CASE("text that is no JSON object is refused with its place") {

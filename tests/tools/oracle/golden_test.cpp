@@ -11,6 +11,8 @@
 #include "pipeline/device/check.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
+#include "scenes/files/profile_json.h"
+#include "scenes/packs/pack_files.h"
 #include "scenes/packs/pack_scene.h"
 #include "tests/support/own_folder.h"
 #include "tools/oracle/pack/state_json.h"
@@ -84,6 +86,34 @@ TEST_CASE("a pack is what it is derived from, and a changed byte is named with i
     CHECK(changed > 60);
     CHECK(named == changed);
     CHECK(check_pack(pack).empty());
+}
+
+TEST_CASE("a pack whose profile lacks the fields that came later is read and checked as before them") {
+    const test::OwnFolder folder;
+    const std::string pack = folder.path() + "/pack";
+    Golden golden = small_golden("planes:count=2", {"dual"}, "geforce8");
+    write_pack(golden, pack);
+    nlohmann::json profile = nlohmann::json::parse(bytes_of_file(pack + "/profile.json"));
+    for (const char* key : {"origin", "depth24", "blend_storage"}) REQUIRE(profile.erase(key) == 1);
+    for (const char* key : {"y_axis", "equal_colors", "plane_corners"}) REQUIRE(profile["raster"].erase(key) == 1);
+    const auto put = [&](const nlohmann::json& changed) {
+        scenes::PackFiles listed{
+            [&](const std::string& name, const std::string& bytes) { put_bytes(pack + "/" + name, bytes); }};
+        listed.add_text("profile.json", changed.dump());
+        auto manifest = nlohmann::ordered_json::parse(bytes_of_file(pack + "/manifest.json"));
+        manifest["files"]["profile.json"] = listed.list()["profile.json"];
+        put_bytes(pack + "/manifest.json", manifest.dump(1) + '\n');
+    };
+    put(profile);
+    CHECK(read_pack(pack).profile == golden.profile);
+    CHECK(check_pack(pack).empty());
+    // One with another value gives other files, and one that was always there is missed.
+    profile["raster"]["subpixel_bits"] = 4;
+    put(profile);
+    CHECK_FALSE(check_pack(pack).empty());
+    profile.erase("blend_rounding");
+    put(profile);
+    CHECK_THROWS_WITH(read_pack(pack), Contains("/blend_rounding: expected one of"));
 }
 
 TEST_CASE("a check finds files that are missing or too many, a changed manifest, and two changed bytes of an input") {
