@@ -5,7 +5,9 @@
 // Tests    tests/tools/oracle/mistakes/catalogue_test.cpp: each shows in a scene of the suite, and no two are alike in all of them
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "tools/oracle/mistakes/experiment.h"
@@ -16,11 +18,12 @@ namespace strata::oracle {
 enum class Place : std::uint8_t { scene, machine, steps, programs, picture };
 
 struct Mistake {
-    std::string_view name{};      // "one_pass_too_few"
-    std::string_view sentence{};  // as it stands behind "the pixels are those of: "
+    std::string name{};      // "one_pass_too_few"
+    std::string sentence{};  // as it stands behind "the pixels are those of: "
     Place place{};
     // False: this experiment has nothing that the mistake could change.
-    bool (*make)(Experiment& experiment) = nullptr;
+    std::function<bool(Experiment& experiment)> make{};
+    bool is_allowed = false;  // a right port may do so: an option of machine_options.h
 };
 
 [[nodiscard]] std::span<const Mistake> catalogue();

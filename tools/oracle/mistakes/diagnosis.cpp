@@ -99,7 +99,9 @@ struct Lineup::Evidence {
     }
 };
 
-Lineup::Lineup(const Laboratory& laboratory, const ShowProgress& progress) : laboratory_{laboratory} {
+Lineup::Lineup(const Laboratory& laboratory, const ShowProgress& progress, std::span<const Mistake> options)
+    : laboratory_{laboratory} {
+    for (const Mistake& option : options) suspects_.push_back({.mistake = &option});
     for (const Mistake& mistake : catalogue()) suspects_.push_back({.mistake = &mistake});
     for_all(suspects_.size(), progress,
             [&](std::size_t i) { suspects_[i].picture = laboratory.with(*suspects_[i].mistake); });
@@ -150,21 +152,30 @@ bool Lineup::shows(const Mistake& mistake) const {
 
 namespace {
 
-// Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code.
+bool is_allowed(const Finding& f) {
+    return !f.mistakes.empty() && std::ranges::all_of(f.mistakes, &Mistake::is_allowed);
+}
+
+// Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code: of options of a
+// right machine first. Where the right machine is as near, a code is no evidence of a mistake.
 void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
-    if (d.findings.front().agreeing == d.pixels || right_nearly == d.pixels) return;
-    const auto found = std::ranges::find_if(d.findings, [&](const Finding& f) { return is_nearly_whole(f, d); });
-    if (found == d.findings.end()) return;
-    std::rotate(d.findings.begin(), found, found + 1);
-    d.is_nearly = true;
+    if (d.findings.front().agreeing == d.pixels) return;
+    const auto take = [&](auto is_fitting) {
+        const auto found =
+            std::ranges::find_if(d.findings, [&](const Finding& f) { return is_nearly_whole(f, d) && is_fitting(f); });
+        if (found == d.findings.end()) return false;
+        std::rotate(d.findings.begin(), found, found + 1);
+        return d.is_nearly = true;
+    };
+    if (!take(is_allowed) && right_nearly != d.pixels) take([](const Finding&) { return true; });
 }
 
 Verdict verdict_of(const Diagnosis& d) {
     const Finding& best = d.findings.front();
     if (best.agreeing != d.pixels && !d.is_nearly) return Verdict::none_of_mine;
-    return best.mistakes.empty()       ? Verdict::right
-           : best.mistakes.size() == 1 ? Verdict::one_mistake
-                                       : Verdict::two_mistakes;
+    if (best.mistakes.empty()) return Verdict::right;
+    if (is_allowed(best)) return Verdict::other_options;
+    return best.mistakes.size() == 1 ? Verdict::one_mistake : Verdict::two_mistakes;
 }
 
 }  // namespace

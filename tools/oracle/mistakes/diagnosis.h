@@ -2,7 +2,8 @@
 //
 // Rule     Every mistake's own picture is compared with the candidate, pixel by pixel and code by code; a finding's rank is the number of
 //          pixels that agree. The right machine comes before all mistakes that explain no more than it does, and a mistake before
-//          those behind it in the catalogue. A mistake whose picture is the right one here is no finding. If no single one explains every
+//          those behind it in the catalogue; options of machine_options.h, where there are any, come before all mistakes. A mistake whose
+//          picture is the right one here is no finding. If no single one explains every
 //          pixel, pairs are tried: first all that end in a mistake of the finished picture, then those that
 //          contradict the candidate least where only one of the two shows; none for a candidate of one colour everywhere without
 //          passes, which is no evidence of two.
@@ -33,6 +34,7 @@ struct Finding {
 
 enum class Verdict : std::uint8_t {
     right,
+    other_options,  // of a right machine: all that is named is allowed
     one_mistake,
     two_mistakes,
     right_structure,  // no machine's picture is the candidate's, but its layers are right apart from rounding
@@ -60,8 +62,9 @@ using ShowProgress = std::function<void(double share)>;
 // The pictures of all mistakes, made once for any number of candidates.
 class Lineup {
   public:
-    // `laboratory` must live as long.
-    explicit Lineup(const Laboratory& laboratory, const ShowProgress& progress = {});
+    // `laboratory` and `options` must live as long.
+    explicit Lineup(const Laboratory& laboratory, const ShowProgress& progress = {},
+                    std::span<const Mistake> options = {});
 
     // `passes` are the candidate's; null where it has none.
     [[nodiscard]] Diagnosis diagnose(const Picture& candidate, const Tolerances& tolerances = {},

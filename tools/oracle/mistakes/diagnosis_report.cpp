@@ -38,6 +38,9 @@ std::string first_line(const Diagnosis& d) {
             "none that is known: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
             "explains them all\n",
             d.differing, d.pixels);
+    if (d.verdict == Verdict::other_options)
+        return fmt::format("right under other options: every pixel is{} that of: {}\n",
+                           d.is_nearly ? ", within one code," : "", sentence_of(best.mistakes));
     return fmt::format("100 % of the pixels are{} those of: {}\n", d.is_nearly ? ", within one code," : "",
                        sentence_of(best.mistakes));
 }
@@ -86,6 +89,7 @@ std::string sentence_of(const std::vector<const Mistake*>& mistakes) {
 std::string_view name(Verdict verdict) noexcept {
     switch (verdict) {
         case Verdict::right: return "right";
+        case Verdict::other_options: return "other_options";
         case Verdict::one_mistake: return "one_mistake";
         case Verdict::two_mistakes: return "two_mistakes";
         case Verdict::right_structure: return "right_structure";

@@ -80,7 +80,7 @@ int* limit_of(Experiment& e) {
     return e.options.max_passes > 0 ? &e.options.max_passes : nullptr;
 }
 
-constexpr Mistake machine_mistakes[] = {
+const Mistake machine_mistakes[] = {
     {"one_pass_too_few", "one pass too few: the last layers are missing", Place::machine,
      [](Experiment& e) {
          if (!is_peel(e) || e.right.enough_passes < 1) return false;

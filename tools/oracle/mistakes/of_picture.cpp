@@ -59,7 +59,7 @@ bool with_colors(Experiment& e, Value value) {
     });
 }
 
-constexpr Mistake picture_mistakes[] = {
+const Mistake picture_mistakes[] = {
     {"flipped_rows", "the right picture upside down: its rows stored from the bottom", Place::picture,
      [](Experiment& e) {
          return from_elsewhere(e, [](int x, int y, int, int height) { return std::pair{x, height - 1 - y}; });

@@ -131,7 +131,7 @@ void average_without_power(const Names& names, const ProgramCall& call) {
     }
 }
 
-constexpr Mistake program_mistakes[] = {
+const Mistake program_mistakes[] = {
     {"premultiplied_twice", "colours multiplied by their alpha twice", Place::programs,
      [](Experiment& e) {
          return before_programs(e, [](FragmentBatch& in) {

@@ -89,6 +89,20 @@ void make_affine(Experiment& e) {
                           }});
 }
 
+// Whether any triangle has more than one colour: without slopes nothing can be wrong with them.
+bool has_slopes(const Experiment& e) {
+    if (is_textured(e)) return true;
+    const rasterizer::TriangleSoup soup = pipeline::transform(*e.list, e.view, {});
+    for (std::size_t i = 0; i + 2 < soup.indices.size(); i += 3) {
+        const auto& last = soup.vertices[soup.indices[i + 2]];
+        for (std::size_t j = i; j < i + 2; ++j) {
+            const auto& vertex = soup.vertices[soup.indices[j]];
+            if (vertex.front != last.front || vertex.back != last.back) return true;
+        }
+    }
+    return false;
+}
+
 enum class Weighting : std::uint8_t { affine, unnormalised };
 
 // The light that fell on a vertex times its colour: what the material was multiplied by. Its own colour says nothing where it is 0.
@@ -140,16 +154,17 @@ bool loses_perspective(Experiment& e, Weighting weighting) {
     return true;
 }
 
-constexpr Mistake scene_mistakes[] = {
+const Mistake scene_mistakes[] = {
     {"colors_affine", "colours interpolated linearly over the window, without perspective", Place::scene,
      [](Experiment& e) {
+         if (!has_slopes(e)) return false;
          if (has_quotient_depth(e)) return loses_perspective(e, Weighting::affine);
          if (!pipeline::has_perspective(e.view)) return false;
          make_affine(e);
          return true;
      }},
     {"colors_unnormalised", "colours over w interpolated and not divided by 1 / w again", Place::scene,
-     [](Experiment& e) { return loses_perspective(e, Weighting::unnormalised); }},
+     [](Experiment& e) { return has_slopes(e) && loses_perspective(e, Weighting::unnormalised); }},
     {"colors_flat", "flat colours: each triangle has that of its last corner", Place::scene,
      [](Experiment& e) {
          std::ranges::for_each(e.scene().meshes, flatten);

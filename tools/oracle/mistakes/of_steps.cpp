@@ -1,6 +1,7 @@
 // tools/oracle/mistakes/of_steps.cpp - mistakes in the steps of an algorithm: clears, copies, queries and the state of its passes.
 #include <algorithm>
 
+#include "peeling/registry.h"
 #include "pipeline/region/region_shortcuts.h"
 #include "tools/oracle/mistakes/catalogue.h"
 
@@ -146,7 +147,20 @@ bool loses_opaque_depth(Experiment& e) {
     return true;
 }
 
-constexpr Mistake step_mistakes[] = {
+// The port never got to its algorithm: OVER of whatever comes, as it comes.
+bool sorts_nothing(Experiment& e) {
+    const peeling::Algorithm* const unsorted = peeling::find_algorithm("unsorted");
+    if (e.algorithm == unsorted) return false;
+    e.algorithm = unsorted;
+    return true;
+}
+
+bool writes_depth_of_blended(Experiment& e) {
+    static_cast<void>(sorts_nothing(e));
+    return in_geometry_passes(e, [](const Names&, PassState& state) { state.depth.write = true; });
+}
+
+const Mistake step_mistakes[] = {
     {"stencil_not_cleared", "the stencil not cleared between passes", Place::steps,
      [](Experiment& e) {
          return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue&) {
@@ -290,6 +304,10 @@ constexpr Mistake step_mistakes[] = {
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) { state.stencil.enabled = false; });
      }},
+    {"not_sorted", "layers blended in the order of submission: nothing is sorted", Place::steps, sorts_nothing},
+    {"blended_writes_depth",
+     "blended surfaces write depth, in the order of submission: what lies behind one drawn before is lost",
+     Place::steps, writes_depth_of_blended},
     {"stencil_ref_off_by_one", "the stencil's reference one too great", Place::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) { ++state.stencil.front.ref; });

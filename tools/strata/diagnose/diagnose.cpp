@@ -10,9 +10,11 @@
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/picture_attributes.h"
+#include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
+#include "tools/oracle/mistakes/machine_options.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
 #include "tools/oracle/mistakes/telling.h"
 #include "tools/oracle/pack/manifest_value.h"
@@ -43,7 +45,8 @@ struct DiagnoseOptions {
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
     std::optional<oracle::AlphaForm> alpha_form{};
-    int limit = 0;  // geometry passes after which the candidate gives up
+    int limit = 0;                        // geometry passes after which the candidate gives up
+    std::vector<std::string> profiles{};  // files or names, beside the built-in ones
     std::string report;
     MistakesOptions mistakes{};
     bool json = false;
@@ -86,6 +89,7 @@ struct OpenCase {
     std::vector<oracle::PassPicture> passes{};
     Session session{};
     std::optional<oracle::Laboratory> laboratory{};
+    std::vector<oracle::Mistake> machine_options{};
     std::optional<oracle::Lineup> lineup{};
 
     [[nodiscard]] const std::vector<oracle::PassPicture>* passes_or_null() const {
@@ -96,7 +100,16 @@ struct OpenCase {
     }
 };
 
-std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::ShowProgress& progress) {
+// Several scenes ask who made all of them: mistakes alone have the same names in each.
+enum class Tried : std::uint8_t { mistakes, options_too };
+
+std::vector<oracle::Mistake> machine_options(const OpenCase& opened) {
+    std::vector<pipeline::DeviceProfile> more;
+    for (const std::string& file : opened.options.profiles) more.push_back(scenes::load_profile(file));
+    return oracle::machine_options(*opened.options.run.algorithms[0], opened.laboratory->right_run(), more);
+}
+
+std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, const oracle::ShowProgress& progress) {
     auto opened = std::make_unique<OpenCase>();
     opened->options = given;
     DiagnoseOptions& options = opened->options;
@@ -116,7 +129,8 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::
         oracle::RunInput{opened->session.scene.list, opened->session.view, opened->session.profile, options.run.render},
         algorithm, oracle::has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out,
         options.limit);
-    opened->lineup.emplace(*opened->laboratory, progress);
+    if (tried == Tried::options_too) opened->machine_options = machine_options(*opened);
+    opened->lineup.emplace(*opened->laboratory, progress, opened->machine_options);
     return opened;
 }
 
@@ -140,14 +154,16 @@ oracle::ShowProgress shown_by(Progress& bar) {
 
 // Right: 0. Whatever else made the picture, known or not: 1.
 int status_of(oracle::Verdict verdict) {
-    return verdict == oracle::Verdict::right || verdict == oracle::Verdict::right_structure ? 0 : 1;
+    using enum oracle::Verdict;
+    return verdict == right || verdict == other_options || verdict == right_structure ? 0 : 1;
 }
 
 // A machine's picture to the last code speaks for itself. All else may be a right port that rounds otherwise, or a mistake that no machine
 // of the catalogue has: the layers say so. Algorithms that approximate have no right layers.
 void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     const oracle::Finding& best = found.findings.front();
-    const bool is_exact = best.agreeing == found.pixels && best.mistakes.size() < 2 && !found.passes_contradict;
+    const bool is_exact = best.agreeing == found.pixels && !found.passes_contradict &&
+                          (best.mistakes.size() < 2 || found.verdict == oracle::Verdict::other_options);
     const auto colors = std::ranges::find(opened.candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
     if (is_exact || found.is_blank || colors == opened.candidate.targets.end() || opened.passes_or_null() != nullptr ||
         !opened.options.run.algorithms[0]->exact)
@@ -224,7 +240,7 @@ void add_lines(PlainPage& page, const std::string& text) {
 
 int diagnose_one(const DiagnoseOptions& options) {
     Progress machines("wrong machines");
-    const auto opened = open_case(options, shown_by(machines));
+    const auto opened = open_case(options, Tried::options_too, shown_by(machines));
     Progress pairs("pairs of mistakes");
     oracle::Diagnosis found =
         opened->lineup->diagnose(opened->candidate, options.tolerances, shown_by(pairs), opened->passes_or_null());
@@ -282,7 +298,7 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
         of_scene.candidate = made_of(name, options.candidate);
         if (of_scene.candidate.empty()) continue;
         take_pack_state(of_scene.run, of_scene.run.scene);
-        opened.push_back(open_case(of_scene, {}));
+        opened.push_back(open_case(of_scene, Tried::mistakes, {}));
         const OpenCase& c = *opened.back();
         scenes.push_back({name, &*c.lineup, &c.candidate, c.passes_or_null()});
         reports.push_back({name, c.comparison()});
@@ -343,6 +359,14 @@ Command add_diagnose(CLI::App& root) {
                [](std::string_view text) {
                    const auto number = to_int<int>(text);
                    return number && *number >= 1 ? number : std::nullopt;
+               });
+    add_option(*app, options->profiles,
+               {"--profiles", "NAMES", "profiles or their files that are tried with the built-in ones",
+                "names of profiles or of JSON files with commas between"},
+               [](std::string_view text) {
+                   auto names = split(text, ',');
+                   const bool fits = std::ranges::none_of(names, &std::string::empty);
+                   return fits ? std::optional{std::move(names)} : std::nullopt;
                });
     add_report_option(*app, options->report);
     add_mistakes_options(*app, options->mistakes);

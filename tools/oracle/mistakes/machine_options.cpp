@@ -1,0 +1,170 @@
+#include "tools/oracle/mistakes/machine_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rasterizer/base/enum_values.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using pipeline::BlendRounding;
+using pipeline::DeviceProfile;
+using pipeline::Format;
+
+constexpr int most_limits = 16;  // numbers of passes that are tried
+
+Format accumulators(const Experiment& e) {
+    const bool is_exact = e.profile.raster.depth_path == rasterizer::DepthPath::exact;
+    return e.options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
+}
+
+Mistake allowed(std::string name, std::string sentence, std::function<bool(Experiment&)> make) {
+    return {std::move(name), std::move(sentence), Place::machine, std::move(make), true};
+}
+
+std::string_view words_for(BlendRounding rule) {
+    switch (rule) {
+        case BlendRounding::nearest: return "8-bit blends whose sum is rounded once, to the nearest code";
+        case BlendRounding::truncate: return "8-bit blends whose sum is cut to its code";
+        case BlendRounding::each_product: return "8-bit blends that round each product by itself";
+        case BlendRounding::unrounded_source: return "8-bit blends of a source that is not rounded before";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+void add_blends(std::vector<Mistake>& all) {
+    for (const BlendRounding rule : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product,
+                                     BlendRounding::unrounded_source}) {
+        const auto word = enum_names<BlendRounding>[static_cast<std::size_t>(rule)];
+        all.push_back(allowed(fmt::format("blend_{}", word), std::string{words_for(rule)}, [rule](Experiment& e) {
+            if (e.profile.blend_rounding == rule || accumulators(e) != Format::rgba8) return false;
+            e.profile.blend_rounding = rule;
+            if (rule == BlendRounding::unrounded_source) e.profile.has_signed_blend = false;  // equations of codes
+            return true;
+        }));
+    }
+    // One colour at all corners is that colour at every fragment, as a uniform is: flatness stands before all that has slopes.
+    using rasterizer::EqualColors;
+    for (const EqualColors rule : enum_values<EqualColors>) {
+        const auto word = enum_names<EqualColors>[static_cast<std::size_t>(rule)];
+        all.push_back(allowed(fmt::format("equal_colors_{}", word),
+                              fmt::format("triangles of one colour: raster.equal_colors {}", word),
+                              [rule](Experiment& e) {
+                                  if (e.profile.raster.equal_colors == rule) return false;
+                                  e.profile.raster.equal_colors = rule;
+                                  return true;
+                              }));
+    }
+}
+
+// The picture keeps its format.
+void add_formats(std::vector<Mistake>& all) {
+    for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
+        const auto word = info(format).name;
+        all.push_back(allowed(fmt::format("accumulators_{}", word), fmt::format("accumulators of {}", word),
+                              [format](Experiment& e) {
+                                  const Format now = accumulators(e);
+                                  if (now == format) return false;
+                                  if (!e.options.result_format) e.options.result_format = now;
+                                  e.options.color_format = format;
+                                  e.profile.has_float_targets = true;
+                                  return true;
+                              }));
+        all.push_back(allowed(fmt::format("back_{}", word), fmt::format("a back of {}", word), [format](Experiment& e) {
+            if (!e.algorithm->takes_both_ends || e.options.back_format.value_or(accumulators(e)) == format)
+                return false;
+            e.options.back_format = format;
+            e.profile.has_float_targets = true;
+            return true;
+        }));
+    }
+}
+
+void add_profile(std::vector<Mistake>& all, const DeviceProfile& profile) {
+    all.push_back(allowed("profile_" + profile.name, fmt::format("profile {}", profile.name), [profile](Experiment& e) {
+        if (e.profile == profile) return false;
+        e.options.color_format = accumulators(e);  // the picture stays one of its kind
+        e.profile = with_origin(profile, e.profile.origin);
+        return true;
+    }));
+}
+
+// Whether a pass more is a layer more, from the nearest on.
+bool peels_by_one(const peeling::Algorithm& algorithm) {
+    const auto passes = algorithm.geometry_passes;
+    return passes != nullptr && !algorithm.takes_both_ends && passes(1) == 2 && passes(2) == 3 && passes(9) == 10;
+}
+
+// " 3 layers", or " layer" for one.
+std::string counted(int count, std::string_view one) {
+    if (count == 1) return fmt::format(" {}", one);
+    return fmt::format(" {} {}{}", count, one, one.ends_with('s') ? "es" : "s");
+}
+
+void add_limits(std::vector<Mistake>& all, const peeling::Algorithm& algorithm, const RightRun& right) {
+    const bool by_one = peels_by_one(algorithm);
+    for (int passes = 1; passes < std::min(right.enough_passes, most_limits + 1); ++passes)
+        all.push_back({fmt::format("passes_{}", passes),
+                       fmt::format("only the {}{} of {} (--max-passes {})", by_one ? "nearest" : "first",
+                                   counted(passes, by_one ? "layer" : "pass"), right.enough_passes, passes),
+                       Place::machine, [passes](Experiment& e) {
+                           if (e.options.max_passes > 0 && e.options.max_passes <= passes) return false;
+                           e.options.max_passes = passes;
+                           return true;
+                       }});
+}
+
+// A peel that compares its own codes has no room for an epsilon.
+bool takes_epsilon(const Experiment& e) { return !e.algorithm->compares_own_codes && e.right.passes > 1; }
+
+void add_epsilons(std::vector<Mistake>& all) {
+    for (const int ulps : {1, 2, 4, 16, 64})
+        all.push_back({fmt::format("epsilon_{}_codes", ulps),
+                       fmt::format("an epsilon of {} codes of depth added before peeled depths are compared", ulps),
+                       Place::machine, [ulps](Experiment& e) {
+                           if (!takes_epsilon(e)) return false;
+                           e.options.compare_epsilon.ulps += ulps;
+                           return true;
+                       }});
+    for (const int bits : {24, 20, 14, 10})
+        all.push_back({fmt::format("epsilon_2_{}", bits),
+                       fmt::format("an epsilon of 2^-{} added before peeled depths are compared", bits), Place::machine,
+                       [bits](Experiment& e) {
+                           if (!takes_epsilon(e)) return false;
+                           e.options.compare_epsilon.absolute += 1.0 / (1 << bits);
+                           return true;
+                       }});
+}
+
+void add_background(std::vector<Mistake>& all) {
+    all.push_back(
+        {"background_none", "a transparent background (--background none)", Place::machine, [](Experiment& e) {
+             e.options.background = {0, 0, 0, 0};
+             return true;
+         }});
+    all.push_back({"background_alpha_0", "the background's colour with alpha 0", Place::machine, [](Experiment& e) {
+                       auto& background = e.options.background;
+                       background[3] = 0;
+                       return background != pipeline::Rgba{0, 0, 0, 0};
+                   }});
+}
+
+}  // namespace
+
+std::vector<Mistake> machine_options(const peeling::Algorithm& algorithm, const RightRun& right,
+                                     std::span<const DeviceProfile> more) {
+    std::vector<Mistake> all;
+    add_blends(all);
+    add_formats(all);
+    for (const DeviceProfile& profile : more) add_profile(all, profile);
+    for (const DeviceProfile& profile : pipeline::builtin_profiles()) add_profile(all, profile);
+    add_limits(all, algorithm, right);
+    add_epsilons(all);
+    add_background(all);
+    return all;
+}
+
+}  // namespace strata::oracle
