@@ -29,7 +29,7 @@ const Algorithm* find_algorithm(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
-// Targets count by their number alone here: their blends are checked by each pass (pipeline/region/check_pass.h).
+// Targets count by their number alone here: their blends are checked by each pass (pipeline/frame/check_pass.h).
 pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile) {
     if (auto lacking = check(profile, std::span{algorithm.features})) return lacking;
     const std::vector<pipeline::Blend> targets(static_cast<std::size_t>(algorithm.render_targets));

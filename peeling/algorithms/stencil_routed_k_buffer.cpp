@@ -46,7 +46,6 @@ Capture capture(Region& region, Target stencil, int pass) {
                                .pass = StencilOp::decr},
                      .back = {}};
     state.stencil_target = stencil;
-    state.saturates_by_design = true;
     state.color[0] = into.color;
     state.reads[0] = region.opaque_depth();
     state.needs = code_with_color;

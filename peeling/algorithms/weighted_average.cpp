@@ -4,10 +4,9 @@
 // Needs      fp16 additive blending, two render targets.
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
-// By default the programs below are the definition and do not run. Outside literal execution, and where nothing is
-//            textured, the rasterizer's rows add straight into fp16 and binary32 targets (pipeline/stages/sum_rows.h;
-//            Region::draw_sums chooses). They need AVX2 and half conversion, and are proved equal to the programs by
-//            tests/peeling/execution_test.cpp.
+// Outside literal execution, and where nothing is textured, the rasterizer's rows add straight into fp16 and binary32 targets
+//            (pipeline/stages/sum_rows.h; Region::draw_sums chooses). They need AVX2 and half conversion, and are proved equal
+//            to the pass by tests/peeling/execution_test.cpp.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
 
@@ -27,10 +26,7 @@ Target accumulate(Region& region, Target sums, Target count) {
     state.blend = {blend_mode::sum, blend_mode::sum};
     state.needs.shader_z = state.needs.code = false;
     region.begin_iteration();
-    static_cast<void>(region.draw_sums(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
-        premultiply(in.color, out.color[0], lanes(in));
-        set(out.color[1], {1, 0, 0, 1}, lanes(in));
-    }));
+    static_cast<void>(region.draw_sums(state));
     return sums;
 }
 

@@ -26,9 +26,7 @@ void run(Region& region) {
     add.blend[0] = blend_mode::sum;
     add.needs.shader_z = add.needs.code = false;
     region.begin_iteration();
-    static_cast<void>(region.draw_sums(add, [](const FragmentBatch& in, const Loads&, Outputs& out) {
-        premultiply(in.color, out.color[0], lanes(in));
-    }));
+    static_cast<void>(region.draw_sums(add));
     PassState resolve;
     resolve.color[0] = result;
     resolve.reads = {sums, region.opaque_color()};

@@ -23,7 +23,6 @@ using rasterizer::ordered_code;  // the audit's form of a shader_z key
 
 // out = (c a, a): what UNDER and additive blending expect.
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
-void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept;
 // A fragment dies unless its code is greater than the one already peeled at its pixel.
 void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
                     pipeline::Outputs& out) noexcept;
@@ -43,11 +42,6 @@ inline void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes&
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < count; ++i) out[c][i] = color[c][i] * color[3][i];
     for (std::size_t i = 0; i < count; ++i) out[3][i] = color[3][i];
-}
-
-inline void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept {
-    for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < count; ++i) lanes[c][i] = value[c];
 }
 
 inline void discard_peeled(const pipeline::Lanes<std::uint32_t>& code, const pipeline::Lanes<std::uint32_t>& peeled,

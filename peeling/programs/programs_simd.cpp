@@ -25,10 +25,6 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
     scalar::premultiply(color, out, padded(count));
 }
 
-[[gnu::flatten]] void set_lanes(ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) {
-    scalar::set(lanes, value, padded(count));
-}
-
 [[gnu::flatten]] void discard_lanes(const MaskLanes& code, const MaskLanes& peeled, MaskLanes& alive,
                                     std::size_t count) {
     scalar::discard_peeled(code, peeled, alive, padded(count));
@@ -79,7 +75,6 @@ HWY_AFTER_NAMESPACE();
 namespace strata::peeling {
 
 STRATA_EXPORT(premultiply_lanes);
-STRATA_EXPORT(set_lanes);
 STRATA_EXPORT(discard_lanes);
 STRATA_EXPORT(classify_lanes);
 STRATA_EXPORT(min_max_lanes);
@@ -91,11 +86,6 @@ inline namespace strict {
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
     if (simd_is_scalar()) return scalar::premultiply(color, out, count);
     kernel_of(HWY_DISPATCH_TABLE(premultiply_lanes))(color, out, count);
-}
-
-void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept {
-    if (simd_is_scalar()) return scalar::set(lanes, value, count);
-    kernel_of(HWY_DISPATCH_TABLE(set_lanes))(lanes, value, count);
 }
 
 void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,

@@ -38,9 +38,8 @@ struct PassState {
     bool replaces_depth = false;       // the program may leave another depth (Outputs::depth)
     rasterizer::FragmentNeeds needs;   // what the program looks at; the stages add what they need themselves
     std::span<const PrimitiveRange>
-        primitives{};                  // of a geometry pass: these alone, ascending and disjoint; empty: all
-    FragmentSelection selection;       // of a geometry pass: the fragments that decide what it leaves
-    bool saturates_by_design = false;  // a stencil count that stops at its limit is what the listing wants
+        primitives{};             // of a geometry pass: these alone, ascending and disjoint; empty: all
+    FragmentSelection selection;  // of a geometry pass: the fragments that decide what it leaves
 };
 
 // The values that a program may load: the declared reads, gathered at the fragments' own pixels.

@@ -1,9 +1,26 @@
 // pipeline/region/region.cpp - a region from its parts, and the opaque scene that is there before the body starts (execution.md 1.1).
 #include "pipeline/region/region.h"
 
+#include <algorithm>
+
 #include "pipeline/region/region_scratch.h"
 
 namespace strata::pipeline {
+
+namespace {
+
+// The terms of a weighted sum: (c a, a), and 1 for every further target.
+void leave_terms(const PassState& state, const FragmentBatch& in, Outputs& out) noexcept {
+    const auto lanes = static_cast<std::size_t>(in.count);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < lanes; ++i) out.color[0][c][i] = in.color[c][i] * in.color[3][i];
+    std::copy_n(in.color[3].begin(), lanes, out.color[0][3].begin());
+    for (std::size_t k = 1; k < state.color.size(); ++k)
+        if (state.color[k].exists())
+            for (Lanes<float>& ones : out.color[k]) std::fill_n(ones.begin(), lanes, 1.0f);
+}
+
+}  // namespace
 
 void RegionShared::trace(const TraceEntry& entry) const {
     scratch.trace.push_back(entry);
@@ -99,7 +116,9 @@ Drawn Region::draw_depth(const PassState& state) {
     return drawn;
 }
 
-Drawn Region::draw_sum_rows(const PassState& state) {
+Drawn Region::draw_sums(const PassState& state) {
+    if (!source_.sums_suit_rows(state))
+        return draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) { leave_terms(state, in, out); });
     Drawn drawn;
     drawn.passed.own_ = source_.draw_sum_rows(state).passed;
     return drawn;

@@ -65,12 +65,9 @@ class Region {
     Drawn draw(const PassState& state, const PreparedDraw& list, P&& program);
     // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it can.
     Drawn draw_depth(const PassState& state);
-    // One geometry pass that adds (c a, a) of every fragment to color[0], and 1 to color[1] if it is there. `program` says the
-    // same of a batch, and runs where the sums cannot go straight into the targets.
-    template <FragmentProgram P>
-    Drawn draw_sums(const PassState& state, P&& program) {
-        return source_.sums_suit_rows(state) ? draw_sum_rows(state) : draw(state, program);
-    }
+    // One geometry pass whose program leaves (c a, a) of every fragment to color[0], and 1 to each further target: straight into
+    // the targets where `state` adds them, and nothing else is done to them.
+    Drawn draw_sums(const PassState& state);
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
@@ -113,7 +110,6 @@ class Region {
     Drawn draw_visits(const PassState& state, P& program);
     template <class P>
     void run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, Drawn& drawn);
-    Drawn draw_sum_rows(const PassState& state);
     Drawn checked(const std::function<Drawn()>& quick, const std::function<Drawn()>& definition);
 
     RegionScratchPool* pool_;

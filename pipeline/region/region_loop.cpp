@@ -18,7 +18,7 @@ void Loop::begin_iteration() {
     ++shared_.books.loops.back().iterations;
 }
 
-// A tile that counts nothing and has promised to be idle stops on its own word.
+// A tile that counts nothing stops; the executor runs it again, with what the frame answered, unless it has promised to be idle.
 bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.books.pass_log.queries;
@@ -26,7 +26,6 @@ bool Loop::any(Count count, Idle idle) {
     LoopBooks& loop = shared_.books.loops.back();
     const std::size_t index = loop.decisions.size(), number = shared_.books.loops.size() - 1;
     const bool is_known = number < shared_.books.script.size() && index < shared_.books.script[number].size();
-    const bool finished = !shared_.is_frame() && count.own_ == 0 && idle != Idle::no;
     bool answer = false;
     if (is_known) {
         answer = shared_.books.script[number][index];
@@ -35,7 +34,6 @@ bool Loop::any(Count count, Idle idle) {
     } else {
         answer = count.own_ > 0;
     }
-    if (finished && !is_known) answer = false;
     if (const Alteration* a = shared_.alteration(); a != nullptr && a->query) answer = a->query(count.own_, answer);
     loop.decisions.push_back({count.own_, idle, answer});
     shared_.show({.step = Step::query, .passed = count.own_, .answer = answer});

@@ -11,41 +11,21 @@
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "pipeline/fragments/tile_cache.h"
+#include "pipeline/frame/check_pass.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
-#include "pipeline/region/check_pass.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
+#include "pipeline/region/stage_lanes.h"
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/blend.h"
-#include "pipeline/stages/depth_test.h"
-#include "pipeline/stages/stencil.h"
 #include "pipeline/textures/shadow_stage.h"
 #include "pipeline/textures/texture_sample.h"
 
 namespace strata::pipeline {
 
 namespace {
-
-constexpr auto saturated_stencil = "INCR or DECR at the end of the 8-bit range";
-
-// The one channel of a depth or stencil plane.
-Texels codes_in(Plane plane) noexcept { return {plane, 1, 32}; }
-
-PixelLanes lanes_of(const FragmentBatch& batch) noexcept {
-    return {batch.pixel.data(), static_cast<std::size_t>(batch.count)};
-}
-
-std::uint64_t count_lanes(const Lanes<std::uint32_t>& mask, int count) noexcept {
-    return pipeline::count_lanes(mask.data(), static_cast<std::size_t>(count));
-}
-
-constexpr auto every_lane = [] {
-    Lanes<std::uint32_t> lanes{};
-    lanes.fill(~0u);
-    return lanes;
-}();
 
 // Cuts what the blender left to the bits that a narrow surface stores (formats.md 4.1).
 void narrow(Format format, ColorCodes& codes, int count) noexcept {
@@ -65,10 +45,6 @@ const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorL
 // Blending ONE and ZERO, which leaves an UNORM8 source as it is (execution.md 6.1); the write mask stays the pass's.
 Blend idle(const Blend& blending) {
     return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask};
-}
-
-std::uint64_t pixel_bytes(const TargetStorage& s) {
-    return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
 }
 
 }  // namespace
@@ -268,87 +244,6 @@ void Stages::record_trace(const FragmentBatch& batch, const Outputs& out, const 
         if (alive[i] != 0 && out.side[i] != Side::none)
             shared_.trace({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
                            out.side[i], kind_ == PassKind::geometry});
-}
-
-// The units test one after the other, without a write; a fragment stops at the first that fails (fragment-stages.md 4).
-void Stages::test_depth_units(const PassState& state, const FragmentBatch& batch, int sample,
-                              Lanes<std::uint32_t>& alive) {
-    for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
-        TargetStorage& target = targets_.at(state.depth_units[unit].depth);
-        const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
-        const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(sample),
-                                              lanes_of(batch), batch.code.data(), alive.data());
-        shared_.count(of_depth_test(pixel_bytes(target), result.arriving, result.passed, false));
-    }
-}
-
-// Three ways to one result: the test is known to pass and only booked (depth_outcome), depth alone in one kernel, or
-// stencil and depth together, because the stencil operation depends on both (fragment-stages.md 5).
-std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
-                                             Lanes<std::uint32_t>& alive) {
-    RegionScratch& s = shared_.scratch;
-    TargetStorage* const depth = state.depth.enabled ? &targets_.at(state.depth_target) : nullptr;
-    DepthResult tested;
-    std::uint64_t stencil_killed = 0;
-    if (depth_ == DepthOutcome::passes) {
-        tested.arriving = tested.passed = count_lanes(alive, batch.count);
-    } else if (!state.stencil.enabled) {
-        tested = test_depth(state.depth, depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
-                            batch.code.data(), alive.data());
-    } else {
-        // The depth's answer for every fragment first; it is written when the stencil has had its say.
-        tested.arriving = count_lanes(alive, batch.count);
-        std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
-        if (depth != nullptr)
-            static_cast<void>(test_depth({.enabled = true, .func = state.depth.func, .write = false},
-                                         depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
-                                         batch.code.data(), s.depth_pass.data()));
-        stencil_killed = test_stencil(state, batch, sample, alive);
-        tested.passed = count_lanes(alive, batch.count);
-        if (depth != nullptr && state.depth.write)
-            scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
-    }
-    // What is compared may be wider than what is kept (depth.md 2.9).
-    if (shared_.wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-            depth->depth_plane(sample).words[batch.pixel[i]] &= rasterizer::max_code(depth_format(depth->format()));
-    shared_.count({.stencil_killed = stencil_killed});
-    if (depth != nullptr)
-        shared_.count(
-            of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write));
-    return tested.passed;
-}
-
-// Dead lanes are written back with the value that they had: no pixel occurs twice in a batch. A stencil value is a byte
-// of traffic, read and written by every fragment that arrives.
-std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
-                                   Lanes<std::uint32_t>& alive) {
-    RegionScratch& s = shared_.scratch;
-    const Texels stencil = codes_in(targets_.at(state.stencil_target).stencil_plane(sample));
-    const std::uint64_t arriving = count_lanes(alive, batch.count);
-    gather_codes(stencil, lanes_of(batch), &s.stencil_stored);
-    const int killed = stencil_test(state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
-                                                    s.stencil_stored.data(), s.saturated.data(), batch.count});
-    scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
-    shared_.count({.bytes_read = arriving, .bytes_written = arriving});
-    if (!state.saturates_by_design) report_saturation(batch);
-    return static_cast<std::uint64_t>(killed);
-}
-
-// A pixel is reported once, however often it saturates, so that the report does not depend on batches.
-void Stages::report_saturation(const FragmentBatch& batch) {
-    const Lanes<std::uint32_t>& saturated = shared_.scratch.saturated;
-    if (count_lanes(saturated, batch.count) == 0) return;
-    has_saturated_.resize(shared_.rect().area());
-    std::uint64_t pixels = 0;  // that had not saturated before
-    std::uint32_t first = ~0u;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-        if (saturated[i] == 0 || has_saturated_[batch.pixel[i]]) continue;
-        has_saturated_[batch.pixel[i]] = true;
-        first = std::min(first, batch.pixel[i]);
-        ++pixels;
-    }
-    shared_.report(Fault::stencil_saturated, pixels, first, saturated_stencil);
 }
 
 void Stages::open_cache(const PassState& state) {

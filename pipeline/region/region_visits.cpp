@@ -24,8 +24,8 @@ bool routes_arrivals(const PassState& state) {
     const StencilFace counts_down{
         .func = CompareFunc::equal, .ref = face.ref, .fail = decr, .depth_fail = decr, .pass = decr};
     return state.stencil.enabled && !state.stencil.two_sided && face == counts_down && face.ref > 0 &&
-           state.saturates_by_design && state.sample_mask == 0xff && !state.alpha.enabled &&
-           state.depth_unit_count == 0 && state.selection.outside == Outside::dies &&
+           state.sample_mask == 0xff && !state.alpha.enabled && state.depth_unit_count == 0 &&
+           state.selection.outside == Outside::dies &&
            state.depth == DepthTest{.enabled = true, .func = CompareFunc::always, .write = true};
 }
 

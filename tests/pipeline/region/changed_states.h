@@ -67,8 +67,6 @@ inline const std::vector<Change>& changes() {
         face("stencil depth fail", [](StencilFace& f) { f.depth_fail = StencilOp::replace; }),
         face("stencil pass", [](StencilFace& f) { f.pass = StencilOp::incr_wrap; }),
         {"two-sided stencil", [](PassState& s, Region&) { s.stencil.two_sided = true; }},
-        {"a stencil that saturates by design or not",
-         [](PassState& s, Region&) { s.saturates_by_design = !s.saturates_by_design; }},
         {"blending",
          [](PassState& s, Region&) {
              if (!s.blend[0].enabled) s.blend[0] = blend_mode::sum;

@@ -284,12 +284,12 @@ TEST_CASE("a pass draws the named primitives alone, in order, and an empty range
     CHECK(drawn_reds({{2, 2}}).empty());
 }
 
-TEST_CASE("a stencil count that stops by design is no fault") {
+TEST_CASE("a stencil count that stops where arrivals are routed is no fault") {
     Machine m{stacks({300}), "geforce8"};
     PassState state;
     state.stencil = every_fragment(StencilOp::incr);
     state.stencil_target = m.region.make(Format::s8);
-    state.saturates_by_design = true;
+    state.selection.keeps = Keeps::arrivals;
     static_cast<void>(m.region.draw(state, write_nothing));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 255);
     CHECK(m.books.diagnostics.empty());

@@ -51,14 +51,7 @@ void draw_rows(Region& region, RowPass kind, const Changed& change) {
             state.blend[1] = blend_mode::sum;
         }
         change(state, region);
-        static_cast<void>(region.draw_sums(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
-            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-                const float alpha = in.color[3][i];
-                for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * alpha;
-                out.color[0][3][i] = alpha;
-                for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = out.color[2][c][i] = 1.0f;
-            }
-        }));
+        static_cast<void>(region.draw_sums(state));
     }
     region.publish(region.opaque_color());
 }

@@ -120,7 +120,6 @@ void draw_stage(Region& region, const Stage& stage, const Changed& change) {
         for (int s = 0; stage.keeps == Keeps::arrivals && s < stage.samples; ++s)
             region.clear(state.stencil_target, {.stencil = static_cast<std::uint8_t>(s + 2)},
                          static_cast<std::uint8_t>(1u << s));
-        state.saturates_by_design = stage.keeps == Keeps::arrivals;
     }
     const StageProgram program{stage, region.frame().key};
     state.color[0] = region.make(stage.color, stage.samples);

@@ -1,4 +1,4 @@
-// pipeline/region/check_pass.h - a pass against the machine that shall run it, before its first fragment.
+// pipeline/frame/check_pass.h - a pass against the machine that shall run it, before its first fragment.
 #pragma once
 #include <vector>
 

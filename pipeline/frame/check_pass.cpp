@@ -1,7 +1,7 @@
-// pipeline/region/check_pass.cpp - two kinds of "no". A pass that no machine could run is a mistake of the program:
+// pipeline/frame/check_pass.cpp - two kinds of "no". A pass that no machine could run is a mistake of the program:
 // std::logic_error (devices.md 9.3). A pass that this profile lacks something for is an outcome: Refused (devices.md
 // 9.2).
-#include "pipeline/region/check_pass.h"
+#include "pipeline/frame/check_pass.h"
 
 #include <algorithm>
 #include <span>
