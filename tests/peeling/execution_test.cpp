@@ -31,17 +31,17 @@ const std::vector<Ending> endings{{"exact", {}, 0},
                                   {"max_passes", {}, 3},
                                   {"the first pass", {}, 1}};
 
-const std::vector<Machine> machines = [] {
+std::vector<Machine> machines() {
     auto all = machines_of(Kind::loop);
     all.push_back({"ideal", "dual"});
     return all;
-}();
+}
 
 // Every machine, ended in each of these ways.
 void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen) {
     const TriangleScene triangles{draw_list(scene), {}};
     for (const Ending& ending : chosen)
-        for (const Machine& machine : machines) {
+        for (const Machine& machine : machines()) {
             RenderOptions options = options_for(scene);
             options.termination = ending.termination;
             options.max_passes = ending.max_passes;
@@ -49,9 +49,6 @@ void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen
             check_all_ways(triangles, machine, options);
         }
 }
-
-// The algorithms of a partial order, whose queries stand inside an iteration.
-const std::vector<Machine> partial_order = machines_of(Kind::partial_order);
 
 }  // namespace
 
@@ -61,7 +58,7 @@ TEST_CASE("algorithms of a partial order execute alike, resolved and as publishe
     scene.list.instances[0].arrives_sorted = true;  // it does not, which changes no execution
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[8], ways[12]};
     for (const Ending& ending : endings)
-        for (const Machine& machine : partial_order)
+        for (const Machine& machine : machines_of(Kind::partial_order))
             for (const auto formulation :
                  {strata::pipeline::Formulation::resolved, strata::pipeline::Formulation::published}) {
                 RenderOptions options = small_frame();
@@ -80,7 +77,7 @@ TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm,
           "[slow]") {
     const TriangleScene scene = random_triangles(71, 16);
     for (const Ending& ending : endings)
-        for (const Machine& machine : machines) {
+        for (const Machine& machine : machines()) {
             RenderOptions options = small_frame();
             options.termination = ending.termination;
             options.max_passes = ending.max_passes;
@@ -91,7 +88,7 @@ TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm,
 
 TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute alike", "[slow]") {
     for (const TriangleScene& scene : {random_triangles(72, 12, 0.25f), random_triangles(73, 0), opaque_only(74, 8)})
-        for (const Machine& machine : machines) {
+        for (const Machine& machine : machines()) {
             RenderOptions options = small_frame();
             check_all_ways(scene, machine, options);
             options.termination.rule = TerminationRule::paper;
@@ -163,7 +160,7 @@ TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits
     TriangleScene scene = random_triangles(78, 30);
     scene.view.view = {0.95, 0.02, 0.1, 0, -0.03, 0.99, 0.05, 0, -0.1, -0.04, 0.97, 0, 0.01, 0.02, -0.03, 1};
     for (auto& instance : scene.list.instances) instance.model[0][0] = 1.1;  // the matrices' product must be rounded
-    for (const Machine& machine : machines) {
+    for (const Machine& machine : machines()) {
         RenderOptions options = small_frame();
         options.threads = 2;
         const RenderResult expected = render(scene.list, scene.view, machine, options);

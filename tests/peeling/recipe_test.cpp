@@ -1,5 +1,7 @@
-// The file that tools/new_algorithm.py writes, compiled as it is and run. Model: unsorted, which draws the same.
+// The files that tools/new_algorithm.py writes: the listing compiled as it is and run. Models: unsorted, which draws the same; lines by hand.
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
 
 #include "peeling/registry.h"
 #include "tests/peeling/rendering.h"
@@ -14,6 +16,18 @@ namespace {
 
 using namespace strata::testing;
 using namespace strata::peeling;
+
+std::string text_of(const std::string& name) {
+    std::ostringstream text;
+    text << std::ifstream{STRATA_RECIPE "/" + name}.rdbuf();
+    return text.str();
+}
+
+std::size_t times(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+    return found;
+}
 
 }  // namespace
 
@@ -36,4 +50,18 @@ TEST_CASE(
     const RenderResult refused = on("geforce3");
     CHECK(refused.outcome == Outcome::refused);
     CHECK(refused.refusal.value().feature == "fragment programs that discard after a compare");
+}
+
+TEST_CASE("a new algorithm has the last section of the page and the first line of the changes") {
+    const std::string book = text_of("peeling/reference/algorithms.md");
+    const int listed = listing::drawn_by_recipe::entries()[0].listed;
+    const std::string heading = "\n## " + std::to_string(listed / 10) + " `drawn_by_recipe`\n";
+    REQUIRE(times(book, heading) == 1);
+    CHECK(times(book, "\n## " + std::to_string(listed / 10) + " ") == 1);
+    CHECK(book.find("\n## ", book.find(heading) + 1) == std::string::npos);
+    for (const Algorithm& other : algorithms()) CHECK(other.listed < listed);
+    const std::string changes = text_of("CHANGELOG.md");
+    const std::size_t version = changes.find("\n## ");
+    CHECK(changes.find("\n\n- Algorithm `drawn_by_recipe` (Nobody 1999): what it does.\n- ") ==
+          changes.find('\n', version + 1));
 }
