@@ -104,7 +104,7 @@ def page_of(folder, lines, picture):
         sentence_on_algorithms(ran), "", sentence_on_flicker(ran), "",
         *check_rows(lines), "",
         "Unexpected results, for instance that a 24-bit buffer can separate two planes that a binary32 buffer cannot, are explained in",
-        "[README.md](README.md).", "",
+        "[FINDINGS.md](FINDINGS.md).", "",
         "## The whole table", "",
         "    tools/hard_cases/make_page.sh", "",
         f"It takes {minutes(folder)} minutes of processor time and writes this page. `build/hard_cases/RESULTS.md` then has a section for every case:",
