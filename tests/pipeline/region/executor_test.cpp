@@ -306,6 +306,27 @@ TEST_CASE("passes behind a branch's answer are the frame's, whichever tile is id
     }
 }
 
+// Every iteration adds to all pixels, so that a tile with nothing left is not idle.
+TEST_CASE("a promise that is not kept shows where no promise is trusted") {
+    const TestFrame test{spots({{1, {0}}, {28, {0, 1, 2}}}), "geforce8"};
+    const Body broken = [](Region& region) {
+        const Target sum = region.make_color();
+        for (int slot = 0; slot < slots; ++slot) {
+            region.begin_iteration();
+            const Count found = count_slot(region, slot);
+            add_one(region, sum, 0);
+            if (!region.any(found, Idle::yes)) break;
+        }
+        region.publish(sum);
+    };
+    const auto left_by = [&](Execution execution, bool trust) {
+        return run(test.frame, broken, execution, 1, {}, {.trust_idle = trust}).color;
+    };
+    const Image literal = left_by(Execution::literal, true);
+    CHECK(left_by(Execution::replay, false) == literal);
+    CHECK_FALSE(left_by(Execution::replay, true) == literal);
+}
+
 TEST_CASE("what a program loads is its own pixel's, wherever its region lies and wherever its fragments come from") {
     std::vector<Spot> everywhere_once;
     for (std::size_t pixel = 0; pixel < 32 * 16; ++pixel)

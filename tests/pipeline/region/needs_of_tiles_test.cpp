@@ -85,6 +85,27 @@ TEST_CASE(
     }
 }
 
+// The first pass's test can fail nowhere and is left out; a quad at the depth of the cleared surface is not before it.
+TEST_CASE("a test that one pass need not make is made by the quad behind it") {
+    const TestFrame test{two_tiles(false), {}, 2 * tile_side, tile_side, "geforce8", tile_side};
+    const Body body = [](Region& region) {
+        PassState state = colors_before_surface(region);
+        draw_colors(region, state);
+        const Drawn drawn = region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs& out) {
+            out.replaces_depth = true;
+            out.depth.fill(std::bit_cast<std::uint32_t>(1.0f));
+            for (Lanes<float>& channel : out.color[0]) channel.fill(1.0f);
+        });
+        CHECK_FALSE(region.any(drawn.passed, Idle::no));
+        region.publish(state.color[0]);
+    };
+    for (const Execution execution : {Execution::literal, Execution::replay}) {
+        const FrameResult result = run(test.frame, body, execution, 1);
+        CHECK(result.color.codes[0] == 0);
+        CHECK(result.color.codes[4 * 3] != 0);
+    }
+}
+
 // Of two fragments on pixel 3 the nearer one is of the other primitive. Depths are exact, and so are their codes.
 TEST_CASE("a pass of depth alone draws the primitives that it names, by rows as by batches") {
     FragmentScene scene{tile_side, tile_side};
