@@ -20,7 +20,7 @@ LISTING = '''\
 // Passes     1.
 // Invariant  what holds before each pass.
 #include "peeling/algorithms/entry.h"
-#include "peeling/programs/programs.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling::listing::NAME {
 
@@ -34,8 +34,7 @@ void run(Region& region) {
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
     state.depth_target = region.opaque_depth();
     state.color[0] = color;
-    state.blend[0] = blend_mode::over;
-    state.blend[0].write_mask = 0x7;  // the final alpha stays 1
+    state.blend[0] = over_background(region.frame());
     region.begin_iteration();
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         out.color[0] = in.color;

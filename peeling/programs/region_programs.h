@@ -3,6 +3,7 @@
 #include "peeling/programs/programs.h"
 #include "peeling/programs/under.h"
 #include "pipeline/region/region.h"
+#include "rasterizer/rules/depth_key.h"
 
 namespace strata::peeling {
 // The window of a peel that keeps the nearest fragment behind `peeled`, by whatever depth it compares.
@@ -21,6 +22,12 @@ inline namespace strict {
 // first pass that draws other vertices and compares nothing may find nothing where the second finds such a fragment.
 [[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
     return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::yes : pipeline::Idle::no;
+}
+
+// A fragment's window depth, whatever the depth order: `shader_z` is the key that orders fragments (depth.md 11.2).
+[[nodiscard]] inline float window_z(const pipeline::Frame& frame, float shader_z) noexcept {
+    const bool is_reversed = frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
+    return is_reversed ? rasterizer::depth_key(shader_z) : shader_z;
 }
 
 // OVER, straight onto premultiplied: onto an opaque background alpha stays 1 and is not written, else it is 1 - (1 - alpha) (1 - A).

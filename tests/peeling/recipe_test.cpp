@@ -39,6 +39,7 @@ TEST_CASE(
     const TriangleScene scene = random_triangles(2001, 60);
     RenderOptions options;
     options.width = options.height = 64;
+    options.background = {0.25f, 0.125f, 0, 0.5f};
     const auto on = [&](const char* profile) {
         Renderer renderer{scene.list, scene.view, *strata::pipeline::find_profile(profile), options};
         return renderer.render(entries[0]);

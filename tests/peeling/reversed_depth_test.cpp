@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "peeling/programs/region_programs.h"
 #include "peeling/registry.h"
 #include "pipeline/device/check.h"
 #include "tests/peeling/rendering.h"
@@ -93,6 +94,36 @@ DrawList two_walls(float distance, float gap) {
 }
 
 }  // namespace
+
+TEST_CASE("a program reads the window depth under either depth order") {
+    FragmentScene scene{2, 1};
+    scene.pixels[0].fragments = {{0.25f, {1, 1, 1, 0.5f}}};
+    scene.pixels[1].fragments = {{0.875f, {1, 1, 1, 0.5f}}};
+    for (const DepthOrder order : {DepthOrder::less, DepthOrder::greater}) {
+        strata::peeling::Algorithm algorithm;
+        algorithm.name = "depths";
+        algorithm.body = [](Region& region) {
+            const Target depths = region.make(Format::rgba32f);
+            PassState state;
+            state.color[0] = depths;
+            static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+                for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                    for (Lanes<float>& channel : out.color[0])
+                        channel[i] = strata::peeling::window_z(region.frame(), in.shader_z[i]);
+            }));
+            region.publish(depths);
+        };
+        const auto clip = ClipDepth::zero_to_one;
+        RenderOptions options = options_under(scene, clip, order);
+        options.color_format = Format::rgba32f;
+        const DrawList list = draw_list(scene);
+        strata::peeling::Renderer renderer{list, view_under(clip, order), *find_profile("ideal"), options};
+        const RenderResult result = renderer.render(algorithm);
+        const auto depth = [&](std::size_t pixel) { return std::bit_cast<float>(result.frame.color.codes[4 * pixel]); };
+        CHECK(depth(0) == (order == DepthOrder::less ? 0.25f : 0.75f));
+        CHECK(depth(1) == (order == DepthOrder::less ? 0.875f : 0.125f));
+    }
+}
 
 TEST_CASE("under GREATER every algorithm composites what it does under LESS, and its depths are 1 - d", "[slow]") {
     int ran = 0, refused = 0;
