@@ -43,7 +43,7 @@ def command_of(options, model, algorithm, profile):
 
 
 def passes_of(command, algorithm):
-    done = subprocess.run([*command, "--algorithm", algorithm, "--threads", "1", "--warm-up", "0", "--repeat", "1", "--json", "-"],
+    done = subprocess.run([*command, "--algorithm", algorithm, "--threads", "1", "--warm-up", "0", "--repeat", "1", "--json"],
                           stdout=subprocess.PIPE, text=True, check=True)
     return int(re.search(r'"geometry_passes": *(\d+)', done.stdout).group(1))
 

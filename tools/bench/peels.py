@@ -59,7 +59,7 @@ def processor_ms(command):
 
 def frame_seconds(command, algorithm, frames):
     """Of each frame in one process, on one thread."""
-    whole = [*command, "--algorithm", algorithm, "--threads", "1", "--warm-up", "0", "--repeat", str(frames), "--json", "-"]
+    whole = [*command, "--algorithm", algorithm, "--threads", "1", "--warm-up", "0", "--repeat", str(frames), "--json"]
     done = subprocess.run(whole, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"peels.py: {' '.join(whole)} ended with exit status {done.returncode}: {done.stderr.strip()}")
@@ -83,7 +83,7 @@ def bench_command(options, scene, size, profile, color_format, extra=()):
 def jobs(options, scene, size, profile, color_format, extra):
     """Milliseconds by algorithm; what the profile refuses is missing."""
     tried = [*bench_command(options, "teapot", "8x8", profile, color_format, extra), "--algorithm", "a_buffer," + options.algorithms,
-             "--repeat", "1", "--warm-up", "0", "--json", "-"]
+             "--repeat", "1", "--warm-up", "0", "--json"]
     done = subprocess.run(tried, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"peels.py: {' '.join(tried)} ended with exit status {done.returncode}: {done.stderr.strip()}")
@@ -98,7 +98,7 @@ def jobs(options, scene, size, profile, color_format, extra):
 def visits(options, scene, size, profile, color_format, extra, algorithm):
     """Fragments that the algorithm's programs run on, for each fragment of the list."""
     command = [*bench_command(options, scene, size, profile, color_format, extra), "--algorithm", f"unsorted,{algorithm}", "--repeat", "1",
-               "--warm-up", "0", "--counters", "--json", "-"]
+               "--warm-up", "0", "--counters", "--json"]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"peels.py: {' '.join(command)} ended with exit status {done.returncode}: {done.stderr.strip()}")

@@ -75,9 +75,9 @@ def bench(options, scene, *, small=False, execution="replay", memory="256M", sim
     spec = f"volume-beam:slices={options.slices // 4}" if small and scene.name == "planes" else scene.spec
     command = [options.strata, "bench", spec, *scene.options, "--size", options.small if small else options.size,
                "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--fragment-memory", memory, "--simd", simd,
-               "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-"]
+               "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json"]
     if counted:  # literally, in a run of each job's own
-        command.insert(-2, "--counters")
+        command.insert(-1, "--counters")
     line = " ".join(command)
     if (line, turn) not in MEASURED:
         print(line, file=sys.stderr)

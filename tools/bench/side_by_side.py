@@ -121,7 +121,7 @@ class Bench:
         result = os.path.join(self.folder, "strata.json")
         program = self.options.strata or os.path.join(self.options.build, "strata")
         run([program, "bench", *self.words(name, algorithm), "--algorithm", algorithm, "--profile", self.profile,
-             "--execution", "replay", "--json", result, *often])
+             "--execution", "replay", "--output", result, *often])
         with open(result, encoding="utf-8") as file:
             job = json.load(file)["jobs"][0]
         return {"all": job["seconds"]["all"], "passes": job["geometry_passes"]}
