@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""The first sentences and the plot of RESULTS.md, from the table of its suites: head.py TABLE.md RESULTS.svg; the sentences are printed."""
+"""The short page and its plot, from the table of suites that `strata hardware-check -o` wrote: head.py TABLE.md RESULTS.svg.
+
+The page, at most 600 words, is printed.
+"""
+import os
 import sys
 
 COLORS = {"equal": "#2a7f3f", "within bound": "#e0a030", "differ": "#c03030", "not modelled": "#a0a0a0"}
@@ -7,7 +11,7 @@ LINE, LEFT, UNIT = 15, 260, 14
 
 
 def suites_of(path):
-    """Name, and how many pictures are equal, within their bound, differ and are not modelled, and the pixels compared and off."""
+    """Name; pictures that are equal, within their bound, beyond it and not modelled; pixels compared and off; the largest difference."""
     found, inside = [], False
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -17,7 +21,7 @@ def suites_of(path):
             elif inside and not line.startswith("|"):
                 break
             elif inside and cells[1].isdigit():
-                found.append((cells[0], [int(cell) for cell in cells[2:6]], int(cells[6]), int(cells[7])))
+                found.append((cells[0], [int(cell) for cell in cells[2:6]], *map(int, cells[6:9])))
     if not found:
         raise SystemExit(f"{path}: expected a table of suites, found none")
     return found
@@ -31,23 +35,60 @@ def plot(suites):
     for name, color in COLORS.items():
         parts.append(f'<rect x="{place}" y="4" width="10" height="10" fill="{color}"/><text x="{place + 14}" y="13">{name}</text>')
         place += 110
-    for row, (name, counts, _, _) in enumerate(suites, 1):
+    for row, (name, counts, *_) in enumerate(suites, 1):
         top, place = LINE * row + 8, LEFT
         parts.append(f'<text x="{LEFT - 6}" y="{top + 10}" text-anchor="end">{name}</text>')
-        scale = min(UNIT, (790 - LEFT) / max(sum(counts) for _, counts, _, _ in suites))
+        scale = min(UNIT, (790 - LEFT) / max(sum(counts) for _, counts, *_ in suites))
         for count, color in zip(counts, COLORS.values()):
             parts.append(f'<rect x="{place:g}" y="{top}" width="{count * scale:g}" height="{LINE - 3}" fill="{color}"/>')
             place += count * scale
     return "\n".join(parts + ["</svg>", ""])
 
 
-def main():
-    suites = suites_of(sys.argv[1])
-    equal, within, differ, unknown = (sum(counts[i] for _, counts, _, _ in suites) for i in range(4))
+def row(name, suites):
+    pictures = [sum(counts[i] for _, counts, *_ in suites) for i in range(4)]
     pixels, off = (sum(suite[i] for suite in suites) for i in (2, 3))
-    print(f"Of {equal + within + differ + unknown} pictures that a real chip drew, {equal} come out equal in every bit, {within} within the bounds below, {differ} beyond them.\n"
-          f"{unknown} show what is not modelled; each is named below with the reason. Of {pixels:,} pixels compared {off:,} differ.\n\n"
-          "![Pictures by suite: equal, within their bound, beyond it, not modelled](RESULTS.svg)\n")
+    figures = [sum(pictures), *pictures, pixels, off, max(suite[4] for suite in suites)]
+    return f"| {name} | " + " | ".join(f"{figure:,}" for figure in figures) + " |"
+
+
+def table(suites):
+    """A row for each suite with a picture that is not equal, and one for all others."""
+    yield "| suite | pictures | equal | within bound | outside | not modelled | pixels compared | pixels off | largest difference |"
+    yield "|---" + "|---:" * 8 + "|"
+    equal = [suite for suite in suites if not any(suite[1][1:])]
+    yield from (row(suite[0], [suite]) for suite in suites if any(suite[1][1:]))
+    if equal:
+        yield row(f"{len(equal)} other suites", equal)
+
+
+def page(suites, unknown_suites, plot_name):
+    equal, within, differ, unknown = (sum(counts[i] for _, counts, *_ in suites) for i in range(4))
+    pixels, off = (sum(suite[i] for suite in suites) for i in (2, 3))
+    return "\n".join([
+        "# The profile geforce3 against a real chip", "",
+        "The question: does the profile `geforce3` give what a chip of that generation gave, bit by bit? `strata hardware-check` draws the pictures of a",
+        "public test suite again, from their names alone, and compares every pixel outside the labels with the captures of an NV2A, the GeForce3-class",
+        "core of the Xbox (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0).", "",
+        f"Of {equal + within + differ + unknown} captures {equal} are equal in every bit, {within} are within the bound of their suite, and {differ} are outside. {unknown} show features that are not",
+        f"modelled. Of {pixels:,} pixels compared {off:,} differ. {len(unknown_suites)} suites more, of {sum(sum(s[1]) for s in unknown_suites)} captures, show nothing that is modelled.", "",
+        f"![Pictures by suite: equal, within their bound, outside, not modelled]({plot_name})", "",
+        *table(suites), "",
+        "A difference is one of codes: of a colour channel, or of the stored depth. *Within bound*: few pixels differ, by few codes, and the cause is",
+        "known but for its last bits; the bounds are in [suites](suites). *Outside*: the w buffer with a slope or with float depth, whose weights are not",
+        "known to the last bit. [open_questions.md](open_questions.md) has what is not known, and what was tried.", "",
+        "The captures are not in this repository. `tests/tools/hardware_check/hardware_digests.txt` keeps a digest of each picture that is equal, which",
+        "tests compare with what the profile draws now.", "",
+        "## The whole table", "",
+        "    tools/hardware_check/make_page.sh CAPTURES", "",
+        "CAPTURES holds SUITE/NAME.png of the archive, or a part of it. The command writes this page; `build/hardware_check/RESULTS.md` then has what each",
+        "suite shows, every picture that is not equal with its first pixel, and the score of each rule of the profile against its alternatives."])
+
+
+def main():
+    found = suites_of(sys.argv[1])
+    suites = [suite for suite in found if any(suite[1][:3])]
+    print(page(suites, [suite for suite in found if suite not in suites], os.path.basename(sys.argv[2])))
     with open(sys.argv[2], "w", encoding="utf-8") as file:
         file.write(plot(suites))
     return 0

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Makes tools/hardware_check/RESULTS.md anew: tools/hardware_check/make_page.sh CAPTURES [STRATA]
+# Writes RESULTS.md and its plot, and the whole page to build/hardware_check/RESULTS.md: tools/hardware_check/make_page.sh CAPTURES [STRATA]
 # CAPTURES holds SUITE/NAME.png of abaire/nxdk_pgraph_tests_golden_results (CC0 1.0), or a part of them.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 trap 'echo "tools/hardware_check/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
 [ $# -ge 1 ] || { echo "usage: tools/hardware_check/make_page.sh CAPTURES [STRATA]" >&2; exit 2; }
-captures=$1 strata=${2:-build/release/strata}
+captures=$1 strata=${2:-build/release/strata} out=${OUT:-build/hardware_check}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -13,10 +13,11 @@ status=0
 "$strata" hardware-check "$captures" -o "$work/report" >/dev/null || status=$?
 [ "$status" -le 1 ] || exit "$status"  # 1: a picture is outside its bound, and the page says so
 "$strata" hardware-check "$captures" --hypotheses >"$work/hypotheses.txt"
+tools/hardware_check/head.py "$work/report/report.md" tools/hardware_check/RESULTS.svg >tools/hardware_check/RESULTS.md
+mkdir -p "$out"
 {
-    head -2 tools/hardware_check/introduction.md
-    tools/hardware_check/head.py "$work/report/report.md" tools/hardware_check/RESULTS.svg
-    tail -n +3 tools/hardware_check/introduction.md
+    cat tools/hardware_check/introduction.md
+    echo
     sed -e '1,2d' -e '/!\[difference\]/d' "$work/report/report.md" | cat -s
     echo
     echo "## Hypotheses, each scored on the captures that it can change"
@@ -24,6 +25,4 @@ status=0
     echo '```'
     cat "$work/hypotheses.txt"
     echo '```'
-    echo
-    cat tools/hardware_check/open_questions.md
-} >tools/hardware_check/RESULTS.md
+} >"$out/RESULTS.md"
