@@ -146,7 +146,7 @@ def what_tests_see():
             "",
             f"Of {int(branches[0]):,} branches of rasterizer, pipeline and peeling their tests take {branches[2]}, and of {branches[4]} conditions of the stages' decisions",
             f"{branches[6]} have turned a decision round alone (MC/DC), counted by `tools/coverage.sh`. The aims are 98 % and 95 %.",
-            "By folder, with the lines that are not taken: [coverage/RESULTS.md](coverage/RESULTS.md)."]
+            "More: [coverage/RESULTS.md](coverage/RESULTS.md)."]
 
 
 def main():
