@@ -4,10 +4,12 @@
     tools/docs/gallery.py build/release                 writes them anew
     tools/docs/gallery.py build/release --check [SCENE] compares them, or one scene's, with what the program draws; exit status 1 if they differ
 
-A picture of the gallery is what an algorithm draws, above four times its difference from the exact A-buffer. Needs no package.
+A picture of the gallery is a strip: for each scene what an algorithm draws, above four times its difference from the exact A-buffer. Needs no
+package.
 """
 import json
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -87,32 +89,50 @@ def caption(entry):
     return ", ".join(said)
 
 
+def row_of(algorithm, captions):
+    return f"| `{algorithm}` | ![the scenes by {algorithm}](pictures/gallery/{algorithm}.png) | {' / '.join(captions)} |"
+
+
 def page_of(shown):
     lines = ["# Gallery", "",
-             "Every built-in scene by every algorithm on the profile `ideal`: above what the algorithm draws, below four times its difference from the",
-             "exact A-buffer (black: none). The figure is the greatest difference of a channel in 1/255; beside it stand fragments blended out of order",
-             "and fragments lost at equal depths. Made by `tools/docs/gallery.py build/release`.", ""]
+             "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: above what the algorithm draws, below",
+             "four times its difference from the exact A-buffer (black: none). The figures, in the order of the scenes, are the greatest difference of a",
+             "channel in 1/255, fragments blended out of order and fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
     lines += [f"- **{name}**: `strata render {' '.join(arguments).replace(FOLDER + os.sep, 'tools/docs/')}`: {what}." for name, arguments, what in SCENES]
-    lines += ["", "| | " + " | ".join(name for name, _, _ in SCENES) + " |", "|---" * (len(SCENES) + 1) + "|"]
-    for i, (entry, _, _) in enumerate(shown[SCENES[0][0]]):
-        algorithm = entry["algorithm"]
-        cells = [f"![{name} by {algorithm}](pictures/gallery/{name}.{algorithm}.png) {caption(shown[name][i][0])}" for name, _, _ in SCENES]
-        lines.append(f"| `{algorithm}` | " + " | ".join(cells) + " |")
+    lines += ["", "| algorithm | " + ", ".join(name for name, _, _ in SCENES) + " | differences |", "|---|---|---|"]
+    lines += [row_of(entry["algorithm"], [caption(shown[name][i][0]) for name, _, _ in SCENES]) for i, (entry, _, _) in enumerate(shown[SCENES[0][0]])]
     return "\n".join(lines) + "\n"
+
+
+def picture_path(algorithm):
+    return os.path.join(PICTURES, f"{algorithm}.png")
+
+
+def strips(shown):
+    """By algorithm: the rows of its scenes side by side."""
+    for i, (entry, width, _) in enumerate(shown[SCENES[0][0]]):
+        parts = [shown[name][i][2] for name, _, _ in SCENES]
+        yield entry["algorithm"], width * len(SCENES), [b"".join(rows) for rows in zip(*parts)]
 
 
 def check(shown, whole):
     """Which parts of the gallery are not what the program draws."""
     wrong = []
+    kept = dict(re.findall(r"^\| `(\w+)` \| .* \| (.*) \|$", whole, re.MULTILINE))
     for name, pictures in shown.items():
+        place = [scene for scene, _, _ in SCENES].index(name)
         for entry, width, rows in pictures:
-            path = os.path.join(PICTURES, f"{name}.{entry['algorithm']}.png")
-            cell = f"({os.path.relpath(path, FOLDER)}) {caption(entry)} |"
-            if not os.path.exists(path) or rows_of_png(path) != (width, rows):
-                wrong.append(f"{path}: expected what the program draws")
-            elif cell not in whole:
-                wrong.append(f"gallery.md: expected {cell}")
-    size = sum(os.path.getsize(os.path.join(PICTURES, file)) for file in os.listdir(PICTURES))
+            algorithm = entry["algorithm"]
+            path = picture_path(algorithm)
+            strip = rows_of_png(path) if os.path.exists(path) else (0, [])
+            part = slice(3 * width * place, 3 * width * (place + 1))
+            if strip[0] != width * len(SCENES) or [row[part] for row in strip[1]] != rows:
+                wrong.append(f"{path}: expected what the program draws of {name}")
+            elif kept.get(algorithm, "").split(" / ")[place:place + 1] != [caption(entry)]:
+                wrong.append(f"gallery.md: expected {caption(entry)} for {name} by {algorithm}")
+    files = os.listdir(PICTURES)
+    wrong += [f"{PICTURES}: {file} is no algorithm's" for file in files if file.removesuffix(".png") not in kept]
+    size = sum(os.path.getsize(os.path.join(PICTURES, file)) for file in files)
     return wrong + ([f"{PICTURES}: expected at most 2 MiB, found {size} bytes"] if size > 2 << 20 else [])
 
 
@@ -128,10 +148,9 @@ def main():
         print("\n".join(wrong) if wrong else f"{sum(map(len, shown.values()))} pictures are what the program draws")
         return 1 if wrong or not shown else 0
     os.makedirs(PICTURES, exist_ok=True)
-    for name, pictures in shown.items():
-        for entry, width, rows in pictures:
-            with open(os.path.join(PICTURES, f"{name}.{entry['algorithm']}.png"), "wb") as file:
-                file.write(png_of(width, rows))
+    for algorithm, width, rows in strips(shown):
+        with open(picture_path(algorithm), "wb") as file:
+            file.write(png_of(width, rows))
     with open(os.path.join(FOLDER, "gallery.md"), "w", encoding="utf-8") as file:
         file.write(page_of(shown))
     return 0
