@@ -85,6 +85,19 @@ def check_band():
     yield "the caption names it", "green: safe, 3 to 30 codes" in page
 
 
+def check_short():
+    """The page that is kept: the counts of the rows typed here, the remedies that were tried on a peel that needs one, and few words."""
+    biases = [row(i, remedy="none" if bias == 0 else f"bias:{bias}", bias_constant=float(bias), duplicated=0 if bias == 4 else 8, lost=0 if bias == 4 else 9)
+              for i, bias in enumerate([0, 1, 4, 16])]
+    many = [row(9 + i, near=0.5 / (i + 1), differing=i) for i in range(300)]
+    page = report.markdown_of(sections.short_page("A title", biases + [replaced(4)] + many, []) + report.HOW, pathlib.Path(FOLDER) / "page")
+    yield "a bias was tried three times, and once with every layer", "| a constant bias | 3 | 1 |" in page
+    yield "without a remedy no layer comes once", "| nothing | 301 | 0 |" in page
+    yield "a pair of paths has one row, from its least share to its greatest", "| geforce3 | `window_z` | `perspective_rq` | d24 | 0.0 % to 299.0 % | 3 |" in page
+    yield "a row per depth range is left to the whole page", len(page.split()) <= 600
+    yield "it names the command of the whole page", "tools/invariance/make_page.sh" in page
+
+
 def check_html():
     """The page has the look of strata's pages: light and dark, and a width for phones."""
     page = report.html_of(sections.page("A <title>", [row(0), replaced(1)]))
@@ -98,7 +111,7 @@ def check_html():
 
 
 with tempfile.TemporaryDirectory() as FOLDER:
-    checks = [check for made in (check_headline, check_rows, check_band, check_html) for check in made()]
+    checks = [check for made in (check_headline, check_rows, check_band, check_short, check_html) for check in made()]
 wrong = [name for name, holds in checks if not holds]
 print("\n".join(wrong))
 print(f"{len(checks)} checks, {len(wrong)} wrong")

@@ -103,3 +103,11 @@ def section(rows):
     """Blocks for the page, or none without rows."""
     rows = measured(rows)
     return [("heading", "The chip's depth formats, z and w"), *merging(rows), *biases(rows)] if rows else []
+
+
+def short_section(rows):
+    """Blocks for the short page: how far each format keeps the layers of the first scene apart."""
+    rows = measured(rows)
+    return [("text", "Depth formats, stored and compared along one path: the greatest far/near of those tried at which a format merges at most one fragment in a "
+                     "thousand with another layer. 16 bits of w keep more apart than 24 bits of z."),
+            ("list", reaches(kept_apart(rows))[:1])] if rows else []

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes RESULTS.md and its plots anew: the sweeps of results.json and formats.json, and the dragon of MODELS where it is there.
+# Writes RESULTS.md and its plot, and the whole page to build/invariance/RESULTS.md: the sweeps of results.json and formats.json, and the
+# dragon of MODELS if that folder has it.
 #   tools/invariance/make_page.sh [MODELS]     (default ../shared/models) Needs a release build and gnuplot-nox.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -19,6 +20,7 @@ fi
 "$strata" invariance --plan tools/invariance/formats.json --no-images -o "$out/formats"
 rm -f tools/invariance/RESULTS.*.svg
 report=(tools/invariance/report.py "${folders[@]}" --formats "$out/formats" --title "Invariance: what two depths do to a peel")
-"${report[@]}" --markdown tools/invariance/RESULTS.md
+"${report[@]}" --short tools/invariance/RESULTS.md
+"${report[@]}" --markdown "$out/RESULTS.md"
 "${report[@]}"
-echo "tools/invariance/RESULTS.md, and with pictures ${folders[0]}/index.html"
+echo "tools/invariance/RESULTS.md; whole: $out/RESULTS.md, and with pictures ${folders[0]}/index.html"

@@ -3,6 +3,7 @@
 
     tools/invariance/report.py FOLDER...                     # index.html in the first, everything inside it
     tools/invariance/report.py FOLDER... --markdown PAGE.md  # PAGE.md, and its plots as PAGE.NAME.svg beside it
+    tools/invariance/report.py FOLDER... --short PAGE.md     # the same with the answer alone: at most 600 words and one plot
     tools/invariance/report.py FOLDER... --formats FOLDER    # with the section on depth formats
 
 Standard library and gnuplot alone. The page depends on results.jsonl, and on timings.jsonl for ratios of times.
@@ -24,6 +25,7 @@ def parse_arguments():
     parser.add_argument("folders", type=pathlib.Path, nargs="+", help="what `strata invariance -o` wrote; a page goes to the first")
     parser.add_argument("--formats", type=pathlib.Path, help="the folder of a sweep of formats.json, which becomes a section")
     parser.add_argument("--markdown", type=pathlib.Path, help="a page to keep instead of FOLDER/index.html")
+    parser.add_argument("--short", type=pathlib.Path, help="a short page to keep: the answer, its table and its plot")
     parser.add_argument("--title", default="Invariance")
     return parser.parse_args()
 
@@ -120,11 +122,21 @@ def html_of(blocks):
             + f"\n</main>\n<script>\n{script}</script>\n</body>\n</html>\n")
 
 
+HOW = [("heading", "The whole table"), ("text", "    tools/invariance/make_page.sh FOLDER_OF_DRAGON_GLB"),
+       ("text", "In a few minutes it writes this page and, with every cell, `build/invariance/RESULTS.md`: the safe bias "
+                "of every choice, every remedy, vertex transforms and split surfaces that differ, and each assumption about the chip changed alone. "
+                "[audit.md](../../peeling/reference/audit.md) defines the figures.")]
+
+
 def main():
     arguments = parse_arguments()
     rows = [row for folder in arguments.folders for row in results(folder)]
-    study = formats.section(results(arguments.formats)) if arguments.formats else []
-    blocks = sections.page(arguments.title, rows, study)
+    study = results(arguments.formats) if arguments.formats else []
+    if arguments.short:
+        blocks = sections.short_page(arguments.title, rows, formats.short_section(study))
+        arguments.short.write_text(markdown_of([*blocks, *HOW], arguments.short))
+        return
+    blocks = sections.page(arguments.title, rows, formats.section(study))
     if arguments.markdown:
         arguments.markdown.write_text(markdown_of(blocks, arguments.markdown))
     else:

@@ -94,7 +94,7 @@ def spread(rows):
     return f"{percent(min(shares))} to {percent(max(shares))} of the fragments of `{rows[0]['depth_format']}` differ, by {max(r['ulp_max'] for r in rows):,} ulp at most"
 
 
-def findings(rows):
+def findings(rows, most_named=MOST_SAFE):
     """What was found, in three sentences from the rows themselves; none where a kind of row is missing."""
     unlike = [r for r in alike(rows) if r["remedy"] == "none" and r["write_path"] not in ("depth_replace", r["compare_path"]) and r["differing"] > 0]
     replaced = [r for r in alike(rows) if "depth_replace" in (r["write_path"], r["remedy"])]
@@ -104,7 +104,7 @@ def findings(rows):
     wrong, endless = sum(total(r) > 0 for r in unlike), sum(r["outcome"] == "never_ends" for r in unlike)
     by_format = "; ".join(spread(own) for _, own in groups(unlike, "depth_format"))
     safe = [r for r in judged if r["safe_bias"]["safe"]]
-    named = "; ".join(f"{about(r)}: {codes(r['safe_bias'])}" for r in safe[:MOST_SAFE]) + ("; ..." if len(safe) > MOST_SAFE else "")
+    named = "; ".join(f"{about(r)}: {codes(r['safe_bias'])}" for r in safe[:most_named]) + ("; ..." if len(safe) > most_named else "")
     return [("text", f"Of {len(unlike)} peels that compare another depth than the one that they stored {wrong} lose layers or composite them twice, and {endless} never "
                      f"end: {by_format}."),
             ("text", f"If the written depth comes from the quotient that is compared (`depth_replace`), {sum(total(r) > 0 for r in replaced)} of {len(replaced)} peels "
@@ -341,3 +341,53 @@ def page(title, rows, study=()):
     plots = difference_plots([r for r in plain(rows) if r["differing"] > 0])
     return [("title", title), *findings(rows), *plots[:1], ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows),
             *vertex_paths(rows), *splits(rows), *study, *hypotheses(rows), *refusals(rows), *pictures(rows)]
+
+
+MOST_ROWS = 13  # of the short page's table
+KINDS = {"none": "nothing", "bias": "a constant bias", "slope": "a bias by slope", "epsilon": "an epsilon in the comparison", "unquantized": "an unrounded comparison",
+         "depth_replace": "`depth_replace`"}
+
+
+def kind_of(row):
+    """The key of KINDS; a bias with a constant and a slope counts as one by slope."""
+    if "depth_replace" in (row["write_path"], row["remedy"]):
+        return "depth_replace"
+    return "slope" if "slope" in row["remedy"] else row["remedy"].split(":")[0]
+
+
+def remedy_rows(rows):
+    """For each kind of remedy: how often it was tried on peels that need one, and how often every layer came once."""
+    keys = ("scene", "profile", "algorithm", "compare_path", "depth_format", "near", "far", "also")
+    tried = {kind: [] for kind in KINDS}
+    for _, own in groups(alike(rows), *keys):
+        if any(r["remedy"] == "none" and total(r) > 0 for r in own):
+            for r in own:
+                tried[kind_of(r)].append(r)
+    return [[KINDS[kind], str(len(own)), str(sum(total(r) == 0 for r in own))] for kind, own in tried.items() if own]
+
+
+def pair_rows(rows):
+    """A row of each pair of paths at one depth format: the shares over all depth ranges. Formats in which nothing differs share a row."""
+    table = {}
+    for (profile, write, compare, depth), own in groups(plain(rows), "profile", "write_path", "compare_path", "depth_format"):
+        if write != compare:
+            low, high = (percent(find(map(share, own))) for find in (min, max))
+            figures = low if low == high else f"{low} to {high}", f"{max(r['ulp_max'] for r in own):,}"
+            differs = any(r["differing"] for r in own)
+            table.setdefault((profile, f"`{write}`", f"`{compare}`", depth if differs else "", *figures), []).append(depth)
+    return [[profile, write, compare, ", ".join(depths), *figures] for (profile, write, compare, _, *figures), depths in table.items()][:MOST_ROWS]
+
+
+def short_page(title, rows, study):
+    """The page that is kept: at most 600 words. `study`: rows of the sweep of depth formats, may be empty."""
+    name_other_knobs(rows)
+    blocks = [("title", title),
+              ("text", "The question: a peel compares a fragment's depth with one that an earlier pass stored. If the two are computed in different ways, they differ "
+                       "in the last places: a fragment may lie behind itself, and is peeled twice, or too near, and is lost. How often does that happen, and "
+                       "what prevents it?"),
+              *findings(rows, 1), *difference_plots([r for r in plain(rows) if r["differing"] > 0])[:1],
+              ("text", "Fragments whose two depths differ, over all depth ranges; the largest difference is in ulp: codes of d16 and d24, steps between floats of d32f."),
+              ("table", ["profile", "stored", "compared", "depth", "differ", "largest, ulp"], pair_rows(rows)),
+              ("text", "Peels that lose or repeat layers without a remedy, and what remedies did for them:"),
+              ("table", ["remedy", "peels", "without error"], remedy_rows(rows))]
+    return blocks + study
