@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that what the repository's text points at is there: sections of the book, errata, quoted words, links, files.
+"""Checks that what the repository's text points at is there: sections of the book, errata, quoted words, links, files; and that pages of
+results are short.
 
 usage: citations.py REPOSITORY
 
@@ -47,6 +48,8 @@ STATE = {"alpha_test", "depth_test", "stencil_test", "raster.*"}
 # It holds what this must find.
 WRONG_ON_PURPOSE = {"tests/house/faults.py"}
 FEWEST_CITATIONS = 300
+RESULTS = ("RESULTS.md", "MISTAKES.md")  # pages of results, written by programs
+MOST_WORDS = 600  # of such a page: the rows belong into build/
 
 
 def plain(words):
@@ -182,6 +185,10 @@ class Checker:
             elif anchor and anchor not in {slug(title) for _, _, title in book.headings(self.files.read(file) or "")}:
                 self.fault(where, f"links to {target}, but {file} has no heading with that anchor")
 
+    def check_length(self, name, content):
+        if os.path.basename(name) in RESULTS and len(content.split()) > MOST_WORDS:
+            self.fault(name, f"has {len(content.split())} words; a page of results has at most {MOST_WORDS}")
+
     def run(self):
         self.check_pages()
         for name in self.names:
@@ -195,6 +202,7 @@ class Checker:
             self.check_paths(text)
             if name.endswith(".md"):
                 self.check_links(name, content)
+                self.check_length(name, content)
                 if book.is_page(name) or os.path.basename(name) == "README.md":
                     self.check_names(text)
         self.check_orphans()

@@ -18,6 +18,7 @@ SOUND = {
     "peeling/reference/errata.md": "# Errata\n## 1 Paper\n### 1.1 E1: a slip\n*Test*: peel_test, \"the first of equals\".\n",
     "peeling/peel.cpp": "// layers.md 1 and 1.1; layers.md 1.1, \"first arrival stays\". E1.\n// Tests tests/peeling/peel_test.cpp\n",
     "tests/peeling/peel_test.cpp": 'TEST_CASE("the first of equals stays") {}\n',
+    "tools/RESULTS.md": "# Found\n" + "word " * 598,
     "README.md": "# All\n[ties](peeling/reference/layers.md#11-ties), `peel_test`, `peel.cpp`, `peeling/{peel.cpp,reference}`\n",
 }
 
@@ -41,6 +42,7 @@ CITATIONS = [
     ("README.md", "(peeling/reference/layers.md#11-ties)", "(peeling/layers.md)", "links to peeling/layers.md, but there is no peeling/layers.md"),
     ("README.md", "`peel.cpp`", "`peal.cpp`", "names peal.cpp, but no file of the repository is called so"),
     ("README.md", "{peel.cpp,reference}", "{peel.cpp,other}", "names peeling/{peel.cpp,other}"),
+    ("tools/RESULTS.md", "Found", "Found more", "tools/RESULTS.md: has 601 words; a page of results has at most 600"),
     ("README.md", "`peel_test`", "`pool_test`", "names pool_test, but there is no such test"),
 ]
 
