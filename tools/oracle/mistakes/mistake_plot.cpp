@@ -12,7 +12,7 @@ namespace {
 
 constexpr int row_px = 20, names_px = 270, unit_px = 5, top_px = 64, margin_px = 16;
 
-// From the left of a bar to its right. What names somebody else is red, and there should be none.
+// From the left of a bar to its right. What names another mistake is red, and there should be none.
 struct Piece {
     const char* words;
     const char* color;
@@ -21,7 +21,7 @@ struct Piece {
 const std::vector<Piece>& pieces() {
     static const std::vector<Piece> all{{"named first", "#1b7837", {Cell::named}},
                                         {"the same picture as one that is named", "#a6dba0", {Cell::alike}},
-                                        {"somebody else is named", "#c51b1b", {Cell::wrong, Cell::accused}},
+                                        {"another mistake is named", "#c51b1b", {Cell::wrong, Cell::accused}},
                                         {"does not show", "#d9d9d9", {Cell::hidden}},
                                         {"cannot be made", "#f5f5f5", {Cell::impossible}}};
     return all;

@@ -121,7 +121,7 @@ std::string unnamed_text(const std::vector<TableColumn>& columns) {
     for (const Mistake* mistake : unnamed(columns)) {
         const auto twin = std::ranges::find(declared, mistake->name, &DeclaredTwins::second);
         text += fmt::format("{}{}", text.empty() ? "" : ", ", mistake->name);
-        if (twin != std::end(declared)) text += fmt::format(" (declared equal to {}, below)", twin->first);
+        if (twin != std::end(declared)) text += fmt::format(" (it always leaves the picture of {})", twin->first);
     }
     return text.empty() ? "none" : text;
 }
@@ -154,7 +154,7 @@ std::string findings(const std::vector<TableColumn>& columns) {
     const std::ptrdiff_t diagnoses = wrong + number_of(columns, {Cell::named, Cell::alike, Cell::hidden});
     return fmt::format(
         "Of {} mistakes {} are named first in at least one of {} scenes; those that are named in none: {}.\n"
-        "Of {} diagnoses {} name somebody else; pairs of mistakes that leave the same pictures of all scenes: {}.\n"
+        "Of {} diagnoses {} name another mistake; pairs of mistakes that leave the same pictures of all scenes: {}.\n"
         "The scene {} shows most of them, {}, and {} show in one scene alone: no single scene tests a port.\n",
         all, all - unnamed(columns).size(), columns.size(), unnamed_text(columns), diagnoses, wrong,
         twins(columns).size(), best->scene->name, most, in_one);
@@ -167,9 +167,8 @@ std::string to_page(const std::vector<TableColumn>& columns, const std::string& 
     std::string page = "# Mistakes and the scenes that show them\n\n" + findings(columns);
     if (!plot.empty()) page += fmt::format("\n![What each scene of the suite shows of the mistakes]({})\n", plot);
     page +=
-        "\n`strata diagnose --list --table -o tools/oracle/MISTAKES.md` made this page: the pictures of machines with "
-        "one "
-        "mistake each are diagnosed like anybody's.\n"
+        "\n`strata diagnose --list --table` wrote this page: every mistake, alone, draws every scene, and the "
+        "picture is diagnosed as that of an unknown port.\n"
         "1 named first; = the same picture as a mistake above it, which is named; . does not show, and the right "
         "machine is named; blank cannot be made here.\n\n| mistake |";
     for (std::size_t c = 0; c < columns.size(); ++c) page += fmt::format(" {} |", c + 1);

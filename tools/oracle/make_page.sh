@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Writes MISTAKES.md and its plot, and the whole table to build/mistakes/MISTAKES.md: every mistake in every scene of the suite.
+#   tools/oracle/make_page.sh     Needs a release build; takes a few minutes.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+trap 'echo "tools/oracle/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
+
+strata=${STRATA:-build/release/strata} out=${OUT:-build/mistakes}
+mkdir -p "$out"
+"$strata" diagnose --list --table -o "$out/MISTAKES.md"
+cp "$out/MISTAKES.svg" tools/oracle/MISTAKES.svg
+{
+    cat <<'END'
+# Mistakes, and the scenes that show them
+
+The question: if a port makes one of the known mistakes, does `strata diagnose` name it from the picture alone, and which scenes must be drawn
+for that? Every mistake of the catalogue is put into the emulated machine, alone, and draws every scene of the suite. The picture is then
+diagnosed as the picture of an unknown port would be.
+
+END
+    sed -n '3,/^$/p' "$out/MISTAKES.md"  # what was found, three sentences
+    cat <<'END'
+![What each scene of the suite shows of the mistakes](MISTAKES.svg)
+
+A bar per scene: how many mistakes are named first there, how many leave the same picture as another mistake that is named, how many do not
+show, and how many cannot occur in that scene.
+
+## The whole table
+
+    tools/oracle/make_page.sh                # this page, and the whole table: build/mistakes/MISTAKES.md
+    strata diagnose --list                   # every mistake in a sentence
+    strata diagnose --list --suite           # every scene with its purpose and its command
+
+The whole table has a row per mistake and a column per scene, the command of each scene, and the first scene that names each mistake. Two
+mistakes that give the same pictures in every scene are listed with the reason. `strata render SCENE --mistake NAME` draws such a picture.
+END
+} >tools/oracle/MISTAKES.md
