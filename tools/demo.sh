@@ -51,3 +51,4 @@ echo
 echo "Open out/report.html in a browser, or look at out/: teapot.dual.png is the teapot by dual depth peeling; the other names say scene and algorithm."
 echo "In the tables, 'refused' is an algorithm that needs a feature which this device lacks, and the lines below say what went wrong on the device: both are part of the emulation."
 echo "Then try: build/release/strata render MODEL.glb --alpha 0.3 -o out/model.png"
+echo "The experiments (strata cost, bench, invariance ...) are built by: cmake --build --preset release --target strata_lab"

@@ -9,7 +9,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
 #include "scenes/files/profile_json.h"
-#include "tools/strata/invariance/invariance_plan.h"
+#include "tools/lab/invariance/invariance_plan.h"
 
 namespace strata::fuzz {
 

@@ -18,7 +18,7 @@ FLOORS = {
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "loops", "algorithms", "audit", "", "truth"],
     "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
-    "tools": ["port", "hardware_check", "oracle", "probe", "library", "python", "recipes", "strata", "bench", "web"],
+    "tools": ["port", "hardware_check", "oracle", "probe", "library", "python", "recipes", "strata", "lab", "bench", "web"],
 }
 # Which floors a floor stands on. scenes stands beside peeling.
 BELOW = {

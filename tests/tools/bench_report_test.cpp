@@ -1,5 +1,5 @@
 // Model: made-up times whose medians, quotients and rows are worked out by hand.
-#include "tools/strata/bench/bench_report.h"
+#include "tools/lab/bench/bench_report.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

@@ -1,5 +1,5 @@
 // Model: rates worked out by hand.
-#include "tools/strata/cost/cost_card.h"
+#include "tools/lab/cost/cost_card.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
 // Model: dominance by definition, a search over all pairs of points; made-up rows, whose sentences are read back.
-#include "tools/strata/cost/cost_report.h"
+#include "tools/lab/cost/cost_report.h"
 
 #include <catch2/catch.hpp>
 
 #include "tests/support/random_numbers.h"
-#include "tools/strata/cost/cost_run.h"
+#include "tools/lab/cost/cost_run.h"
 
 using namespace strata::tools;
 

@@ -1,5 +1,5 @@
 // The model: rows typed by hand after RFC 4180.
-#include "tools/strata/sweep/csv.h"
+#include "tools/lab/sweep/csv.h"
 
 #include <catch2/catch.hpp>
 

@@ -44,7 +44,14 @@ TEST_CASE("strata alone tells its commands, an example that runs, and where ther
     const Ended ended = run_strata(folder, {});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
-    CHECK(lines_of(ended.out).size() <= commands().size() + 4);  // a line a command, and little else
+    CHECK(lines_of(ended.out).size() <= commands().size() + 9);  // a line a command, one a group, and little else
+    std::size_t before = 0;
+    for (const std::string word : {"\nRender and look", "\n  render ", "\n  report ", "\nCheck a port", "\n  compare ",
+                                   "\nExperiments", "\n  cost ", "\nDevices", "\n  probe ", "\nLists and help"}) {
+        const std::size_t at = ended.out.find(word);
+        CHECK((at != std::string::npos && at > before));
+        before = at;
+    }
     for (const std::string& verb : commands()) CHECK(ended.out.find("\n  " + verb + " ") != std::string::npos);
     const std::size_t example = ended.out.find("strata render");
     REQUIRE(example != std::string::npos);

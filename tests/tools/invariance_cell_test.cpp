@@ -1,5 +1,5 @@
 // Model: the planes of an orbit's projection from its matrix; lists of hypotheses from the profile's own.
-#include "tools/strata/invariance/invariance_cell.h"
+#include "tools/lab/invariance/invariance_cell.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

@@ -4,7 +4,7 @@
 
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
-#include "tools/strata/invariance/invariance_plan.h"
+#include "tools/lab/invariance/invariance_plan.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Model: the cells of small plans, written down one by one; messages typed a second time.
-#include "tools/strata/invariance/invariance_plan.h"
+#include "tools/lab/invariance/invariance_plan.h"
 
 #include <catch2/catch.hpp>
 

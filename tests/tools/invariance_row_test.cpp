@@ -1,10 +1,10 @@
 // Model: one made-up measurement, and the line and the row that must come of it, typed out.
-#include "tools/strata/invariance/invariance_row.h"
+#include "tools/lab/invariance/invariance_row.h"
 
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
-#include "tools/strata/invariance/invariance_summary.h"
+#include "tools/lab/invariance/invariance_summary.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include "scenes/files/image_io.h"
 #include "scenes/images/png_encode.h"
 #include "tests/tools/program.h"
+#include "tools/lab/sweep/csv.h"
 #include "tools/strata/report/picture_bytes.h"
-#include "tools/strata/sweep/csv.h"
 
 using namespace strata::test;
 using namespace strata::tools;

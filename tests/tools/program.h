@@ -12,9 +12,9 @@ namespace strata::test {
 // Every command, in the order in which the help tells them.
 [[nodiscard]] inline std::vector<std::string> commands() {
     return {
-        "render",    "layers",     "passes",         "explain", "report",  "bench",  "cost",        "invariance",
-        "reproduce", "hard-cases", "hardware-check", "scene",   "compare", "golden", "diagnose",    "reduce",
-        "probe",     "infer",      "list",           "info",    "help",    "man",    "completions",
+        "render", "report",   "explain",        "passes", "layers",     "scene",      "info",        "compare",
+        "golden", "diagnose", "reduce",         "cost",   "invariance", "hard-cases", "reproduce",   "bench",
+        "probe",  "infer",    "hardware-check", "list",   "help",       "man",        "completions",
     };
 }
 

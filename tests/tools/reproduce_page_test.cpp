@@ -1,5 +1,5 @@
 // Model: pages and charts of a few words, their text typed out; points by the logarithm's own law.
-#include "tools/strata/reproduce/reproduce_page.h"
+#include "tools/lab/reproduce/reproduce_page.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
-#include "tools/strata/reproduce/reproduce_chart.h"
+#include "tools/lab/reproduce/reproduce_chart.h"
 
 namespace {
 

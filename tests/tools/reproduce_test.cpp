@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "tests/tools/program.h"
-#include "tools/strata/reproduce/reproduce_chart.h"
+#include "tools/lab/reproduce/reproduce_chart.h"
 
 using namespace strata::test;
 

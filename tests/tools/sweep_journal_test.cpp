@@ -4,8 +4,8 @@
 
 #include "rasterizer/base/input_error.h"
 #include "tests/tools/program.h"
-#include "tools/strata/sweep/journal.h"
-#include "tools/strata/sweep/shard.h"
+#include "tools/lab/sweep/journal.h"
+#include "tools/lab/sweep/shard.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "rasterizer/base/input_error.h"
 #include "tests/tools/program.h"
-#include "tools/strata/sweep/leftovers.h"
-#include "tools/strata/sweep/lock.h"
+#include "tools/lab/sweep/leftovers.h"
+#include "tools/lab/sweep/lock.h"
 
 using namespace strata::test;
 using strata::tools::Lock;

@@ -21,15 +21,7 @@ struct Command {
 [[nodiscard]] Command add_report(CLI::App& root);
 [[nodiscard]] Command add_diagnose(CLI::App& root);
 [[nodiscard]] Command add_reduce(CLI::App& root);
-[[nodiscard]] Command add_probe(CLI::App& root);
-[[nodiscard]] Command add_infer(CLI::App& root);
-[[nodiscard]] Command add_bench(CLI::App& root);
-[[nodiscard]] Command add_cost(CLI::App& root);
-[[nodiscard]] Command add_invariance(CLI::App& root);
 [[nodiscard]] Command add_golden(CLI::App& root);
-[[nodiscard]] Command add_hard_cases(CLI::App& root);
-[[nodiscard]] Command add_hardware_check(CLI::App& root);
-[[nodiscard]] Command add_reproduce(CLI::App& root);
 [[nodiscard]] Command add_scene(CLI::App& root);
 [[nodiscard]] Command add_compare(CLI::App& root);
 [[nodiscard]] Command add_list(CLI::App& root);

@@ -1,12 +1,12 @@
 // The model: fragments and traces typed by hand, with the figures that they ought to give.
-#include "tools/strata/hard_cases/composited.h"
+#include "tools/lab/hard_cases/composited.h"
 
 #include <catch2/catch.hpp>
 
 #include "peeling/audit/region_trace.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
-#include "tools/strata/hard_cases/composed_pixels.h"
+#include "tools/lab/hard_cases/composed_pixels.h"
 
 namespace {
 

@@ -1,12 +1,12 @@
 // The model: rational arithmetic over the corners (tests/support/exact_fragments.h), which shares no function with the code.
-#include "tools/strata/hard_cases/hard_exact.h"
+#include "tools/lab/hard_cases/hard_exact.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "scenes/procedural/hard_cases/build_case.h"
 #include "tests/support/exact_fragments.h"
-#include "tools/strata/hard_cases/hard_moves.h"
+#include "tools/lab/hard_cases/hard_moves.h"
 
 namespace {
 

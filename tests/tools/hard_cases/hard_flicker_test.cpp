@@ -1,12 +1,12 @@
 // The model: lookers whose flips are known, and counts of fragments by the exact answer.
-#include "tools/strata/hard_cases/hard_flicker.h"
+#include "tools/lab/hard_cases/hard_flicker.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
 
 #include "peeling/registry.h"
-#include "tools/strata/hard_cases/hard_exact.h"
-#include "tools/strata/hard_cases/hard_moved.h"
+#include "tools/lab/hard_cases/hard_exact.h"
+#include "tools/lab/hard_cases/hard_moved.h"
 
 namespace {
 

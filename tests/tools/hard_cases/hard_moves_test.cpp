@@ -1,5 +1,5 @@
 // The model: bits of binary32, whose neighbours are the next integers, and the definition of a rotation.
-#include "tools/strata/hard_cases/hard_moves.h"
+#include "tools/lab/hard_cases/hard_moves.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // The model: lines made up by hand, and the numbers that the page ought to show.
-#include "tools/strata/hard_cases/hard_page.h"
+#include "tools/lab/hard_cases/hard_page.h"
 
 #include <catch2/catch.hpp>
 

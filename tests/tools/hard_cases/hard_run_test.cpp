@@ -1,5 +1,5 @@
 // The model: cases whose outcome is known from the algorithms' own rules, and an algorithm that is broken on purpose.
-#include "tools/strata/hard_cases/hard_run.h"
+#include "tools/lab/hard_cases/hard_run.h"
 
 #include <catch2/catch.hpp>
 

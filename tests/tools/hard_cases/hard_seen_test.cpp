@@ -1,5 +1,5 @@
 // The model: pixels typed by hand, and the changes that a reader counts in them.
-#include "tools/strata/hard_cases/hard_seen.h"
+#include "tools/lab/hard_cases/hard_seen.h"
 
 #include <catch2/catch.hpp>
 

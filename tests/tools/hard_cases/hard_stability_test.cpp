@@ -1,6 +1,6 @@
 // The model: rasterizers made here whose faults are known: one that is the exact answer itself, and one whose planes are
 // binary32 numbers, anchored at the window's corner or at the triangle's own.
-#include "tools/strata/hard_cases/hard_stability.h"
+#include "tools/lab/hard_cases/hard_stability.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 #include "peeling/render.h"
 #include "scenes/procedural/hard_cases/build_case.h"
 #include "tests/tools/hard_cases/broken_peel.h"
-#include "tools/strata/hard_cases/hard_exact.h"
-#include "tools/strata/hard_cases/hard_run.h"
+#include "tools/lab/hard_cases/hard_exact.h"
+#include "tools/lab/hard_cases/hard_run.h"
 
 namespace {
 

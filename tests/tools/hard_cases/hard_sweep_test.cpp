@@ -1,5 +1,5 @@
 // The model: the sweep in one go, byte by byte; and the combinations, counted by hand.
-#include "tools/strata/hard_cases/hard_sweep.h"
+#include "tools/lab/hard_cases/hard_sweep.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -13,6 +13,7 @@ import argparse
 import concurrent.futures
 import os
 import pathlib
+import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -50,7 +51,7 @@ ACCEPTED = {
 # Sentences may name an option so.
 SHORT = {"--output": ["-o"]}
 # Looked at once the files are read, of which there is none here.
-LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--sorted"), ("diagnose", "--camera"),
+LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--profiles"), ("diagnose", "--sorted"), ("diagnose", "--camera"),
         ("reduce", "--algorithm"), ("reduce", "--picture"), ("explain", "--candidate"), ("infer", "--output")}
 ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml", "FILE.html|FOLDER")
 
@@ -131,8 +132,7 @@ def main():
     parser.add_argument("--all", action="store_true", help="every option with every value")
     parser.add_argument("--seed", type=int, default=1, help="which values the choice takes (default 1)")
     arguments = parser.parse_args()
-    listed = output_of(arguments.program, ["--help"]).partition("Subcommands:\n")[2].partition("\n\n")[0]
-    commands = [line.split()[0] for line in listed.splitlines()]
+    commands = re.findall(r"^  ([a-z-]+)  ", output_of(arguments.program, []), re.MULTILINE)
     if missing := [c for c in commands if c not in NEEDS]:
         sys.exit(f"nonsense.py: NEEDS lacks what {', '.join(missing)} needs")
     of_options = list(option_cases(arguments.program, commands)) + list(scene_cases(arguments.program))

@@ -21,13 +21,6 @@ struct OldOption {
 };
 constexpr std::array old_options{OldOption{"--colour", "--color-space"}, OldOption{"--depth", "--depth-format"}};
 
-// The first word that is no option of the messages' own.
-std::size_t command_at(const std::vector<std::string>& words) {
-    std::size_t at = 0;
-    while (at < words.size() && words[at].starts_with('-')) at += words[at] == "--color" ? 2 : 1;
-    return at;
-}
-
 const OldCommand* old_command(std::string_view word) {
     const auto found = std::ranges::find(old_commands, word, &OldCommand::old);
     return found == old_commands.end() ? nullptr : found;
@@ -68,6 +61,12 @@ void replace_json_of_bench(std::vector<std::string>& words, std::vector<std::str
 }
 
 }  // namespace
+
+std::size_t command_at(const std::vector<std::string>& words) {
+    std::size_t at = 0;
+    while (at < words.size() && words[at].starts_with('-')) at += words[at] == "--color" ? 2 : 1;
+    return std::min(at, words.size());
+}
 
 std::vector<std::string> replace_old_words(std::vector<std::string>& words) {
     std::vector<std::string> sentences;

@@ -12,4 +12,7 @@ namespace strata::tools {
 // Replaces old spellings in a command line without the program's own name; answers a sentence for each option.
 [[nodiscard]] std::vector<std::string> replace_old_words(std::vector<std::string>& words);
 
+// Where the command stands, behind options of messages; words.size() without one.
+[[nodiscard]] std::size_t command_at(const std::vector<std::string>& words);
+
 }  // namespace strata::tools

@@ -1,0 +1,40 @@
+// tools/lab/hard_cases/hard_flicker.h - what flips along a smooth camera path where the exact answer stays as it is.
+//
+// Rule     64 frames of the path (hard_moves.h), each beside the next. Where the exact answer of a pixel changes, or hangs
+//          by the rounding of binary64, nothing is counted. Elsewhere a pixel flips in order if the same fragments are
+//          visible in both frames, but layers change their order or number; it flips in coverage if other fragments are
+//          visible. With a fragment's exact depth for its stored one no pixel flips in order.
+// Tests    tests/tools/hard_cases/hard_flicker_test.cpp
+#pragma once
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tools/lab/hard_cases/hard_stability.h"
+
+namespace strata::tools {
+
+struct Flicker {
+    std::uint64_t compared = 0;  // pixels of all pairs of frames where the exact answer stays
+    std::uint64_t order = 0, coverage = 0;
+    friend bool operator==(const Flicker&, const Flicker&) = default;
+};
+
+class PathCase {
+  public:
+    explicit PathCase(const scenes::HardCase& hard);
+    ~PathCase();
+    [[nodiscard]] Flicker flicker(const Look& look) const;
+    // The visible fragments of `look`, in the order of their exact depths.
+    [[nodiscard]] Flicker flicker_of_exact_depths(const Look& look) const;
+
+  private:
+    struct Frame;
+    [[nodiscard]] Flicker flicker(const std::function<Seen(std::size_t frame)>& seen_at) const;
+
+    scenes::Scene scene_;
+    std::vector<Frame> frames_;
+};
+
+[[nodiscard]] nlohmann::ordered_json to_json(const Flicker& flicker);
+
+}  // namespace strata::tools

@@ -1,0 +1,171 @@
+#include "tools/lab/hard_cases/hard_seen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "peeling/audit/image_error.h"
+#include "peeling/audit/region_trace.h"
+#include "peeling/render.h"
+#include "tools/lab/hard_cases/composed_pixels.h"
+#include "tools/lab/hard_cases/hard_run.h"
+
+namespace strata::tools {
+
+using namespace pipeline;
+
+namespace {
+
+// Both are sorted by their primitives. Those of one that the other does not composite are counted in `alone`.
+std::vector<std::array<const SeenFragment*, 2>> stayed(const SeenPixel& before, const SeenPixel& after,
+                                                       std::array<std::uint64_t, 2>& alone) {
+    std::vector<std::array<const SeenFragment*, 2>> both;
+    auto a = before.fragments.begin(), b = after.fragments.begin();
+    while (a != before.fragments.end() || b != after.fragments.end()) {
+        const bool has_a = a != before.fragments.end(), has_b = b != after.fragments.end();
+        const bool takes_a = has_a && (!has_b || a->primitive <= b->primitive);
+        const bool takes_b = has_b && (!has_a || b->primitive <= a->primitive);
+        const bool shown_a = takes_a && a->place >= 0, shown_b = takes_b && b->place >= 0;
+        if (shown_a && shown_b) both.push_back({&*a, &*b});
+        if (shown_a && !shown_b) ++alone[0];
+        if (shown_b && !shown_a) ++alone[1];
+        if (takes_a) ++a;
+        if (takes_b) ++b;
+    }
+    return both;
+}
+
+// The place of each key's layer among those of a sequence; the first counts.
+struct Layers {
+    std::vector<std::pair<std::uint32_t, int>> by_key;        // layers known by their key
+    std::vector<std::pair<std::uint32_t, int>> by_primitive;  // fragments
+};
+
+Layers layers_of(const Sequence& sequence) {
+    Layers layers;
+    int place = -1;
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        if (i == 0 || sequence[i].key != sequence[i - 1].key) ++place;
+        auto& known = sequence[i].is_fragment ? layers.by_primitive : layers.by_key;
+        known.emplace_back(sequence[i].is_fragment ? sequence[i].primitive : sequence[i].key, place);
+    }
+    return layers;
+}
+
+// A layer of a key is its first arrival's alone, or all fragments' of the key.
+int place_of(const Layers& layers, const std::vector<VisibleFragment>& visible, std::size_t i, bool merges) {
+    const auto find = [](const auto& known, std::uint32_t name) {
+        const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == name; });
+        return found == known.end() ? -1 : found->second;
+    };
+    const int own = find(layers.by_primitive, visible[i].fragment->primitive);
+    if (own >= 0) return own;
+    const auto is_same = [&](const VisibleFragment& f) { return f.key == visible[i].key; };
+    const bool is_first =
+        std::find_if(visible.begin(), visible.end(), is_same) - visible.begin() == static_cast<std::ptrdiff_t>(i);
+    return is_first || merges ? find(layers.by_key, visible[i].key) : -1;
+}
+
+double depth_of(const VisibleFragment& f, DepthFormat format) {
+    return rasterizer::depth_value(f.fragment->code, format);
+}
+
+std::array<double, 3> color_at(const Image& image, std::size_t pixel) {
+    const auto x = static_cast<int>(pixel % static_cast<std::size_t>(image.width));
+    const auto y = static_cast<int>(pixel / static_cast<std::size_t>(image.width));
+    std::array<double, 3> color{};
+    for (int c = 0; c < 3; ++c) color[static_cast<std::size_t>(c)] = peeling::channel_value(image, x, y, c);
+    return color;
+}
+
+}  // namespace
+
+Changes& Changes::operator+=(const Changes& other) {
+    gained += other.gained;
+    lost += other.lost;
+    reordered += other.reordered;
+    color += other.color;
+    depth = std::max(depth, other.depth);
+    return *this;
+}
+
+Changes changes(const SeenPixel& before, const SeenPixel& after) {
+    std::array<std::uint64_t, 2> alone{};
+    const auto both = stayed(before, after, alone);
+    Changes found{.gained = alone[1], .lost = alone[0]};
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        found.depth = std::max(found.depth, std::fabs(both[i][1]->depth - both[i][0]->depth));
+        for (std::size_t k = i + 1; k < both.size(); ++k)
+            if ((both[i][0]->place <=> both[k][0]->place) != (both[i][1]->place <=> both[k][1]->place))
+                ++found.reordered;
+    }
+    if (found.gained + found.lost > 0) return found;
+    for (std::size_t c = 0; c < 3; ++c)
+        found.color = std::fmax(found.color, std::fabs(after.color[c] - before.color[c]) * 255);
+    return found;
+}
+
+bool shows(const SeenPixel& pixel, const SeenPixel& exact, Shown what) {
+    std::array<std::uint64_t, 2> alone{};
+    const auto both = stayed(exact, pixel, alone);
+    if (alone[0] + alone[1] > 0 || pixel.layers != exact.layers) return false;
+    for (std::size_t i = 0; i < both.size() && what == Shown::in_order; ++i)
+        for (std::size_t k = i + 1; k < both.size(); ++k)
+            if ((both[i][0]->place <=> both[k][0]->place) != (both[i][1]->place <=> both[k][1]->place)) return false;
+    return true;
+}
+
+Looked look(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, int width) {
+    Looked looked;
+    std::vector<peeling::RegionTrace> traces;
+    const peeling::RenderResult result = renderer.render_traced(algorithm, traces);
+    if (result.refusal) {
+        looked.refusal = result.refusal->feature;
+        return looked;
+    }
+    const peeling::FrameFragments fragments = renderer.fragments(algorithm);
+    const bool is_ordered = algorithm.ties != peeling::TiePolicy::none;
+    const bool merges = algorithm.ties == peeling::TiePolicy::merged;
+    looked.seen.resize(fragments.opaque.size());
+    for (std::size_t p = 0; p < looked.seen.size(); ++p) looked.seen[p].color = color_at(result.frame.color, p);
+    for (const ComposedPixel& at :
+         composed_pixels({algorithm, width, renderer.color_format() == Format::rgba8, fragments, traces})) {
+        const Layers layers = layers_of(at.sequence);
+        SeenPixel& pixel = looked.seen[at.pixel];
+        pixel.layers = static_cast<int>(is_ordered ? at.sequence.size() : at.visible.size());
+        for (std::size_t i = 0; i < at.visible.size(); ++i)
+            pixel.fragments.push_back({at.visible[i].fragment->primitive,
+                                       is_ordered ? place_of(layers, at.visible, i, merges) : 0,
+                                       depth_of(at.visible[i], renderer.depth_format())});
+        std::sort(pixel.fragments.begin(), pixel.fragments.end());
+    }
+    looked.names_misplaced = std::any_of(result.frame.diagnostics.begin(), result.frame.diagnostics.end(),
+                                         [](const Diagnostic& d) { return misplaces(d.fault); });
+    return looked;
+}
+
+Looked look_at_depths(peeling::Renderer& renderer, const peeling::Algorithm& algorithm) {
+    Looked looked;
+    const peeling::FrameFragments fragments = renderer.fragments(algorithm);
+    looked.seen.resize(fragments.opaque.size());
+    for (const ComposedPixel& at : composed_pixels({algorithm, 1, true, fragments, {}})) {
+        const std::vector<VisibleFragment>& visible = at.visible;
+        std::vector<std::uint32_t> keys;
+        for (const VisibleFragment& f : visible) keys.push_back(f.key);
+        std::sort(keys.begin(), keys.end());
+        keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+        SeenPixel& pixel = looked.seen[at.pixel];
+        pixel.layers = static_cast<int>(keys.size());
+        for (std::size_t i = 0; i < visible.size(); ++i) {
+            const auto is_same = [&](const VisibleFragment& f) { return f.key == visible[i].key; };
+            const bool is_first =
+                std::none_of(visible.begin(), visible.begin() + static_cast<std::ptrdiff_t>(i), is_same);
+            const auto place = std::lower_bound(keys.begin(), keys.end(), visible[i].key) - keys.begin();
+            pixel.fragments.push_back({visible[i].fragment->primitive, is_first ? static_cast<int>(place) : -1,
+                                       depth_of(visible[i], renderer.depth_format())});
+        }
+        std::sort(pixel.fragments.begin(), pixel.fragments.end());
+    }
+    return looked;
+}
+
+}  // namespace strata::tools

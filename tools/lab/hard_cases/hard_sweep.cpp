@@ -1,0 +1,237 @@
+#include "tools/lab/hard_cases/hard_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "peeling/algorithms/algorithm.h"
+#include "tools/lab/sweep/csv.h"
+#include "tools/strata/options/choices.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+// A cell of the sweep.
+struct HardCell {
+    std::size_t group = 0;  // cells of one case, profile and format
+    const scenes::HardCase* hard = nullptr;
+    const pipeline::DeviceProfile* profile = nullptr;
+    pipeline::DepthFormat format{};
+    const peeling::Algorithm* algorithm = nullptr;
+};
+
+HardCell hard_cell(const HardSweep& sweep, std::size_t number) {
+    const std::size_t formats = sweep.formats.size(), profiles = sweep.profiles.size();
+    const std::size_t group = number / sweep.algorithms.size();
+    return {group, sweep.cases[group / formats / profiles], &sweep.profiles[group / formats % profiles],
+            sweep.formats[group % formats], sweep.algorithms[number % sweep.algorithms.size()]};
+}
+
+ordered_json hard_description(const HardSweep& sweep, std::size_t number) {
+    const HardCell cell = hard_cell(sweep, number);
+    return {{"cell", number},
+            {"case", cell.hard->name},
+            {"profile", cell.profile->name},
+            {"depth", name_of(depth_formats, cell.format)},
+            {"algorithm", cell.algorithm->name},
+            {"moves", sweep.moves && cell.hard->is_moved && is_moved(*cell.algorithm)}};
+}
+
+ordered_json counts_of(const Composited& found) {
+    return {
+        {"visible", found.visible},         {"deepest", found.deepest},           {"layers", found.layers},
+        {"tied_pixels", found.tied_pixels}, {"lost_by_ties", found.lost_by_ties}, {"lost", found.lost},
+        {"repeated", found.repeated},       {"misplaced", found.misplaced},       {"wrong_pixels", found.wrong_pixels}};
+}
+
+ordered_json faults_of(const std::vector<pipeline::Diagnostic>& diagnostics) {
+    ordered_json faults = ordered_json::array();
+    for (const pipeline::Diagnostic& d : diagnostics)
+        faults.push_back({{"fault", pipeline::name(d.fault)}, {"pixels", d.pixels}, {"detail", d.detail}});
+    return faults;
+}
+
+std::vector<std::string> hard_keys() {
+    return {"cell",    "case",       "profile", "depth",       "algorithm",  "outcome",
+            "refusal", "verdict",    "reasons", "fragments",   "difference", "difference_at_ties",
+            "bound",   "nan_values", "unlike",  "diagnostics", "digest",     "stability",
+            "flicker"};
+}
+
+void add_moved_columns(std::vector<std::string>& columns) {
+    columns.emplace_back("/stability/verdict");
+    for (const MoveSize size : move_sizes)
+        for (const char* part : {"exact", "ours", "amplification", "within_move", "within_device", "beyond"})
+            for (const char* figure : {"gained", "lost", "reordered", "color", "depth"})
+                columns.push_back(fmt::format("/stability/{}/{}/{}", name_of(size), part, figure));
+    for (const char* figure : {"/stability/permuted", "/stability/permuted_ties", "/flicker/compared", "/flicker/order",
+                               "/flicker/coverage"})
+        columns.emplace_back(figure);
+    for (const auto& path : depth_paths()) columns.push_back(fmt::format("/flicker/paths/{}/order", path.name));
+    columns.emplace_back("/flicker/paths/exact_unstored/order");
+}
+
+std::vector<std::string> hard_columns() {
+    std::vector<std::string> columns{"/cell",      "/case",    "/profile", "/depth",
+                                     "/algorithm", "/outcome", "/refusal", "/verdict"};
+    const ordered_json counts = counts_of({});
+    for (const auto& [key, value] : counts.items()) columns.push_back("/fragments/" + key);
+    for (const char* key : {"/difference", "/difference_at_ties", "/bound", "/nan_values", "/digest"})
+        columns.emplace_back(key);
+    add_moved_columns(columns);
+    return columns;
+}
+
+// The machine of the cells that were run last, and the number of their group.
+struct HardCache {
+    std::size_t group = 0;
+    std::optional<HardMachine> machine;
+    const scenes::HardCase* hard = nullptr;
+    std::optional<MovedMachine> moved;
+};
+
+std::optional<MovedRow> moved_row(const HardSweep& sweep, const HardCell& cell, const HardRow& row, HardCache& cache) {
+    if (!sweep.moves || !cell.hard->is_moved || !is_moved(*cell.algorithm) || !row.refusal.empty()) return {};
+    if (cache.hard != cell.hard) cache.moved.emplace(*cell.hard);
+    cache.hard = cell.hard;
+    return cache.moved->run(*cell.profile, cell.format, *cell.algorithm, row);
+}
+
+Measured hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
+    const auto start = std::chrono::steady_clock::now();
+    const HardCell cell = hard_cell(sweep, number);
+    if (!cache.machine || cache.group != cell.group) {
+        cache.machine.emplace(*cell.hard, *cell.profile, cell.format);
+        cache.group = cell.group;
+    }
+    const HardRow row = cache.machine->run(*cell.algorithm);
+    const ordered_json line = to_line(sweep, number, row, moved_row(sweep, cell, row, cache));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    return {.line = line, .timing = {{"cell", number}, {"seconds", taken.count()}}, .seconds = taken.count()};
+}
+
+}  // namespace
+
+ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row,
+                     const std::optional<MovedRow>& moved) {
+    ordered_json line = hard_description(sweep, number);
+    const bool ran = row.refusal.empty();
+    const auto if_ran = [&](const ordered_json& value) { return ran ? value : ordered_json(nullptr); };
+    line["outcome"] = ran ? "done" : "refused";
+    line["refusal"] = row.refusal;
+    line["verdict"] = name_of(row.verdict);
+    line["reasons"] = if_ran(row.reasons);
+    line["fragments"] = if_ran(counts_of(row.found));
+    line["difference"] = if_ran(row.difference);
+    line["difference_at_ties"] = if_ran(row.difference_at_ties);
+    line["bound"] = if_ran(row.bound);
+    line["nan_values"] = if_ran(row.nan_values);
+    line["unlike"] = if_ran(row.unlike);
+    line["diagnostics"] = if_ran(faults_of(row.diagnostics));
+    line["digest"] = if_ran(row.digest);
+    line["stability"] = moved ? to_json(moved->stability) : ordered_json(nullptr);
+    line["flicker"] = moved ? flicker_json(*moved) : ordered_json(nullptr);
+    return line;
+}
+
+Work hard_work(const HardSweep& sweep) {
+    return {.name = "hard cases",
+            .cells = sweep.cases.size() * sweep.profiles.size() * sweep.formats.size() * sweep.algorithms.size(),
+            .description = [&sweep](std::size_t i) { return hard_description(sweep, i); },
+            .keys = hard_keys(),
+            .measure = [&sweep, cache = std::make_shared<HardCache>()](
+                           std::size_t i) { return hard_measured(sweep, i, *cache); },
+            .csv = [](const Lines& lines) { return csv_of_columns(hard_columns(), lines); },
+            .summary = [&sweep](const Lines& lines) { return summary(sweep, lines); },
+            .alike = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; },
+            .findings = [&sweep](const Lines& lines) { return findings(sweep, lines); },
+            .caption =
+                [](const std::string& name, const Lines&) {
+                    return "The exact picture of " + std::filesystem::path(name).stem().string() +
+                           ": the A-buffer of the profile ideal; small frames enlarged, of large ones the brightest of "
+                           "each block";
+                }};
+}
+
+namespace {
+
+bool is_unstable(const ordered_json& line) {
+    return !line["stability"].is_null() && line["stability"]["verdict"] == name_of(StabilityVerdict::unstable);
+}
+
+// What a reader has to look at: the combination and all reasons.
+std::string failure_of(const ordered_json& line, const std::string& word, const ordered_json& reasons) {
+    std::string text = fmt::format("{}: {} by {} on {} at {}:", word, line["case"].get<std::string>(),
+                                   line["algorithm"].get<std::string>(), line["profile"].get<std::string>(),
+                                   line["depth"].get<std::string>());
+    for (const auto& reason : reasons) text += " " + reason.get<std::string>() + ";";
+    text.pop_back();
+    return text;
+}
+
+}  // namespace
+
+bool has_failed(const Lines& lines) {
+    return std::any_of(lines.begin(), lines.end(), [](const ordered_json& line) {
+        return line["verdict"] == name_of(HardVerdict::failed) || is_unstable(line);
+    });
+}
+
+Table summary_table(const HardSweep& sweep, const Lines& lines) {
+    std::map<std::string, std::map<std::string, int>> counts;
+    for (const ordered_json& line : lines)
+        ++counts[line["case"].get<std::string>()][line["verdict"].get<std::string>()];
+    Table table{{{"case"}}, {}};
+    for (const HardVerdict verdict : hard_verdicts)
+        table.columns.push_back({std::string{name_of(verdict)}, Align::right});
+    for (const scenes::HardCase* hard : sweep.cases) {
+        const std::string name{hard->name};
+        if (!counts.contains(name)) continue;
+        std::vector<std::string> cells{name};
+        for (const HardVerdict verdict : hard_verdicts)
+            cells.push_back(fmt::format("{}", counts[name][std::string{name_of(verdict)}]));
+        table.rows.push_back(std::move(cells));
+    }
+    return table;
+}
+
+std::vector<std::string> failures(const Lines& lines) {
+    std::vector<std::string> sentences;
+    for (const ordered_json& line : lines) {
+        if (line["verdict"] == name_of(HardVerdict::failed))
+            sentences.push_back(failure_of(line, "failed", line["reasons"]));
+        if (is_unstable(line)) sentences.push_back(failure_of(line, "unstable", line["stability"]["reasons"]));
+    }
+    return sentences;
+}
+
+std::string summary(const HardSweep& sweep, const Lines& lines) {
+    std::string text = to_text(summary_table(sweep, lines));
+    for (const std::string& sentence : failures(lines)) text += sentence + '\n';
+    return text;
+}
+
+Findings findings(const HardSweep& sweep, const Lines& lines) {
+    std::map<std::string, int> counts;
+    for (const ordered_json& line : lines) ++counts[line["verdict"].get<std::string>()];
+    std::string verdicts;
+    for (const HardVerdict verdict : hard_verdicts)
+        if (const int count = counts[std::string{name_of(verdict)}]; count > 0)
+            verdicts += fmt::format("{}{}: {}", verdicts.empty() ? "" : ", ", name_of(verdict), count);
+    const std::string sentence =
+        fmt::format("{} scene{} in {} combinations of algorithm, device and depth format; {}", sweep.cases.size(),
+                    sweep.cases.size() == 1 ? "" : "s", lines.size(), verdicts);
+    return {sentence + ".", summary_table(sweep, lines),
+            "How often a scene came out stable, degrades, or breaks as the hardware did", failures(lines)};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,61 @@
+#include "tools/lab/sweep/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace strata::tools {
+
+using nlohmann::ordered_json;
+
+std::string csv_field(const ordered_json& value) {
+    if (!value.is_string()) return value.dump();
+    const auto text = value.get<std::string>();
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string quoted(1, '"');
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    quoted += '"';
+    return quoted;
+}
+
+std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
+    std::vector<std::vector<std::string>> rows{{""}};
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"' && is_quoted && i + 1 < text.size() && text[i + 1] == '"')
+            rows.back().back() += text[++i];  // a doubled one stands for itself
+        else if (c == '"')
+            is_quoted = !is_quoted;
+        else if (c == ',' && !is_quoted)
+            rows.back().emplace_back();
+        else if (c == '\n' && !is_quoted)
+            rows.push_back({""});
+        else
+            rows.back().back() += c;
+    }
+    if (rows.back().size() == 1 && rows.back()[0].empty()) rows.pop_back();  // behind the last line's end
+    return rows;
+}
+
+std::string csv_of_columns(const std::vector<std::string>& pointers, const Lines& lines) {
+    std::vector<ordered_json::json_pointer> places;
+    std::vector<std::string> fields;
+    for (const std::string& pointer : pointers) {
+        places.emplace_back(pointer);
+        fields.push_back(pointer.substr(1));
+        std::replace(fields.back().begin(), fields.back().end(), '/', '.');
+    }
+    std::string text = fmt::format("{}\n", fmt::join(fields, ","));
+    for (const ordered_json& line : lines) {
+        fields.clear();
+        for (const auto& place : places) {
+            const ordered_json* value = line.contains(place) ? &line.at(place) : nullptr;
+            fields.push_back(value == nullptr || value->is_null() ? "" : csv_field(*value));
+        }
+        text += fmt::format("{}\n", fmt::join(fields, ","));
+    }
+    return text;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,22 @@
+// tools/lab/sweep/csv.h - JSON lines as rows of a CSV.
+//
+// Rule     RFC 4180: quotes only where a text needs them. A column is a JSON pointer; its title is the pointer without
+//          the first slash and with dots for the others. What a line lacks, or has as null, is an empty field.
+// Tests    tests/tools/csv_test.cpp
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/lab/sweep/journal.h"
+
+namespace strata::tools {
+
+[[nodiscard]] std::string csv_field(const nlohmann::ordered_json& value);
+
+// The fields of each row of a CSV as it is written here.
+[[nodiscard]] std::vector<std::vector<std::string>> csv_rows(const std::string& text);
+
+// The header and a row a line.
+[[nodiscard]] std::string csv_of_columns(const std::vector<std::string>& pointers, const Lines& lines);
+
+}  // namespace strata::tools

@@ -1,0 +1,287 @@
+// tools/strata/program.cpp - which subcommand runs, and what every failure looks like from outside.
+//
+// Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
+//          interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+#include "tools/strata/program.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <ios>
+#include <new>
+
+#include "pipeline/device/check.h"
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/base/parallel.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/unfinished_files.h"
+#include "scenes/gltf/document/input_errors.h"
+#include "tools/strata/command.h"
+#include "tools/strata/lab.h"
+#include "tools/strata/manual/manual.h"
+#include "tools/strata/messages.h"
+#include "tools/strata/options/names.h"
+#include "tools/strata/options/old_words.h"
+#include "tools/strata/recorded_command.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+enum Exit : int { bad_input = 2, system_failed = 3 };
+
+// Prints the one line of a failure and answers its status.
+int fail(const std::string& sentence, Exit status) {
+    say_error(sentence);
+    return status;
+}
+
+// Told at the end: which loop needs how many threads is known when it runs.
+void warn_of_threads() {
+    const ThreadShortage threads = thread_shortage();
+    if (threads.had < threads.asked)
+        say_warning(fmt::format("--threads: the system refused {} threads; {} worked", threads.asked, threads.had));
+}
+
+using Clock = std::chrono::steady_clock;
+
+// A broken file may have thousands of faults: those that fit a screen are told.
+int fail_of(const std::vector<std::string>& sentences) {
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < std::min(sentences.size(), most); ++i) say_error(sentences[i]);
+    if (sentences.size() > most) say_error(std::to_string(sentences.size() - most) + " more faults are not shown");
+    return bad_input;
+}
+
+// What all of it took, for -v. Kilobytes are how Linux counts a process's memory.
+void tell_effort(Clock::time_point start) {
+    const std::chrono::duration<double> passed = Clock::now() - start;
+    rusage used{};
+    if (getrusage(RUSAGE_SELF, &used) == 0)
+        say_detail(fmt::format("done in {}, with at most {} MiB of memory", seconds_text(passed.count()),
+                               (used.ru_maxrss + 1023) / 1024));
+}
+
+std::vector<std::string> names_of(CLI::App& root) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands_of(root)) names.push_back(command->get_name());
+    return names;
+}
+
+// Long options as they are typed: --size.
+std::vector<std::string> options_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+std::string unknown_command(const std::string& word, CLI::App& root) {
+    return "strata has no command " + found_but_near(word, names_of(root)) + "; strata --help lists them";
+}
+
+// The subcommand that was named, or the root if none was.
+CLI::App& parsed_app(CLI::App& root) {
+    const auto subcommands = root.get_subcommands();
+    return subcommands.empty() ? root : *subcommands.front();
+}
+
+// "a word", "FILE.html": what an option's value is called in --help.
+std::string value_of(const CLI::App& app, const std::string& name) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    const std::string type = option == nullptr ? "" : option->get_type_name();
+    return type.empty() || type.size() > 40 ? "one value" : "one " + type;
+}
+
+// CLI11's own words, in plain ones. What our validators say is plain already.
+std::string sentence(const CLI::ParseError& error, CLI::App& root) {
+    const CLI::App& app = parsed_app(root);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        const std::string extra = root.remaining(true).front();
+        if (!extra.starts_with('-') && &app == &root) return unknown_command(extra, root);
+        if (!extra.starts_with('-')) return "strata " + app.get_name() + " has no use for the argument '" + extra + "'";
+        const std::string option = extra.substr(0, extra.find('='));
+        return "strata " + app.get_name() + " has no option " + found_but_near(option, options_of(app));
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        const std::string missing = std::string(error.what()).substr(0, std::string(error.what()).find(' '));
+        return missing + " is missing; strata " + app.get_name() + " --help says more";
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        const std::string said = error.what();
+        const std::string option = said.substr(0, said.find_first_of(": "));
+        if (said.ends_with("flag override")) return "--" + option + " takes no value";
+        return option + " needs " + value_of(app, option);
+    }
+    return error.what();
+}
+
+// The commands in the order of need. An entry without a function is an experiment.
+struct Listed {
+    const char* group;
+    std::string_view name;
+    Command (*add)(CLI::App& root) = nullptr;
+};
+constexpr std::array listed{
+    Listed{"Render and look", "render", add_render},
+    Listed{"Render and look", "report", add_report},
+    Listed{"Render and look", "explain", add_explain},
+    Listed{"Render and look", "passes", add_passes},
+    Listed{"Render and look", "layers", add_layers},
+    Listed{"Render and look", "scene", add_scene},
+    Listed{"Render and look", "info", add_info},
+    Listed{"Check a port", "compare", add_compare},
+    Listed{"Check a port", "golden", add_golden},
+    Listed{"Check a port", "diagnose", add_diagnose},
+    Listed{"Check a port", "reduce", add_reduce},
+    Listed{"Experiments", "cost"},
+    Listed{"Experiments", "invariance"},
+    Listed{"Experiments", "hard-cases"},
+    Listed{"Experiments", "reproduce"},
+    Listed{"Experiments", "bench"},
+    Listed{"Devices", "probe"},
+    Listed{"Devices", "infer"},
+    Listed{"Devices", "hardware-check"},
+    Listed{"Lists and help", "list", add_list},
+    Listed{"Lists and help", "help", add_help},
+    Listed{"Lists and help", "man", add_man},
+    Listed{"Lists and help", "completions", add_completions},
+};
+
+// Of an experiment that this program does not hold only the name and the description, for lists: run_lab has run before.
+Command add_listed(CLI::App& root, const Listed& entry, const std::vector<NamedCommand>& experiments) {
+    const auto held = std::ranges::find(experiments, entry.name, &NamedCommand::name);
+    Command command;
+    if (entry.add != nullptr)
+        command = entry.add(root);
+    else if (held != experiments.end())
+        command = held->add(root);
+    else
+        command = {add_lab_command(root, entry.name), [] { return 0; }};
+    command.app->group(entry.group);
+    return command;
+}
+
+// What `strata` alone prints.
+std::string short_help(const std::vector<Command>& commands) {
+    Table table{{{"strata COMMAND"}, {"what it does"}}, {}};
+    std::string group;
+    for (const Command& command : commands) {
+        if (command.app->get_group() != group) {
+            group = command.app->get_group();
+            table.rows.push_back({group + ":", ""});
+        }
+        table.rows.push_back({"  " + command.app->get_name(), command.app->get_description()});
+    }
+    return titled(to_text(table)) +
+           "Begin with: strata render teapot --size 400x300 -o teapot.png\n"
+           "More about a command: strata COMMAND --help\n";
+}
+
+// `--help all` asks for the rare options, too: the word behind it would be a scene.
+Shown take_amount_of_help(std::vector<std::string>& words) {
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        if ((words[i] != "--help" && words[i] != "-h") || words[i + 1] != "all") continue;
+        words.erase(words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        return Shown::all;
+    }
+    return Shown::usual;
+}
+
+// CLI11 wants the last word first. The name of a command behind help or man is an argument: "--" keeps it from being run.
+void parse(CLI::App& root, std::vector<std::string> words) {
+    const bool is_about = words.front() == "help" || words.front() == "man";
+    if (is_about && words.size() > 1 && !words[1].starts_with('-')) words.insert(words.begin() + 1, "--");
+    root.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+}
+
+// CLI11 would take --json=-1 for the contrary of --json.
+void refuse_values_of_flags(const std::vector<Command>& commands) {
+    for (const Command& command : commands)
+        for (CLI::Option* option : command.app->get_options({}))
+            if (option->get_items_expected_max() == 0) option->disable_flag_override();
+}
+
+// The first word is checked here: CLI11 would call a misspelt command an extra argument.
+int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vector<std::string> words,
+                  const std::vector<std::string>& old_words) {
+    const auto names = names_of(root);
+    if (words.empty()) {
+        print(short_help(commands));
+        return 0;
+    }
+    const std::string first = words.front();
+    if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
+        return fail(unknown_command(first, root), bad_input);
+    }
+    if (words == std::vector<std::string>{"help"}) {
+        print(short_help(commands));
+        return 0;
+    }
+    const Shown shown = take_amount_of_help(words);
+    try {
+        expand_from(words);
+        parse(root, words);
+        for (const std::string& sentence : old_words) say_warning(sentence);
+        for (const Command& command : commands) {
+            if (command.app->parsed()) return command.run();
+        }
+        return fail("a command is missing; strata --help lists them", bad_input);
+    } catch (const CLI::CallForHelp&) {
+        print(help_of(parsed_app(root), shown));
+    } catch (const CLI::CallForVersion& version) {
+        print(std::string(version.what()) + '\n');
+    } catch (const CLI::ParseError& error) {
+        return fail(sentence(error, root), bad_input);
+    }
+    return 0;
+}
+
+int run(const std::vector<std::string>& given, const std::vector<NamedCommand>& experiments) {
+    std::vector<std::string> words = given;
+    const std::vector<std::string> old_words = replace_old_words(words);
+    if (experiments.empty() && is_for_lab(words)) run_lab(given);
+    CLI::App root{
+        "Deterministic, bit-exact software rasterizer that runs depth-peeling algorithms as old GPUs ran them.",
+        "strata"};
+    root.set_version_flag("--version", "strata " STRATA_VERSION);
+    root.footer("strata COMMAND --help says more about a command, with examples.");
+    std::vector<Command> commands;
+    for (const Listed& entry : listed) commands.push_back(add_listed(root, entry, experiments));
+    add_message_options(root);
+    for (const Command& command : commands) add_message_options(*command.app);
+    refuse_values_of_flags(commands);
+    return parse_and_run(root, commands, words, old_words);
+}
+
+}  // namespace
+
+int run_program(int count, char** words, const std::vector<NamedCommand>& experiments) {
+    const Clock::time_point start = Clock::now();
+    scenes::remove_unfinished_files_when_interrupted();
+    scenes::tell_written_files([](const std::string& path) { say_detail("wrote " + path); });
+    try {
+        const int status = run({words + std::min(count, 1), words + count}, experiments);
+        warn_of_threads();
+        tell_effort(start);
+        return status;
+    } catch (const scenes::InputErrors& errors) {
+        return fail_of(errors.sentences);
+    } catch (const InputError& error) {
+        return fail(error.what(), bad_input);
+    } catch (const pipeline::Refused& error) {
+        return fail(error.what(), bad_input);
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory", system_failed);
+    } catch (const std::exception& error) {  // SystemError, file systems, streams
+        return fail(error.what(), system_failed);
+    }
+}
+
+}  // namespace strata::tools
