@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
-#   tools/test.sh               unit and golden tests; the fast ones and 2,000 frames under sanitizers
+#   tools/test.sh               unit and golden tests
+#   tools/test.sh --ci          those, and the fast ones and 2,000 frames under sanitizers: what continuous integration runs
+#   tools/test.sh --nightly     what compiles other projects: an installation's users, the recipe, builds without a build type
 #   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too, and the tests themselves; half a
 #                               minute of guided fuzzing each for frames and for the loader
 #   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
@@ -47,7 +49,7 @@ sanitizers() {
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
     [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs differential_seeds differential_fuzz)
     build "$preset" "${targets[@]}"
-    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|engines|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|golden|command|fuzz|house|book|docs|browser|python|port|engines|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
@@ -79,7 +81,7 @@ sanitized() {
     step "the fast tests of the core under the sanitizers, and beside them the frames of seeds $first..$((first + 2000))"
     quietly frames "build/$preset/tests/fuzz/differential_seeds" --seeds "$first..$((first + 2000))" &
     frames=$!
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|slow|golden|command|fuzz|house|book|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     wait "$frames"
 }
@@ -133,16 +135,15 @@ matrix() {
 }
 
 case "${1:-}" in
-    "") ;;
+    "") tools/setup.sh; step "building"; build release ;;
+    --ci) tools/setup.sh; builds; sanitized ;;
+    --nightly) tools/setup.sh; build release; ctest --test-dir build/release -L nightly --output-on-failure -j "$(nproc)"; exit 0 ;;
     --sanitizers) tools/setup.sh; sanitizers; exit 0 ;;
     --instrumented) tools/setup.sh; instrumented; exit 0 ;;
     --matrix) tools/setup.sh; matrix; exit 0 ;;
     --exhaustive) tools/setup.sh; build release; ctest --preset exhaustive -j "$(nproc)"; exit 0 ;;
-    *) echo "tools/test.sh: expected nothing, --sanitizers, --instrumented, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
+    *) echo "tools/test.sh: expected nothing, --ci, --nightly, --sanitizers, --instrumented, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
 esac
 
-tools/setup.sh
-builds
-sanitized
 step "all unit and golden tests"
 ctest --preset release -j "$(nproc)"
