@@ -21,10 +21,10 @@ PICTURES = os.path.join(FOLDER, "pictures", "gallery")
 VIEW = ["--profile", "ideal", "--size", "96x72", "--background", "1,1,1"]
 SCENES = [  # name in the page, arguments, what to look at
     ("teapot", ["teapot", "--alpha", "0.75", "--camera", os.path.join(FOLDER, "pictures", "teapot.json")],
-     "the inside is green: where it covers the outside, triangles were blended as they came"),
-    ("volume-beam", ["volume-beam:slices=16"], "planes that come far to near, and a cone across them"),
+     "where the green inside covers the outside, triangles were blended as submitted"),
+    ("volume-beam", ["volume-beam:slices=16"], "planes drawn far to near, and a cone across them"),
     ("random", ["random:triangles=150"], "triangles that cross one another, and exact ties"),
-    ("planes", ["planes"], "six planes one behind the other that arrive far to near, so that `unsorted` is right, too"),
+    ("planes", ["planes"], "six planes one behind the other drawn far to near, so that `unsorted` is right, too"),
     ("shadow-demo", ["shadow-demo"], "one transparent pane before an opaque teapot, lit by a shadow map"),
     ("cyclic-overlap", ["hard:case=cyclic-overlap"], "three triangles, each before the next: no order of them is right"),
 ]
@@ -90,14 +90,14 @@ def caption(entry):
 
 
 def row_of(algorithm, captions):
-    return f"| `{algorithm}` | ![the scenes by {algorithm}](pictures/gallery/{algorithm}.png) | {' / '.join(captions)} |"
+    return f"| `{algorithm}` | ![{algorithm}](pictures/gallery/{algorithm}.png) | {'; '.join(captions)} |"
 
 
 def page_of(shown):
     lines = ["# Gallery", "",
-             "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: above what the algorithm draws, below",
-             "four times its difference from the exact A-buffer (black: none). The figures, in the order of the scenes, are the greatest difference of a",
-             "channel in 1/255, fragments blended out of order and fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
+             "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: above the picture, below four times its",
+             "difference from the exact A-buffer. The figures, in the order of the scenes: the greatest difference of a channel in 1/255, fragments blended",
+             "out of order, fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
     lines += [f"- **{name}**: `strata render {' '.join(arguments).replace(FOLDER + os.sep, 'tools/docs/')}`: {what}." for name, arguments, what in SCENES]
     lines += ["", "| algorithm | " + ", ".join(name for name, _, _ in SCENES) + " | differences |", "|---|---|---|"]
     lines += [row_of(entry["algorithm"], [caption(shown[name][i][0]) for name, _, _ in SCENES]) for i, (entry, _, _) in enumerate(shown[SCENES[0][0]])]
@@ -128,7 +128,7 @@ def check(shown, whole):
             part = slice(3 * width * place, 3 * width * (place + 1))
             if strip[0] != width * len(SCENES) or [row[part] for row in strip[1]] != rows:
                 wrong.append(f"{path}: expected what the program draws of {name}")
-            elif kept.get(algorithm, "").split(" / ")[place:place + 1] != [caption(entry)]:
+            elif kept.get(algorithm, "").split("; ")[place:place + 1] != [caption(entry)]:
                 wrong.append(f"gallery.md: expected {caption(entry)} for {name} by {algorithm}")
     files = os.listdir(PICTURES)
     wrong += [f"{PICTURES}: {file} is no algorithm's" for file in files if file.removesuffix(".png") not in kept]

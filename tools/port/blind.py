@@ -139,17 +139,27 @@ def page(seed, driver, renderer, rows, right, drawn):
         return f"{sum(r[-1] in answers for r in asked)} of {len(asked)}"
 
     lines = ["# Mistakes drawn by a seed", "",
-             f"Made by `tools/port/blind.py {seed}` on {renderer}. The seed draws the mistakes and three scenes for each (the script says how); the oracle has the",
-             "packs and what the port wrote, its passes and layers included. The figure is as it fell: no row was left out or made again, and no scene was",
-             f"chosen by hand. A mistake that {DRAWS} scenes do not show {SCENES} times is listed as not shown, and another one was drawn for it.", "",
-             "| | answered rightly | of these named first, or as none of mine | beside another one that leaves the same output | another one is named, which leaves the same output |",
+             "The question: how often does `strata diagnose` name a mistake of a port if neither the mistakes nor the scenes are chosen by hand? A seed",
+             f"draws the mistakes and {SCENES} scenes for each ([blind.py](blind.py) says how); the diagnosis has the packs and what the port wrote, with its",
+             f"passes and layers. Seed {seed} on {renderer}:", "",
+             "| | answered rightly | named first, or as none of mine | beside another that leaves the same output | another is named, which leaves the same output |",
              "|---|---|---|---|---|"]
-    for kind, words in (("single", "single mistakes that the catalogue has"), ("outside", "single mistakes that it has not"), ("pair", "pairs")):
+    for kind, words in (("single", "one mistake that the catalogue has"), ("outside", "one mistake that it has not"), ("pair", "two mistakes")):
         lines.append(f"| {words} | {count(kind, 'first', 'beside', 'none of mine')} | {count(kind, 'first', 'none of mine')} | {count(kind, 'beside')} | {count(kind, 'same output')} |")
-    lines += ["", f"The right port is named right on {right} of these sets of scenes. Scenes drawn: {drawn}.", "",
-              "| kind | mistake | algorithm | scenes | verdict | named first | pixels that differ | first class of pixels | answer |", "|" + "---|" * 9]
-    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    hidden = [row[1] for row in rows if row[-1] == "not shown"]
+    lines += ["", f"The right port is called right on {right} sets of scenes; {drawn} scenes were drawn. No row was left out or drawn again, but a mistake that {DRAWS}",
+              f"scenes do not show {SCENES} times is replaced: {'; '.join(f'`{names}`' for names in hidden) or 'none'}.", "",
+              "[SEEDS.md](SEEDS.md) has the earlier seeds, and what was improved after each.", "",
+              "## The whole table", "", f"    tools/port/blind.py {seed}", "",
+              "It needs a build with `-DSTRATA_PORT=ON` and the driver. `build/port/BLIND.md` then has a row for each mistake: its scenes, the verdict, what is",
+              "named, and how many pixels differ."]
     return "\n".join(lines) + "\n"
+
+
+def whole_page(seed, rows):
+    return "\n".join([f"# Mistakes drawn by seed {seed}", "",
+                      "| kind | mistake | algorithm | scenes | verdict | named first | pixels that differ | first class of pixels | answer |", "|" + "---|" * 9,
+                      *("| " + " | ".join(row) + " |" for row in rows), ""])
 
 
 def main():
@@ -158,6 +168,7 @@ def main():
     parser.add_argument("--build", default=str(ROOT / "build/release"), help="where strata and strata_port are")
     parser.add_argument("--driver", default="llvmpipe", help="whose profile has the same name")
     parser.add_argument("--out", default=str(HERE / "BLIND.md"))
+    parser.add_argument("--whole", type=pathlib.Path, default=ROOT / "build" / "port" / "BLIND.md")
     options = parser.parse_args()
     print("seed", options.seed, flush=True)
     draw, build = random.Random(options.seed), pathlib.Path(options.build)
@@ -185,6 +196,8 @@ def main():
             print(*rows[-1], sep=" | ", flush=True)
             shutil.rmtree(bench.set)
     pathlib.Path(options.out).write_text(page(options.seed, options.driver, renderer, rows, f"{right} of {right + wrong}", drawn))
+    options.whole.parent.mkdir(parents=True, exist_ok=True)
+    options.whole.write_text(whole_page(options.seed, rows))
     return 0 if wrong == 0 else 1
 
 
