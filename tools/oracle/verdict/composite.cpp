@@ -1,5 +1,6 @@
 #include "tools/oracle/verdict/composite.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/numbers/srgb_encode.h"
@@ -71,6 +72,16 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
             k.cut_high = operands_are_codes ? 0.25 / k.scale : error;
             break;
     }
+    return k;
+}
+
+// What a shader's result is stored by: rounded once.
+Keeper storing(const End& result) {
+    Keeper k = keeper(result.storage, result.rounding, false);
+    const bool is_known = result.rounding == Rounding::nearest || result.rounding == Rounding::cut;
+    if (result.storage != Storage::half || !is_known) return k;
+    k.half = result.rounding == Rounding::cut ? Keeper::Half::cut : Keeper::Half::nearest;
+    k.relative = single_error;
     return k;
 }
 
@@ -264,9 +275,23 @@ Compositor::Compositor(const Hypothesis& h)
     : hypothesis_{h},
       front_{means_of(h.front, h.slack)},
       back_{means_of(h.back, h.slack)},
-      result_{keeper(h.result.storage, h.result.rounding, false)},
+      result_{storing(h.result)},
       converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held ||
                 h.result.rounding == Rounding::any} {}
+
+Sums Compositor::sums_of(const Stack& stack, const Channels& front, Interval weight,
+                         const Channels& back) const noexcept {
+    const Means& nearer = has_front(hypothesis_.order) ? front_ : back_;
+    const bool is_plain = !stack.is_linear && stack.finish == Finish::as_is && stack.mixing == Mixing{};
+    if (result_.has_codes || !is_plain || !nearer.blend.has_codes || !nearer.blend.snaps) return {};
+    const double rounded = hypothesis_.result.storage == Storage::half ? 0x1p-10 : 0x1p-24;
+    Sums sums{.front_unit = nearer.blend.inverse, .weight = weight, .relative = rounded + 2 * single_error};
+    if (back_.blend.has_codes && back_.blend.snaps) sums.back_unit = back_.blend.inverse;
+    sums.is_back_half = hypothesis_.back.storage == Storage::half;
+    std::copy_n(front.begin(), 3, sums.front.begin());
+    std::copy_n(back.begin(), 3, sums.back.begin());
+    return sums;
+}
 
 bool Compositor::can_mix(const Stack& stack) const noexcept {
     Mixing mixing = stack.mixing;
@@ -278,7 +303,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     const Order order = hypothesis_.order;
     if (!can_mix(stack)) {
         constexpr Interval none{1, 0};
-        return {none, none, none, none};
+        return {{none, none, none, none}, {}};
     }
     const std::span<const Layer> near_to_far = stack.layers;
     std::size_t near = 0;
@@ -294,18 +319,25 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
         if (c < 3 && stack.finish == Finish::decoded) return result_.kept(decoded(clamped(exact)), magnitude);
         return result_.kept(stack.is_linear && c < 3 ? encoded(exact) : exact, magnitude);
     };
+    // What is let through may be read as 1 less the coverage, which is off by half a unit in the last place of 1 each time.
+    const auto read = [&](Interval through) { return result_.has_codes ? through : through.widened(0x1p-23); };
     const bool converts = converts_ || stack.finish != Finish::as_is;
     Reach reach;
     if (is_apart) {
-        const Interval through = clamped(rest_of(back[3]));
+        const Interval through = read(clamped(rest_of(back[3])));
+        if (!has_front(order)) reach.sums = sums_of(stack, back, through, behind);
         for (std::size_t c = 0; c < 4; ++c) {
             const Interval added = through * behind[c];
             back[c] = has_front(order) ? back[c] + added
                                        : published(c, back[c] + added, back[c].magnitude() + added.magnitude());
         }
-        if (!has_front(order)) return back;
+        if (!has_front(order)) {
+            reach.channels = back;
+            return reach;
+        }
     }
     if (!has_front(order)) {
+        reach.sums = sums_of(stack, back, {}, {});
         for (std::size_t c = 0; c < 4; ++c) {
             const bool is_encoded = stack.is_linear && c < 3;
             reach[c] = converts ? published(c, back[c], back[c].magnitude()) : is_encoded ? encoded(back[c]) : back[c];
@@ -314,7 +346,8 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     }
     const Channels front = under(front_, near_to_far.first(near), stack);
     const Mixing& mixing = stack.mixing;
-    Interval weight = front[3];
+    Interval weight = read(front[3]);
+    if (!is_apart) reach.sums = sums_of(stack, front, weight, back);
     if (mixing.behind == Mixing::Behind::twice) weight = weight * weight;
     if (mixing.behind == Mixing::Behind::inverted && near > 0) weight = rest_of(weight);
     for (std::size_t c = 0; c < 3; ++c) {

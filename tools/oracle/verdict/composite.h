@@ -9,6 +9,8 @@
 //          each rounding
 #pragma once
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -61,8 +63,29 @@ struct Stack {
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 
+// Where a picture of floats is put together of what accumulators keep in codes, it has no other values than front + weight * back of these.
+struct Sums {
+    double front_unit = 0,
+           back_unit = 0;  // of a code; of the back 0 where it is a float. No front unit: nothing is known
+    bool is_back_half = false;
+    std::array<Interval, 3> front{}, back{};
+    Interval weight{};
+    double relative = 0;  // by which a sum is off, of its terms
+    friend bool operator==(const Sums&, const Sums&) = default;
+    [[nodiscard]] bool hold(const std::array<double, 4>& value) const noexcept;
+    [[nodiscard]] double count() const noexcept;  // how many there are, floats aside
+};
+
 // Red, green, blue and alpha of the finished pixel, as values (not codes) of the result's storage.
-using Reach = std::array<Interval, 4>;
+struct Reach {
+    std::array<Interval, 4> channels{};
+    Sums sums{};
+    [[nodiscard]] Interval& operator[](std::size_t c) noexcept { return channels[c]; }
+    [[nodiscard]] const Interval& operator[](std::size_t c) const noexcept { return channels[c]; }
+    friend bool operator==(const Reach&, const Reach&) = default;
+};
+// Whether the pixel can have this colour; alpha aside.
+[[nodiscard]] bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept;
 
 // How a storage rounds what it gets: a hypothesis' rounding turned into numbers once.
 struct Keeper {
@@ -73,8 +96,16 @@ struct Keeper {
     double cut_low = 0, cut_high = 0;
     bool cuts = false;               // whole codes below the exact result, moved by the two numbers above
     double relative = 0, least = 0;  // floats
+    enum class Half : std::uint8_t { none, nearest, cut };
+    Half half = Half::
+        none;  // what is off by the two numbers above becomes the nearest number of binary16, or the one before it
 
     [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
+        if (!has_codes && half != Half::none) {
+            const auto rounded = [&](double v) { return half == Half::cut ? cut_half(v) : nearest_half(v); };
+            const Interval off = exact.widened(magnitude * relative);
+            return Interval{rounded(off.low), rounded(off.high)}.widened(least);
+        }
         if (!has_codes) return exact.widened(magnitude * relative + least);
         double low = below(exact.low * scale), high = above(exact.high * scale);
         if (cuts) {
@@ -96,6 +127,15 @@ struct Keeper {
     [[nodiscard]] static double floor_of(double x) noexcept {
         const double whole = nearest_whole(x);
         return whole - (whole > x ? 1.0 : 0.0);
+    }
+    // To 11 bits, by Veltkamp's splitting: of two that are as near, either.
+    [[nodiscard]] static double nearest_half(double x) noexcept {
+        const double far = (0x1p42 + 1) * x;
+        return far - (far - x);
+    }
+    [[nodiscard]] static double cut_half(double x) noexcept {
+        const double near = nearest_half(x);
+        return std::fabs(near) > std::fabs(x) ? nearest_half(near * (1 - 0x1p-11)) : near;
     }
     [[nodiscard]] static double ceil_of(double x) noexcept {
         const double whole = nearest_whole(x);
@@ -133,6 +173,9 @@ class Compositor {
     static void over(const Means& means, std::span<const Layer> near_to_far, const Stack& stack,
                      Channels& onto) noexcept;
     [[nodiscard]] static Channels background_of(const Means& means, const Stack& stack) noexcept;
+    // Of a float picture and accumulators of codes; else nothing.
+    [[nodiscard]] Sums sums_of(const Stack& stack, const Channels& front, Interval weight,
+                               const Channels& back) const noexcept;
 
     Hypothesis hypothesis_;
     Means front_, back_;

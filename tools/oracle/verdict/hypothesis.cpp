@@ -178,7 +178,8 @@ class FamilyMaker {
         if (looseness_ == Looseness::definite && (is_loose(front) || is_loose(back))) return;
         const End nearest{result_, Source::unrounded, Rounding::nearest};
         family.members.push_back({.order = order, .front = front, .back = back, .result = nearest, .slack = slack});
-        if (!has_codes(result_) || has_codes(front.storage)) return;
+        const bool may_cut = has_codes(result_) || (result_ == Storage::half && front.storage == Storage::single);
+        if (!may_cut || has_codes(front.storage)) return;
         family.members.push_back(family.members.back());
         family.members.back().result.rounding = Rounding::cut;
     }
@@ -199,6 +200,7 @@ Families families(Storage result, const std::vector<double>& slacks, Looseness l
         // The opaque scene may be kept in 8 bits beside other accumulators.
         if (storage != Storage::unorm8)
             maker.add(Order::under, ends(storage), {{Storage::unorm8, Source::stored, Rounding::nearest}});
+        if (storage == Storage::single) maker.add(Order::under, ends(storage), ends(Storage::half));  // or in binary16
     }
     for (const Order order : {Order::both_ends, Order::both_ends_far, Order::both_ends_apart})
         for (const Storage front : storages)

@@ -9,13 +9,6 @@
 
 namespace strata::oracle::verdict {
 
-bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept {
-    constexpr double fine = 0x1p-40;  // codes are quotients, rounded on both sides
-    for (std::size_t c = 0; c < 3; ++c)
-        if (!(value[c] >= reach[c].low - fine && value[c] <= reach[c].high + fine)) return false;
-    return true;
-}
-
 namespace {
 
 bool may_have_ties(std::span<const Rule> rules, const PixelList& list) noexcept {

@@ -11,8 +11,6 @@
 
 namespace strata::oracle::verdict {
 
-[[nodiscard]] bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept;
-
 using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieRule::other does
 inline constexpr TieMask all_ties = (2u << ties_count) - 1;
 struct TiesFound {

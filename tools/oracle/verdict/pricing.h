@@ -7,6 +7,7 @@
 // Numbers  Bits are whole multiples of 2^-16, so that threads may add them up in any order.
 // Source   J. Rissanen, 1978, Modeling by shortest data description.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "tools/oracle/verdict/composite.h"
@@ -19,12 +20,22 @@ class Pricing {
     [[nodiscard]] double of(const Reach& reach) const noexcept {
         double values = 1;  // of three channels
         for (std::size_t c = 0; c < 3; ++c) values *= 1 + (reach[c].high - reach[c].low) / step(reach[c].magnitude());
+        if (reach.sums.front_unit > 0) values = std::min(values, sums_of(reach.sums));
         return std::nearbyint(std::log2(values) * 0x1p16) * 0x1p-16;
     }
     [[nodiscard]] double of_wrong() const noexcept { return 4 * 3 * digits(); }
     static constexpr double of_edge = 6;  // to say that and how a pixel at an edge is covered otherwise
 
   private:
+    // Each is off by some units in the last place, or by what is left open of a float behind.
+    [[nodiscard]] double sums_of(const Sums& sums) const noexcept {
+        double values = sums.count();
+        for (const Interval& back : sums.back) {
+            const double open = sums.back_unit > 0 || sums.is_back_half ? 0 : sums.weight.high * (back.high - back.low);
+            values *= 1 + open / step(1);
+        }
+        return values;
+    }
     [[nodiscard]] double digits() const noexcept {
         switch (storage_) {
             case Storage::unorm8: return 8;

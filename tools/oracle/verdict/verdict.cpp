@@ -112,9 +112,10 @@ std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const C
     return std::nullopt;
 }
 
-// A right account that leaves little open needs no other one beside it: a code, of floats as much.
+// A right account that leaves little open needs no other one beside it: a code, of floats as much or a few bits a pixel.
 bool leaves_little_open(const Checked& right) {
     const bool is_in_codes = has_codes(right.account.hypothesis.result.storage);
+    if (!is_in_codes && right.bits <= 4 * static_cast<double>(right.covered)) return true;
     return right.possible <= 1 || (is_in_codes && right.observed <= 1);
 }
 

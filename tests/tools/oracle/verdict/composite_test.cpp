@@ -81,7 +81,7 @@ Outside outside_of(Storage result, int lists, std::uint64_t seed) {
             const Stack stack = random_stack(random, 12);
             const auto value = port.composite(stack);
             const Reach reach = compositor.reach(stack);
-            bool is_inside = true;
+            bool is_inside = holds(reach, value);
             for (std::size_t c = 0; c < 4; ++c)
                 is_inside &= value[c] >= reach[c].low - 1e-12 && value[c] <= reach[c].high + 1e-12;
             if (!is_inside && outside.pixels++ == 0) outside.first = describe(h);

@@ -70,7 +70,8 @@ class PortModel {
     double kept(const End& end, double v) {
         const int top = levels(end.storage);
         if (end.storage == Storage::single) return as_single(v);
-        if (end.storage == Storage::half) return as_half(as_single(v), end.rounding == Rounding::any && flips());
+        const bool cuts = end.rounding == Rounding::cut || (end.rounding == Rounding::any && flips());
+        if (end.storage == Storage::half) return as_half(as_single(v), cuts);
         const double code = std::min(std::max(v, 0.0), 1.0) * top;
         switch (end.rounding) {
             case Rounding::nearest:

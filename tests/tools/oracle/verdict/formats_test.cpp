@@ -1,0 +1,99 @@
+// Model: pictures of the machine itself are right by definition, whatever its accumulators and its picture keep.
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "tests/tools/oracle/verdict/opened_scene.h"
+#include "tools/oracle/verdict/match.h"
+
+using namespace strata;
+using namespace strata::oracle::verdict;
+using strata::test::OpenedScene;
+
+namespace {
+
+constexpr pipeline::Format kept_formats[] = {pipeline::Format::rgba8, pipeline::Format::rgba16f,
+                                             pipeline::Format::rgba32f};
+
+struct Formats {
+    pipeline::Format color{}, back{}, result{};
+};
+
+// Of the accumulators and of the picture; a back of its own is dual's alone.
+std::vector<Formats> all_of(const std::string& algorithm) {
+    std::vector<Formats> all;
+    for (const pipeline::Format color : kept_formats)
+        for (const pipeline::Format result : kept_formats)
+            for (const pipeline::Format back : kept_formats)
+                if (back == color || algorithm == "dual") all.push_back({color, back, result});
+    return all;
+}
+
+// Under a hypothesis that leaves nothing to units in the last place but what binary32 has, and without another rasterizer's help.
+bool is_right(const SceneFragments& fragments, const oracle::Target& picture) {
+    const Colors colors{picture};
+    Sample sample = sampled(fragments, colors, 512);
+    const Families definite = families(storage_of(colors.code()), {0, 0x1p-20}, Looseness::definite);
+    return account_for(definite, {}, fragments, colors, sample).has_value();
+}
+
+// Pictures that are not: their names.
+std::vector<std::string> not_right_alone(OpenedScene opened) {
+    SceneFragments fragments = opened.fragments();
+    std::vector<std::string> names;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms())
+        for (const Formats& f : all_of(algorithm.name)) {
+            opened.options.result_format = f.result;
+            opened.options.back_format = algorithm.name == "dual" ? std::optional{f.back} : std::nullopt;
+            const auto picture = algorithm.exact ? opened.picture(algorithm.name, f.color) : std::nullopt;
+            if (!picture) continue;
+            if (is_right(fragments, *picture)) continue;
+            names.push_back(algorithm.name);
+            for (const pipeline::Format format : {f.color, f.back, f.result})
+                names.back() += ' ' + std::string{pipeline::info(format).name};
+        }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("an exact algorithm's picture is right whatever the accumulators and the picture keep") {
+    OpenedScene opened{"teapot", 32, 24};
+    opened.profile = *pipeline::find_profile("geforce8_dx101");
+    CHECK(not_right_alone(opened) == std::vector<std::string>{});
+    opened.options.alpha = 0.97f;  // what is let through is small, and told as 1 less what is not
+    CHECK(not_right_alone(opened) == std::vector<std::string>{});
+}
+
+TEST_CASE("a float picture has the values that accumulators of codes add up to, and no others") {
+    constexpr double code = 1.0 / 255;
+    const Interval fronts{10 * code, 11 * code}, backs{100 * code, 101 * code};
+    // A third of the back is let through: 10 + 100 / 3, 10 + 101 / 3, and the same of 11.
+    Sums sums{.front_unit = code,
+              .back_unit = code,
+              .front = {fronts, fronts, fronts},
+              .back = {backs, backs, backs},
+              .weight = Interval::of(85 * code),
+              .relative = 0x1p-22};
+    const auto holds = [&](double codes) { return sums.hold({codes * code, codes * code, codes * code, 1}); };
+    CHECK(sums.count() == 64);
+    for (const double codes : {10 + 100 / 3.0, 10 + 101 / 3.0, 11 + 100 / 3.0, 11 + 101 / 3.0}) CHECK(holds(codes));
+    for (const double codes : {10 + 100.5 / 3, 10.5 + 100 / 3.0, 43.5, 44.0, 44.1}) CHECK_FALSE(holds(codes));
+    // Numbers of binary16 near 100 / 255 lie 2^-12 apart.
+    sums.back_unit = 0;
+    sums.is_back_half = true;
+    CHECK(holds(10 + 1608 * 0x1p-12 * 255 / 3));
+    CHECK_FALSE(holds(10 + 1608.5 * 0x1p-12 * 255 / 3));
+    sums.is_back_half = false;  // binary32: all between
+    CHECK(holds(10 + 100.5 / 3));
+    CHECK_FALSE(holds(10.5 + 100 / 3.0));
+}
+
+TEST_CASE("a picture of floats over 8-bit accumulators is called right in few bits") {
+    OpenedScene opened{"teapot", 64, 48};
+    opened.options.result_format = pipeline::Format::rgba32f;
+    const Verdict found = judged(opened, *opened.picture("dual", pipeline::Format::rgba8));
+    CHECK(found.is_right);
+    CHECK(found.right.at_edges == 0);
+    CHECK(found.right.account.hypothesis.front.storage == Storage::unorm8);
+    CHECK(found.right.bits < static_cast<double>(found.right.covered) * 3);
+}

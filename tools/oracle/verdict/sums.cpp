@@ -1,0 +1,74 @@
+// tools/oracle/verdict/sums.cpp - the values that a float picture has of accumulators of codes.
+#include <cmath>
+
+#include "tools/oracle/verdict/composite.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+constexpr double fine = 0x1p-40;  // codes are quotients, rounded on both sides
+
+// The whole numbers of a unit in an interval whose ends are some.
+struct Codes {
+    double first = 0, last = 0;
+    Codes(Interval of, double unit)
+        : first{std::ceil(of.low / unit - 0x1p-8)}, last{std::floor(of.high / unit + 0x1p-8)} {}
+};
+
+// Between two numbers of binary16 of this magnitude.
+double half_unit(double magnitude) noexcept {
+    return std::exp2(std::max(std::floor(std::log2(magnitude)), -14.0) - 10);
+}
+
+}  // namespace
+
+double Sums::count() const noexcept {
+    const auto codes = [](Interval of, double unit) {
+        const Codes all{of, unit};
+        return std::max(1.0, all.last - all.first + 1);
+    };
+    double all = codes(weight, front_unit);
+    for (std::size_t c = 0; c < 3; ++c) {
+        all *= codes(front[c], front_unit);
+        if (back_unit > 0) all *= codes(back[c], back_unit);
+        if (is_back_half) all *= codes(back[c], half_unit(back[c].magnitude()));
+    }
+    return all;
+}
+
+bool Sums::hold(const std::array<double, 4>& value) const noexcept {
+    // Whether some front and back of one channel add up to its value.
+    const auto adds_up = [&](std::size_t c, double through) {
+        const Codes fronts{front[c], front_unit};
+        const double off = (std::fabs(value[c]) + back[c].magnitude()) * relative + 0x1p-24 + fine;
+        for (double code = fronts.first; code <= fronts.last; ++code) {
+            const double left = value[c] - code * front_unit;
+            if (through == 0) {
+                if (std::fabs(left) <= off) return true;
+                continue;
+            }
+            const Interval behind{std::max((left - off) / through, back[c].low - fine),
+                                  std::min((left + off) / through, back[c].high + fine)};
+            if (behind.low > behind.high) continue;
+            if (back_unit == 0 && !is_back_half) return true;
+            const double unit = is_back_half ? half_unit(behind.magnitude()) : back_unit;
+            if (const Codes some{behind, unit}; some.first <= some.last) return true;
+        }
+        return false;
+    };
+    const Codes weights{weight, front_unit};
+    for (double code = weights.first; code <= weights.last; ++code) {
+        const double through = code * front_unit;
+        if (adds_up(0, through) && adds_up(1, through) && adds_up(2, through)) return true;
+    }
+    return false;
+}
+
+bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept {
+    for (std::size_t c = 0; c < 3; ++c)
+        if (!(value[c] >= reach[c].low - fine && value[c] <= reach[c].high + fine)) return false;
+    return reach.sums.front_unit == 0 || reach.sums.hold(value);
+}
+
+}  // namespace strata::oracle::verdict
