@@ -14,17 +14,19 @@ using strata::peeling::RenderResult;
 
 }  // namespace
 
-// A clear of the opaque depth is remembered, so that tests against it may be left out; what is copied over it must be tested against.
-TEST_CASE("what an algorithm copies into the opaque depth hides what lies behind it, in every way of running") {
+// The first clear of the opaque depth is remembered, so that tests against it may be left out; what takes its place must be tested against.
+TEST_CASE(
+    "what an algorithm copies or clears into the opaque depth hides what lies behind it in every way of running") {
+    const bool clears = GENERATE(false, true);
     FragmentScene scene{20, 12};
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)
         scene.pixels[p].fragments = {{p % 2 == 0 ? 0.25f : 0.75f, {1, 1, 1, 1}}};
     strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("unsorted");
-    algorithm.body = [](strata::pipeline::Region& region) {
+    algorithm.body = [clears](strata::pipeline::Region& region) {
         using namespace strata::pipeline;
         const Target half = region.make_depth(), result = region.make_color();
-        region.clear(half, {.depth = 0.5f});
-        region.copy(half, region.opaque_depth());
+        region.clear(clears ? region.opaque_depth() : half, {.depth = 0.5f});
+        if (!clears) region.copy(half, region.opaque_depth());
         region.clear(result, {});
         PassState state;
         state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};

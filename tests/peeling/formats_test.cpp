@@ -1,6 +1,8 @@
 // A picture, a front and a back in formats of their own. Models: composite_model.h with a number line a target; and, for every algorithm,
 // the picture of wide floats rounded by hand.
 #include <catch2/catch.hpp>
+#include <limits>
+#include <optional>
 
 #include "peeling/registry.h"
 #include "peeling/truth/truth.h"
@@ -118,6 +120,30 @@ TEST_CASE("every algorithm's picture is that of binary32 stored once more, whate
                 plain.result_format.reset();
                 CHECK(drawn(color) == render(scene, {"ideal", algorithm.name}, plain).frame.color);
             }
+}
+
+// Sums of these depend on which zeros and infinities are added, and when.
+TEST_CASE("colours that binary32 adds otherwise than numbers leave the same bits in every way of running") {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr std::array rare{-0.0f, 0.0f, 1.0f, -0.5f, 2.0f, 3000.0f, 0x1p-140f, infinity, -infinity};
+    FragmentScene scene = random_stacks();
+    Random random{23};
+    const auto one_of = [&] { return rare[static_cast<std::size_t>(random_int(random, 0, std::ssize(rare) - 1))]; };
+    for (GivenPixel& pixel : scene.pixels)
+        for (GivenFragment& fragment : pixel.fragments)
+            for (float& c : components(fragment.color)) c = one_of();
+    for (const Algorithm& algorithm : algorithms())
+        for (const Format format : {Format::rgba16f, Format::rgba32f}) {
+            std::optional<Image> literal;
+            for (const Running& running : all_ways_of_running) {
+                RenderOptions options = with_formats(scene, format, format);
+                running.apply(options);
+                const Image image = render(scene, {"ideal", algorithm.name}, options).frame.color;
+                INFO(algorithm.name << ", format " << static_cast<int>(format));
+                if (!literal) literal = image;
+                CHECK(image == *literal);
+            }
+        }
 }
 
 TEST_CASE("a back of its own is refused where nothing is composited from behind") {
