@@ -55,8 +55,10 @@ TEST_CASE("both ends peeled over a background of denormals and -0 execute alike 
             options.color_format = format;
             options.alpha = 1;
             check_all_ways(scene, {profile, "dual_independent"}, options, chosen);
-            CHECK_NOTHROW(
-                render(scene.list, scene.view, {profile, "dual_independent"}, options, {.check_selections = true}));
+            const auto audit = [&](const strata::pipeline::Instruments& instruments) {
+                return render(scene.list, scene.view, {profile, "dual_independent"}, options, instruments).audit;
+            };
+            CHECK(audit({.check_selections = true}) == audit({}));
         }
 }
 
@@ -91,22 +93,27 @@ TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole,
 // The offset moves sloping opaque triangles below 0, and nothing of the flat ones in front of them and behind.
 TEST_CASE("an opaque depth below 0 is no bound of what is sorted: such a frame executes alike, too") {
     using namespace strata::pipeline;
-    DeviceProfile wraps = *find_profile("llvmpipe");
-    wraps.raster.depth_limits = strata::rasterizer::DepthLimits::wrap;
     TriangleScene scene = random_triangles(86, 20);
     for (const std::size_t i : {0u, 1u})
         for (auto& position : scene.list.meshes[scene.list.instances[i].mesh].positions)
             position[2] = i == 0 ? -2.0f : -3.0f;
-    for (const char* algorithm : {"front_to_back", "depth_units", "layer_peel"}) {
-        RenderOptions options = small_frame();
-        options.raster.polygon_offset = {true, -20, 0};
-        options.execution = Execution::literal;
-        const RenderResult expected = drawn_on(wraps, scene, algorithm, options);
-        REQUIRE(expected.outcome == strata::peeling::Outcome::done);
-        INFO(algorithm);
-        for (const Way& way : {ways[1], ways[7], ways[8]})
-            CHECK(difference(drawn_on(wraps, scene, algorithm, with(options, way)), expected) == "");
-    }
+    for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f})
+        for (const auto& [device, algorithm] : {std::pair{"llvmpipe", "front_to_back"},
+                                                {"llvmpipe", "depth_units"},
+                                                {"llvmpipe", "layer_peel"},
+                                                {"geforce8", "stencil_routed_k_buffer"}}) {
+            DeviceProfile wraps = *find_profile(device);
+            wraps.raster.depth_limits = strata::rasterizer::DepthLimits::wrap;
+            RenderOptions options = small_frame();
+            options.depth = format;
+            options.raster.polygon_offset = {true, -20, 0};
+            options.execution = Execution::literal;
+            const RenderResult expected = drawn_on(wraps, scene, algorithm, options);
+            REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+            INFO(algorithm << ", format " << static_cast<int>(format));
+            for (const Way& way : {ways[1], ways[7], ways[8]})
+                CHECK(difference(drawn_on(wraps, scene, algorithm, with(options, way)), expected) == "");
+        }
 }
 
 // Tiles of 64 pixels that share a place in the cache: (5, 0) and (0, 1). Passes that blend a pixel several times.

@@ -125,10 +125,12 @@ TEST_CASE("a lookup that leaves its region runs the frame literally, one that st
         TestFrame test = frame_of(scene, shift, 0);
         const Body body = [](Region& region) { Peel{region}; };
         const FrameResult literal = run(test.frame, body, Execution::literal, 1);
-        for (const bool has_memory : {false, true}) {
-            test.frame.replay = has_memory
-                                    ? Replay{1 << 20, {.shader_z = false, .code = true, .color = true, .units = 0xf000}}
-                                    : Replay{};
+        // Coordinates are not recorded, whether or not the frame has said before that its passes look at them.
+        const Replay unsaid{1 << 20, {.shader_z = false, .code = true, .color = true}};
+        Replay said = unsaid;
+        said.needs.units = 0xf000;
+        for (const Replay& replay : {Replay{}, unsaid, said}) {
+            test.frame.replay = replay;
             const FrameResult found = run(test.frame, body, Execution::replay, 2);
             CHECK(found.color == literal.color);
             CHECK(found.passes == literal.passes);

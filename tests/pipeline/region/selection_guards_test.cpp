@@ -171,6 +171,20 @@ TEST_CASE("a selection is taken where nothing is changed, and not where its test
     }
 }
 
+TEST_CASE("what lies behind a surface of the pass's own is left out as visiting every fragment leaves it out") {
+    const Changed own_surface = [](PassState& state, Region& region) {
+        const Target surface = region.make_depth();
+        region.clear(surface, {.depth = 0.5f});
+        state.reads[0] = surface;
+        state.selection.far[0] = KeyBound::beyond(surface);
+    };
+    for (std::size_t number = 0; number < stages.size(); ++number) {
+        const Ways ways = both_ways(stages[number], own_surface);
+        INFO("stage " << number);
+        CHECK(difference_of(ways.literal, ways.tiled).empty());
+    }
+}
+
 TEST_CASE("frames without memory, with every effect or with another key select nothing wrong", "[slow]") {
     const std::vector<std::function<void(Frame&)>> frames{
         [](Frame& f) { f.replay.bytes = 0; },          [](Frame& f) { f.replay.bytes = 512; },
