@@ -10,8 +10,7 @@ models=${1:-../shared/models} out=${OUT:-build/cost}
 strata=${STRATA:-build/release/strata}
 TIMEFORMAT='a shard: %U s of processor time, %R s on the clock'
 
-# A folder's name, a scene and its options. A shard has a thread, and its times are the processor's: two shards, and whatever else
-# runs, are in nobody's way.
+# Takes a folder's name, a scene and its options. A shard has one thread and times the processor, so other programs do not disturb it.
 sweep() {
   local folder=$out/$1
   shift

@@ -144,7 +144,7 @@ def page(rows, driver):
         "The question: a port of the peeling algorithms to OpenGL makes a mistake. Does `strata diagnose` name it from the scene and the finished",
         f"picture alone? The port ([mistakes.cpp](mistakes.cpp)) has {len({c[0] for c in rows if c[0] != '(right)' and ',' not in c[0]})} mistakes, written before the oracle's catalogue of mistakes was consulted. It draws on",
         f"{driver}, and the picture is diagnosed under that driver's profile. The scenes were chosen so that each mistake shows, some of them after a",
-        "first answer; [BLIND.md](BLIND.md) has the rates on scenes that nobody chose.", "",
+        "first answer; [BLIND.md](BLIND.md) has the rates on scenes that a seed draws.", "",
         "| pictures | number | " + " | ".join(answers) + " |", "|---" + "|---:" * (1 + len(answers)) + "|", *table, "",
         "*Yes*: the mistake is named, both of two are, or none is if the catalogue has no such mistake; the right port is called right. *Same picture*: the",
         "mistake that is named leaves the same picture, to the last pixel. *Nearest*: the right one is ranked first and leaves a few pixels.",
