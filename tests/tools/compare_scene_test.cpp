@@ -41,6 +41,23 @@ TEST_CASE("compare with a scene names the mistake of a peel that stops early, an
     CHECK(document["explanations"][0]["mistakes"][0]["n"] == 2);
 }
 
+TEST_CASE("a picture that is right by another profile's rules is right, and says by which") {
+    const Folder folder;
+    const std::string scene = "random:seed=3,triangles=80";
+    const std::string draw = "strata render " + scene + " --size 48x36 --profile softpipe --color-format rgba32f -q ";
+    REQUIRE(shell(folder, draw + "-o a.exr && " + draw + "--mistake alpha_squared -o b.exr").status == 0);
+    const Ended right = run_strata(folder, {"compare", scene, "a.exr", "--report", "page.html"});
+    INFO(right.out << right.err);
+    CHECK(right.status == 0);
+    CHECK(right.out.starts_with("right: structure exact at all 1728 pixels; "));
+    CHECK(right.out.find("\n  by the rules of profile softpipe; by those of geforce8 it would be wrong at ") !=
+          std::string::npos);
+    CHECK(content_of(folder / "page.html").find("by the rules of profile softpipe") != std::string::npos);
+    const Ended json = run_strata(folder, {"compare", scene, "a.exr", "--json"});
+    CHECK(nlohmann::json::parse(json.out)["profile"] == "softpipe");
+    CHECK(run_strata(folder, {"compare", scene, "b.exr"}).status == 1);
+}
+
 TEST_CASE("explain --candidate tells which layers a port composited at a pixel") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 24x18 --algorithm front_to_back --max-passes 2 -q -o a.png")

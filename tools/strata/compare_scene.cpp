@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "peeling/render.h"
@@ -16,6 +17,7 @@
 #include "tools/oracle/verdict/telling.h"
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/compare_pages.h"
+#include "tools/strata/other_profile.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 
@@ -97,11 +99,18 @@ std::string counted(std::uint64_t pixels, const std::string& what) {
     return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
 }
 
+// The profile by whose rules the verdict holds, as the document's last key.
+std::string with_profile(const std::string& verdict, const pipeline::DeviceProfile& profile) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::parse(verdict);
+    document["profile"] = profile.name;
+    return document.dump(2) + '\n';
+}
+
 PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::verdict::Verdict& found,
-                  const EditMap& map, const pipeline::DrawList& list) {
+                  const EditMap& map, const pipeline::DrawList& list, const std::string& profile) {
     PlainPage page{"Verdict", std::filesystem::path(candidate.file).filename().string() + " of " +
                                   std::filesystem::path(scene).filename().string()};
-    std::istringstream lines(to_text(found, list));
+    std::istringstream lines(to_text(found, list) + profile);
     std::vector<std::string> sentences;
     for (std::string line; std::getline(lines, line);) sentences.push_back(line.substr(line.find_first_not_of(' ')));
     page.sentence(sentences[0]);
@@ -132,12 +141,22 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
                                               options.fragment_memory};
     const oracle::verdict::Colors seen{colors};
     oracle::verdict::Verdict found = judge(fragments, seen);
-    found.telling = telling_command(found);
     const pipeline::DrawList& list = session.scene.list;
+    std::optional<OtherProfile> other;
+    if (!found.is_right)
+        other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen);
+    std::string profile;
+    if (other) {
+        profile = other->sentence(session.profile.name, found.right.wrong_pixels.size());
+        found = other->verdict;
+    }
+    found.telling = telling_command(found);
     if (!question.report.empty())
         write_page(question.report,
-                   page_of(question.run.scene, candidate, found, edit_map(fragments, seen, found), list));
-    print(question.json ? to_json(found, list) : with_painted_verdicts(to_text(found, list)));
+                   page_of(question.run.scene, candidate, found,
+                           edit_map(other ? *other->fragments : fragments, seen, found), list, profile));
+    print(question.json ? with_profile(to_json(found, list), other ? *other->profile : session.profile)
+                        : with_painted_verdicts(to_text(found, list) + profile));
     return found.is_right ? 0 : 1;
 }
 

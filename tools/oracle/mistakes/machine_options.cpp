@@ -60,7 +60,7 @@ void add_blends(std::vector<Mistake>& all) {
     }
 }
 
-// The picture keeps its format.
+// Of the accumulators under the same picture, of both, and of dual's back.
 void add_formats(std::vector<Mistake>& all) {
     for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
         const auto word = info(format).name;
@@ -69,6 +69,14 @@ void add_formats(std::vector<Mistake>& all) {
                                   const Format now = accumulators(e);
                                   if (now == format) return false;
                                   if (!e.options.result_format) e.options.result_format = now;
+                                  e.options.color_format = format;
+                                  e.profile.has_float_targets = true;
+                                  return true;
+                              }));
+        all.push_back(allowed(fmt::format("format_{}", word), fmt::format("accumulators and picture of {}", word),
+                              [format](Experiment& e) {
+                                  if (accumulators(e) == format && !e.options.result_format) return false;
+                                  e.options.result_format.reset();
                                   e.options.color_format = format;
                                   e.profile.has_float_targets = true;
                                   return true;

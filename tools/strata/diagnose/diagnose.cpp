@@ -5,14 +5,12 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/picture_attributes.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
-#include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/oracle/mistakes/machine_options.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
@@ -24,15 +22,15 @@
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
+#include "tools/strata/diagnose/diagnosis_page.h"
 #include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
+#include "tools/strata/other_profile.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
-#include "tools/strata/report/plain_page.h"
-#include "tools/strata/table.h"
 #include "tools/strata/tolerances.h"
 
 namespace strata::tools {
@@ -103,9 +101,14 @@ struct OpenCase {
 // Several scenes ask who made all of them: mistakes alone have the same names in each.
 enum class Tried : std::uint8_t { mistakes, options_too };
 
-std::vector<oracle::Mistake> machine_options(const OpenCase& opened) {
+std::vector<pipeline::DeviceProfile> more_profiles(const DiagnoseOptions& options) {
     std::vector<pipeline::DeviceProfile> more;
-    for (const std::string& file : opened.options.profiles) more.push_back(scenes::load_profile(file));
+    for (const std::string& file : options.profiles) more.push_back(scenes::load_profile(file));
+    return more;
+}
+
+std::vector<oracle::Mistake> machine_options(const OpenCase& opened) {
+    const auto more = more_profiles(opened.options);
     return oracle::machine_options(*opened.options.run.algorithms[0], opened.laboratory->right_run(), more);
 }
 
@@ -172,9 +175,19 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     const pipeline::DrawList& list = opened.session.scene.list;
     oracle::verdict::SceneFragments fragments{{list, opened.session.view, opened.session.profile, options},
                                               options.fragment_memory};
-    const oracle::verdict::Verdict layers = judge(fragments, oracle::verdict::Colors{*colors});
+    const oracle::verdict::Colors seen{*colors};
+    oracle::verdict::Verdict layers = judge(fragments, seen);
+    std::string profile;
+    if (!layers.is_right) {
+        const pipeline::DeviceProfile& given = opened.session.profile;
+        if (auto other = right_by_other_profile({list, opened.session.view, given, options}, options.fragment_memory,
+                                                seen, more_profiles(opened.options))) {
+            profile = other->sentence(given.name, layers.right.wrong_pixels.size());
+            layers = std::move(other->verdict);
+        }
+    }
     if (!layers.is_right && layers.explanations.empty()) return;
-    found.structure = to_text(layers, list);
+    found.structure = to_text(layers, list) + profile;
     found.structure_json = to_json(layers, list);
     found.is_nearly = false;
     found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::none_of_mine;
@@ -195,49 +208,6 @@ void find_telling_scene(oracle::Diagnosis& found) {
     found.telling = oracle::telling_scene(mistakes);
 }
 
-// The best findings, where more than one was tried.
-void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
-    constexpr std::size_t most_findings = 6;
-    if (found.verdict == oracle::Verdict::right || found.findings.size() < 2) return;
-    Table table{{{"known mistakes"},
-                 {"pixels that are the candidate's"},
-                 {"differing pixels explained"},
-                 {"equal pixels against it"}},
-                {}};
-    for (const oracle::Finding& f : found.findings) {
-        if (table.rows.size() == most_findings) break;
-        table.rows.push_back({oracle::sentence_of(f.mistakes), std::to_string(f.agreeing), std::to_string(f.explained),
-                              std::to_string(f.contradicted)});
-    }
-    page.table(table, "The best of what was tried, of " + std::to_string(found.pixels) + " pixels, " +
-                          std::to_string(found.differing) + " of which differ from the right picture");
-}
-
-// The first line is the verdict; the others say why, up to the comparison, and but for the best findings: those have tables. A line further in
-// belongs to the one before it.
-void add_lines(PlainPage& page, const std::string& text) {
-    std::istringstream lines(text);
-    std::string sentence;
-    std::getline(lines, sentence);
-    page.sentence(sentence);
-    std::vector<std::string> reasons;
-    std::size_t usual = std::string::npos;
-    bool is_finding = false;
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t begin = line.find_first_not_of(' ');
-        if (begin == std::string::npos) continue;
-        if (line.substr(begin).starts_with("compare:")) break;
-        is_finding = line.ends_with("best:") || (is_finding && begin > 0);
-        if (is_finding) continue;
-        usual = std::min(usual, begin);
-        if (begin > usual && !reasons.empty())
-            reasons.back() += (reasons.back().ends_with(':') ? " " : "; ") + line.substr(begin);
-        else
-            reasons.push_back(line.substr(begin));
-    }
-    page.items(reasons);
-}
-
 int diagnose_one(const DiagnoseOptions& options) {
     Progress machines("wrong machines");
     const auto opened = open_case(options, Tried::options_too, shown_by(machines));
@@ -249,18 +219,9 @@ int diagnose_one(const DiagnoseOptions& options) {
     const oracle::Comparison comparison = opened->comparison();
     if (found.verdict != oracle::Verdict::right) warn_of_other_command(*opened);
     if (!options.report.empty()) {
-        PlainPage page{"Diagnosis", canonical_command("render", opened->options.run, opened->options.run.algorithms)};
-        add_lines(page, to_text(found, comparison));
-        add_findings(page, found);
-        page.heading("Pictures");
-        page.picture(oracle::as_shown(opened->laboratory->right()), "As it should be");
-        page.picture(oracle::as_shown(opened->candidate), "The candidate");
-        add_heat_map(page, comparison);
-        if (!comparison.equal) {
-            page.heading("What differs");
-            add_tables(page, comparison);
-        }
-        write_page(options.report, page);
+        const std::string command = canonical_command("render", opened->options.run, opened->options.run.algorithms);
+        const DiagnosisShown shown{found, comparison, opened->laboratory->right(), opened->candidate};
+        write_page(options.report, diagnosis_page(command, shown));
     }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
     return status_of(found.verdict);

@@ -50,7 +50,8 @@ TEST_CASE("options stand before mistakes: what a right port may do is right, a l
     const Bench bench{"showroom.dual"};
     const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.laboratory.right_run());
     const Lineup lineup{bench.laboratory, {}, all};
-    for (const char* name : {"profile_llvmpipe", "blend_truncate", "accumulators_rgba16f", "back_rgba32f"}) {
+    for (const char* name :
+         {"profile_llvmpipe", "blend_truncate", "accumulators_rgba16f", "format_rgba32f", "back_rgba32f"}) {
         INFO(name);
         const auto picture = bench.laboratory.with(option_of(all, name));
         REQUIRE(picture);

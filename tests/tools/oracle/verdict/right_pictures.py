@@ -41,7 +41,10 @@ def scenes():
 
 
 def run(words):
-    return subprocess.run([str(w) for w in words], capture_output=True, text=True)
+    try:
+        return subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=120)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(words, -1, "", "no end within 120 s")
 
 
 def main():
