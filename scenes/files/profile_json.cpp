@@ -77,7 +77,7 @@ Names builtin_names() {
 // The keys that one object may have: the document's own (false) or those of `raster` (true).
 Names keys(bool of_raster) {
     Names names;
-    if (!of_raster) names = {"base", "name", "description", "raster"};
+    if (!of_raster) names = {"base", "name", "description", "open", "raster"};
     for (const ProfileField& field : profile_fields())
         if (is_raster(field) == of_raster) names.push_back(leaf(field));
     return names;
@@ -176,14 +176,33 @@ void read_field(const ProfileField& field, const json& object, bool has_base, co
     field.set(profile, *value);
 }
 
+std::vector<std::string> open_of(const json& document, const std::string& file) {
+    std::vector<std::string> open;
+    if (!document.contains("open")) return open;
+    Names known;
+    for (const ProfileField& field : profile_fields()) known.push_back(field.key);
+    const json& listed = document["open"];
+    const std::string expected = "an array of keys of a profile, such as raster.snap";
+    if (!listed.is_array()) throw InputError(file, "/open", expected, shown(listed));
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        const std::string place = fmt::format("/open/{}", i);
+        if (!listed[i].is_string()) throw InputError(file, place, "a key of a profile", shown(listed[i]));
+        open.push_back(listed[i].get<std::string>());
+        if (std::ranges::find(known, open.back()) == known.end())
+            throw InputError(file, place, "a key of a profile", quoted_with_suggestion(open.back(), known));
+    }
+    return open;
+}
+
 }  // namespace
 
-std::string to_json(const DeviceProfile& profile) {
+std::string to_json(const DeviceProfile& profile, std::span<const std::string> open) {
     // The order of the keys is that of the fields, so the same profile is the same text; a built-in one can be
     // printed, changed and read back.
     ordered_json document;
     document["name"] = profile.name;
     document["description"] = profile.description;
+    if (!open.empty()) document["open"] = std::vector<std::string>(open.begin(), open.end());
     for (const ProfileField& field : profile_fields()) {
         ordered_json& object = is_raster(field) ? document["raster"] : document;
         ordered_json& value = object[std::string{leaf(field)}];
@@ -203,6 +222,7 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
     const json none = json::object();
     const json& raster = document.contains("raster") ? document["raster"] : none;
     check_keys(raster, keys(true), file, "/raster");
+    static_cast<void>(open_of(document, file));
     const DeviceProfile* const base = base_of(document, file);
     DeviceProfile profile = base != nullptr ? *base : DeviceProfile{};
     profile.name = text(document, "name", longest_name, file);
@@ -234,6 +254,11 @@ DeviceProfile load_profile(const std::string& name_or_path) {
     const Names names = builtin_names();
     throw InputError("--profile", "name", fmt::format("{}, or a JSON file", fmt::join(names, ", ")),
                      quoted_with_suggestion(name_or_path, names));
+}
+
+std::vector<std::string> open_fields(const std::string& name_or_path) {
+    if (pipeline::find_profile(name_or_path) != nullptr) return {};
+    return open_of(parse_strict_json(read_text_file(name_or_path), name_or_path, "a profile in JSON"), name_or_path);
 }
 
 }  // namespace strata::scenes

@@ -8,6 +8,7 @@
 #include "pipeline/device/profile_fields.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/scenes/scenes_support.h"
+#include "tests/support/own_folder.h"
 
 using namespace strata::pipeline;
 using strata::InputError;
@@ -148,6 +149,24 @@ TEST_CASE(
     }
     CHECK(all.size() + all["raster"].size() == 3 + profile_fields().size() - later.size());
     CHECK(parse_profile(all.dump(), "x.json") == before);
+}
+
+TEST_CASE("a profile names the fields that nothing shows, and they are read back") {
+    DeviceProfile profile;
+    profile.name = "found";
+    const std::vector<std::string> open{"raster.snap", "has_d16"};
+    const std::string text = to_json(profile, open);
+    CHECK(parse_profile(text, "x.json") == profile);
+    const strata::test::OwnFolder folder;
+    const std::string path = folder.path() + "/found.json";
+    std::ofstream{path} << text;
+    CHECK(strata::scenes::open_fields(path) == open);
+    CHECK(strata::scenes::open_fields("geforce8").empty());
+    CHECK(error_of(changed(R"("open": ["raster.snapp"])")) ==
+          "my.json: /open/0: expected a key of a profile, found 'raster.snapp' (did you mean 'raster.snap'?)");
+    CHECK(error_of(changed(R"("open": [1])")) == "my.json: /open/0: expected a key of a profile, found 1");
+    CHECK(error_of(changed(R"("open": {})")) ==
+          "my.json: /open: expected an array of keys of a profile, such as raster.snap, found object");
 }
 
 TEST_CASE("text that is no JSON object is refused with its place") {

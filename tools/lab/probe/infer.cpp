@@ -126,7 +126,10 @@ int run(const InferOptions& options) {
         throw InputError(options.pack, "probe/" + std::string{probe::name(y)},
                          options.orientation ? "answers of that orientation (--y names another)" : "answers", "none");
     const Inference result = probe::infer(pack, items, y);
-    if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile));
+    std::vector<std::string> open;
+    for (const FieldFinding& f : result.fields)
+        if (f.state == FieldState::open) open.push_back(f.key);
+    if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile, open));
     const std::vector<probe::OperationFinding> findings = probe::judge(pack.operations);
     ordered_json document = options.json ? to_json(result) : ordered_json{};
     if (options.json) document["operations"] = operations_json(findings);

@@ -97,6 +97,9 @@ Session open_session(RunOptions& options) {
     Session session;
     // Profile first: it is small, and an error in it is told before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
+    if (const auto open = scenes::open_fields(options.profile); !open.empty())
+        say_warning(fmt::format("{}: nothing shows the values of {}; what depends on them is a guess", options.profile,
+                                fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
