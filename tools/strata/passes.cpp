@@ -59,7 +59,7 @@ ordered_json to_json(const oracle::PassShown& pass, const std::string& file) {
     return document;
 }
 
-std::vector<std::string> to_row(const oracle::PassShown& pass) {
+std::vector<std::string> pass_row(const oracle::PassShown& pass) {
     std::string queries;
     for (const oracle::Query& query : pass.queries)
         queries += fmt::format("{}{}: {}", queries.empty() ? "" : ", ", query.count, query.goes_on ? "on" : "stop");
@@ -94,7 +94,7 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
                        oracle::write_targets(path(name), pass.targets);
                        sheet.add(pass);
                        document["passes"].push_back(to_json(pass, prefix + name));
-                       table.rows.push_back(to_row(pass));
+                       table.rows.push_back(pass_row(pass));
                    });
     scenes::write_image(path("contact.png"), {.color = sheet.image()});
     scenes::write_file(path("passes.json"), document.dump(2) + '\n');
