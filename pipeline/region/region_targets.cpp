@@ -142,8 +142,8 @@ void Targets::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Tar
     assert(source.format() == texture.format() && source.samples() == 1 && texture.samples() == 1);
     note_written(to);
     const auto [x0, y0, x1, y1] = from_rect;
-    const rasterizer::Rect written = rasterizer::intersection(
-        shared_.rect(), rasterizer::intersection({x0 + dx, y0 + dy, x1 + dx, y1 + dy}, shared_.frame.rect()));
+    const rasterizer::Rect written =
+        rasterizer::intersection(shared_.rect(), rasterizer::Rect{x0 + dx, y0 + dy, x1 + dx, y1 + dy});
     if (intersection(rasterizer::Rect{written.x0 - dx, written.y0 - dy, written.x1 - dx, written.y1 - dy},
                      shared_.rect())
             .area() != written.area())

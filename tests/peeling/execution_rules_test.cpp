@@ -44,6 +44,22 @@ TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
                 }
 }
 
+// Rows add colours of exact planes alone.
+TEST_CASE("sums of colours by the chip's weights execute alike on a device with binary32 depths") {
+    using namespace strata::pipeline;
+    DeviceProfile mixed = *find_profile("geforce8_dx101");
+    mixed.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;
+    const TriangleScene scene = random_triangles(79, 12);
+    RenderOptions options = small_frame();
+    options.color_format = Format::rgba32f;
+    options.alpha = 0.375f;
+    options.execution = Execution::literal;
+    const RenderResult expected = drawn_on(mixed, scene, "weighted_average", options);
+    REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+    for (const Way& way : {ways[7], ways[8]})
+        CHECK(difference(drawn_on(mixed, scene, "weighted_average", with(options, way)), expected) == "");
+}
+
 // OVER and UNDER by (0, 0, 0, 0) flush a denormal that a float target holds and make 0 of -0, so that even they are not left out.
 TEST_CASE("both ends peeled over a background of denormals and -0 execute alike in floats") {
     const TriangleScene scene = random_triangles(85, 5);  // in many pixels one fragment
