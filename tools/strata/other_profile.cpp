@@ -12,14 +12,16 @@ namespace strata::tools {
 
 namespace {
 
-// The right structure's account, by fragments to the bit or off by units in the last place, if it leaves a code open at most.
+// The right structure's account, by fragments to the bit or off by units in the last place, if it leaves two codes of 255 open at most or
+// the picture takes one at most.
 std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::SceneFragments& scene,
                                                        const oracle::verdict::Colors& candidate,
                                                        oracle::verdict::Sample& sample) {
     using namespace oracle::verdict;
+    constexpr double most_open = 2;
     const Storage storage = storage_of(candidate.code());
     auto found = account_for(families(storage, {0, 0x1p-20}, Looseness::definite), {}, scene, candidate, sample);
-    if (found && found->possible > 1 && !(has_codes(storage) && found->observed <= 1)) found.reset();
+    if (found && found->possible > most_open && found->observed > 1) found.reset();
     return found;
 }
 
