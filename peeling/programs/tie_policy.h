@@ -9,7 +9,7 @@ enum class TiePolicy : std::uint8_t {
     none,             // no order at all
     first,            // all, the first arrival in front
     last,             // all, the last arrival in front
-    unique,           // the first arrival only
+    unique,           // the first submitted only
     merged,           // one layer a key, a component-wise mixture
     first_then_last,  // FIRST in the front half of the keys, LAST in the back half (dual_independent)
 };

@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-TIES = {"none": "no order", "last": "last", "first": "first", "unique": "first arrival only", "merged": "merged", "first_then_last": "first in front, last behind"}
+TIES = {"none": "no order", "last": "last", "first": "first", "unique": "first submitted only", "merged": "merged", "first_then_last": "first in front, last behind"}
 
 
 def row(*cells):

@@ -1,4 +1,5 @@
 // tools/oracle/verdict/sums.cpp - the values that a float picture has of accumulators of codes.
+#include <algorithm>
 #include <cmath>
 
 #include "tools/oracle/verdict/composite.h"
@@ -18,7 +19,7 @@ struct Codes {
 
 // Between two numbers of binary16 of this magnitude.
 double half_unit(double magnitude) noexcept {
-    return std::exp2(std::max(std::floor(std::log2(magnitude)), -14.0) - 10);
+    return std::scalbn(1.0, std::max(std::ilogb(magnitude), -14) - 10);  // of 0 the least
 }
 
 }  // namespace
