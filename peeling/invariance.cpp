@@ -190,7 +190,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         m.truth = true_picture(machine, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);
     } catch (const Refused& refused) {
-        // Figures measured before the refusal are dropped, so that nobody reads half an experiment.
+        // Figures measured before the refusal are dropped, so that half an experiment is never shown.
         m = {};
         m.refusal = refused.refusal;
     }

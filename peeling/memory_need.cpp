@@ -81,7 +81,7 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     watched.body = [&](Region& region) {
         if (algorithm.body)
             algorithm.body(region);
-        else if (algorithm.closed_form == nullptr || !algorithm.closed_form(region))
+        else if (algorithm.resolve_loop == nullptr || !algorithm.resolve_loop(region))
             algorithm.run(region);
         found.target_words = std::max(found.target_words, RegionShortcuts{region}.target_words());
         coverage.put(region);

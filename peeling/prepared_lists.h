@@ -36,7 +36,7 @@ class PreparedLists {
     void bin(int tile_size_px);
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
-    // What they are set up from, for whoever wants the vertices; and the numbers of the transparent soup's triangles in the
+    // What they are set up from, for callers that want the vertices; and the numbers of the transparent soup's triangles in the
     // order in which they are submitted, empty if as listed.
     [[nodiscard]] rasterizer::TriangleSoup opaque_soup() const;
     [[nodiscard]] rasterizer::TriangleSoup transparent_soup() const;

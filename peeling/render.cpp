@@ -27,28 +27,28 @@ using namespace pipeline;
 
 namespace {
 
-// What sorting takes of a recorded fragment beside its word (sorted_columns.h).
+// What sorting takes of a recorded fragment beside its word (sorted_lists.h).
 constexpr std::uint64_t sorted_bytes = 4;
 
-// A closed form where the algorithm offers one, its passes elsewhere.
+// A resolve where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
     if (algorithm.body) return algorithm.body;
     return [&](Region& region) {
-        if (algorithm.closed_form == nullptr || !algorithm.closed_form(region)) algorithm.run(region);
+        if (algorithm.resolve_loop == nullptr || !algorithm.resolve_loop(region)) algorithm.run(region);
     };
 }
 
 }  // namespace
 
 bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept {
-    return algorithm.closed_form != nullptr && !options.keep_layers && options.background[3] == 1.0f;
+    return algorithm.resolve_loop != nullptr && !options.keep_layers && options.background[3] == 1.0f;
 }
 
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     constexpr std::int64_t large = 128, many = 32;
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
     if (!algorithm.draws_again()) return options.tile_size.value_or(has_many ? large : 64);
-    // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form looks at them once.
+    // Passes that run come back to the same fragments: a small tile's stay in a cache. A resolve looks at them once.
     return options.tile_size.value_or(is_closed(options, algorithm) ? 64 : 32);
 }
 
@@ -61,7 +61,7 @@ struct Renderer::State {
     std::unique_ptr<const LightMap> light{};
     PreparedLists lists;
     std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
-    std::optional<int> deepest{};                   // fragments of the deepest pixel, once somebody asked
+    std::optional<int> deepest{};                   // fragments of the deepest pixel, once requested
     bool was_invariant = true;                      // the last frame that ran
 
     // Whether the user's options end a frame by its number of passes.
@@ -384,7 +384,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
                          std::to_string(state_->audit_memory()));
     FrameFragments found;
     const Body capture = [&](Region& region) {
-        found.all = RegionShortcuts{region}.capture(Bookkeeping::counted);
+        found.all = RegionShortcuts{region}.capture(Counting::counted);
         const std::uint32_t* opaque = region.storage(region.opaque_depth()).depth(0);
         found.opaque.assign(opaque, opaque + region.rect().area());
         region.publish(region.opaque_color());

@@ -59,7 +59,7 @@ class Renderer {
     Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options);
     Renderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
-             const RenderOptions& options) = delete;  // nobody would hold the list
+             const RenderOptions& options) = delete;  // a temporary list would dangle
     ~Renderer();
 
     // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the fragments of

@@ -79,7 +79,7 @@ struct RenderOptions {
 
 // The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all and the frame has many
 // tiles: triangles are divided among fewer. (More passes keep more a pixel, and want it in the caches.)
-// Whether fragments are visited once, by the algorithm's closed form, and what is kept of them lasts for a tile.
+// Whether fragments are visited once, by the algorithm's resolve, and what is kept of them lasts for a tile.
 [[nodiscard]] bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 [[nodiscard]] int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 

@@ -1,5 +1,5 @@
 // peeling/shadow_light.h - a light's shadow map: one depth pass over the opaque scene from the light's view.
-// It runs before anything is drawn for the eye, literally: whoever looks at it later looks anywhere. Transparent surfaces let
+// It runs before anything is drawn for the eye, literally: later passes sample it anywhere. Transparent surfaces let
 // the light through, also where --alpha makes all of them transparent.
 #pragma once
 #include <memory>

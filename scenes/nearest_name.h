@@ -1,4 +1,4 @@
-// scenes/nearest_name.h - what somebody who wrote `name` probably meant.
+// scenes/nearest_name.h - the known name that is nearest to `name`.
 #pragma once
 #include <span>
 #include <string>

@@ -25,7 +25,7 @@ run() {
     mv "$raw.part" "$raw"
 }
 
-# export_counts NAME PROGRAM: what NAME*.raw count of the three floors. One program at a time: tools of LLVM that are given several
+# export_counts NAME PROGRAM: what NAME*.raw count of the three libraries. One program at a time: tools of LLVM that are given several
 # lose functions of one name that differ.
 export_counts() {
     llvm-profdata-19 merge "$folder/$1"*.raw -o "$folder/$1.profdata"
@@ -33,11 +33,11 @@ export_counts() {
 }
 
 exports=()
-for floor in "${tests[@]}"; do
-    program=$folder/tests/$floor/${floor}_test
-    run "$floor" "$program" "~[exhaustive]"
-    export_counts "$floor" "$program"
-    exports+=("$folder/$floor.json")
+for library in "${tests[@]}"; do
+    program=$folder/tests/$library/${library}_test
+    run "$library" "$program" "~[exhaustive]"
+    export_counts "$library" "$program"
+    exports+=("$folder/$library.json")
 done
 digests=$folder/tests/golden/core_digests
 for setting in tile=64 "execution=literal tile=8 effects=all" simd=scalar; do

@@ -1,21 +1,21 @@
 #!/usr/bin/env bash
 # Do other machines give the same bits? Builds the core by Debian's cross compilers and runs it under qemu-user.
 #   tools/cross.sh aarch64              the digests of tests/golden/core_digests.txt
-#   tools/cross.sh s390x FLOOR [TEST]   a floor's tests, too: rasterizer, pipeline or peeling; of names like TEST
+#   tools/cross.sh s390x FLOOR [TEST]   a library's tests, too: rasterizer, pipeline or peeling; of names like TEST
 # Machines: aarch64, s390x (big-endian), riscv64. Packages: g++-aarch64-linux-gnu, g++-s390x-linux-gnu, g++-riscv64-linux-gnu and
 # qemu-user-static; exits with 77 where they are missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 machine=${1:-}
-floor=${2:-}
+library=${2:-}
 case "$machine" in
     aarch64|s390x|riscv64) ;;
     *) echo "tools/cross.sh: expected aarch64, s390x or riscv64, found '$machine'" >&2; exit 2 ;;
 esac
-case "$floor" in
+case "$library" in
     ""|rasterizer|pipeline|peeling) ;;
-    *) echo "tools/cross.sh: expected rasterizer, pipeline or peeling, found '$floor'" >&2; exit 2 ;;
+    *) echo "tools/cross.sh: expected rasterizer, pipeline or peeling, found '$library'" >&2; exit 2 ;;
 esac
 for program in "$machine-linux-gnu-g++" "qemu-$machine-static"; do
     command -v "$program" >/dev/null || { echo "tools/cross.sh: skipped, for $program is missing" >&2; exit 77; }
@@ -52,6 +52,6 @@ quietly env PKG_CONFIG_LIBDIR="$prefix/pkgconfig" cmake -S . -B "$folder" -G Nin
 quietly cmake --build "$folder" --target core_digests
 "qemu-$machine-static" "$folder/tests/golden/core_digests" check=tests/golden/core_digests.txt
 echo "$machine: the digests of tests/golden/core_digests.txt"
-[ -z "$floor" ] && exit 0
-quietly cmake --build "$folder" --target "${floor}_test"
-"qemu-$machine-static" "$folder/tests/$floor/${floor}_test" "${3:-~[exhaustive]}"
+[ -z "$library" ] && exit 0
+quietly cmake --build "$folder" --target "${library}_test"
+"qemu-$machine-static" "$folder/tests/$library/${library}_test" "${3:-~[exhaustive]}"

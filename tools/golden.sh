@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes tests/golden/*.txt anew. A golden never changes silently: read the difference and say in the commit why it is right.
+# Writes tests/golden/*.txt again. A golden never changes silently: read the difference and say in the commit why it is right.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 trap 'echo "tools/golden.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR

@@ -31,7 +31,7 @@ from places import enums_of, places_in, with_changes  # noqa: E402
 
 FOLDER = ROOT / "build" / "mutants"
 SOURCE, BUILD = FOLDER / "source", FOLDER / "build"
-FLOORS = ("rasterizer", "pipeline", "peeling")
+LIBRARIES = ("rasterizer", "pipeline", "peeling")
 MEMORY = 6 << 30  # a change may ask for any amount
 LEAST_SECONDS, TIMES_SLOWER = 10, 6  # of processor time, before a run counts as endless
 WALL_SECONDS = 3600  # for one that sleeps instead
@@ -43,7 +43,7 @@ def tracked():
 
 
 def is_changed(file):
-    return file.startswith(FLOORS) and file.endswith((".h", ".cpp")) and "test" not in file.split("/")[0]
+    return file.startswith(LIBRARIES) and file.endswith((".h", ".cpp")) and "test" not in file.split("/")[0]
 
 
 def write_if_other(path, text):
@@ -72,8 +72,8 @@ def write_sources(barred, sample, seed):
     total = sum(map(len, places.values()))
     rank = drawn(total, seed, sample or total)
     number, table = 0, []
-    lists = {"/".join(("tests", floor, "CMakeLists.txt")): f"target_sources({floor}_test PRIVATE ${{PROJECT_SOURCE_DIR}}/tests/mutants/listener.cpp)\n"
-             "set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/mutants/listener.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)\n" for floor in FLOORS}
+    lists = {"/".join(("tests", library, "CMakeLists.txt")): f"target_sources({library}_test PRIVATE ${{PROJECT_SOURCE_DIR}}/tests/mutants/listener.cpp)\n"
+             "set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/mutants/listener.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)\n" for library in LIBRARIES}
     for file in files:
         if not is_changed(file):
             target = SOURCE / file
@@ -122,7 +122,7 @@ def build(arguments):
             configured = subprocess.run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DSTRATA_CORE_ONLY=ON", "-DCMAKE_BUILD_TYPE=Release",
                                          "-DSTRATA_WERROR=OFF", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", f"-DCMAKE_CXX_FLAGS={flags}",
                                          "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], stdout=file, stderr=file)
-            targets = arguments.targets or [f"{f}_test" for f in FLOORS] + ["core_digests"]
+            targets = arguments.targets or [f"{f}_test" for f in LIBRARIES] + ["core_digests"]
             done = configured.returncode == 0 and subprocess.run(
                 ["cmake", "--build", BUILD, "--target", *targets, "--", f"-j{arguments.jobs}", "-k0"], stdout=file, stderr=file).returncode == 0
         if done:
@@ -137,19 +137,19 @@ def build(arguments):
     sys.exit("mutate.py: the build does not come to an end")
 
 
-def program_of(floor):
-    return BUILD / "tests" / floor / f"{floor}_test"
+def program_of(library):
+    return BUILD / "tests" / library / f"{library}_test"
 
 
-def reached_again(floor, target):
-    """What was written to `target`, with the cases of test files that changed since anew; nothing where more than that changed."""
+def reached_again(library, target):
+    """What was written to `target`, with the cases of test files that changed since again; nothing where more than that changed."""
     if not target.exists():
         return None, []
     since = target.stat().st_mtime
-    newer = [f for folder in (*FLOORS, "tests") for f in (SOURCE / folder).rglob("*") if f.suffix in (".h", ".cpp") and f.stat().st_mtime > since]
+    newer = [f for folder in (*LIBRARIES, "tests") for f in (SOURCE / folder).rglob("*") if f.suffix in (".h", ".cpp") and f.stat().st_mtime > since]
     if any(not f.name.endswith("_test.cpp") for f in newer):
         return None, []
-    tests = sorted(f.stem for f in newer if (SOURCE / "tests" / floor) in f.parents)
+    tests = sorted(f.stem for f in newer if (SOURCE / "tests" / library) in f.parents)
     kept = [line for line in target.read_text().splitlines() if pathlib.Path(line.split("\t")[1]).stem not in tests]
     return kept, tests
 
@@ -157,34 +157,34 @@ def reached_again(floor, target):
 def reach(arguments):
     del arguments
     cases = []
-    for floor in filter(lambda f: program_of(f).exists(), FLOORS):
-        target = FOLDER / f"reached.{floor}.txt"
-        kept, tests = reached_again(floor, target)
+    for library in filter(lambda f: program_of(f).exists(), LIBRARIES):
+        target = FOLDER / f"reached.{library}.txt"
+        kept, tests = reached_again(library, target)
         if kept is None or tests:
             part = target.with_suffix(".part")
             part.unlink(missing_ok=True)
             chosen = ",".join(f"[#{test}]~[exhaustive]" for test in tests) or "~[exhaustive]"
-            ended = subprocess.run([program_of(floor), "-#", chosen], cwd=FOLDER, capture_output=True, text=True, env={**os.environ, "STRATA_REACHED": str(part)})
+            ended = subprocess.run([program_of(library), "-#", chosen], cwd=FOLDER, capture_output=True, text=True, env={**os.environ, "STRATA_REACHED": str(part)})
             if ended.returncode != 0:
-                sys.exit(f"mutate.py: {floor}_test fails without a change:\n{ended.stdout[-3000:]}")
+                sys.exit(f"mutate.py: {library}_test fails without a change:\n{ended.stdout[-3000:]}")
             target.write_text("".join(line + "\n" for line in kept or []) + part.read_text())
             part.unlink()
         for line in target.read_text().splitlines():
             name, file, seconds, numbers = line.split("\t")
             file = str((BUILD / file).resolve().relative_to(SOURCE))
-            cases.append({"floor": floor, "name": name, "file": file, "seconds": float(seconds), "reached": [int(n) for n in numbers.split()]})
+            cases.append({"library": library, "name": name, "file": file, "seconds": float(seconds), "reached": [int(n) for n in numbers.split()]})
     (FOLDER / "cases.json").write_text(json.dumps(cases))
     all_reached = {n for case in cases for n in case["reached"]}
     print(f"{len(cases)} cases reach {len(all_reached)} of {len(load('places.json', []))} changes")
 
 
 def order_of(place, case):
-    """Cases of the same file first, then of the same folder and floor; the short ones first."""
+    """Cases of the same file first, then of the same folder and library; the short ones first."""
     folder, stem = os.path.split(place["file"])
     own = os.path.basename(case["file"]).removesuffix("_test.cpp")
     near = own == re.sub(r"(_simd)?\.(h|cpp)$|-inl\.h$", "", stem)
     same = os.path.dirname(case["file"]) == "tests/" + folder
-    return (not near, not same, case["floor"] != folder.split("/")[0], case["seconds"])
+    return (not near, not same, case["library"] != folder.split("/")[0], case["seconds"])
 
 
 def limited(seconds, *command):
@@ -198,7 +198,7 @@ def outcome_of(number, cases):
     names.write_text("".join(re.sub(r'([\\\\,\\["*])', r"\\\1", case["name"]) + "\n" for case in cases))
     seconds = LEAST_SECONDS + TIMES_SLOWER * sum(case["seconds"] for case in cases)
     try:
-        ended = subprocess.run(limited(seconds, program_of(cases[0]["floor"]), "-a", "-f", names), cwd=FOLDER, capture_output=True, text=True, errors="replace",
+        ended = subprocess.run(limited(seconds, program_of(cases[0]["library"]), "-a", "-f", names), cwd=FOLDER, capture_output=True, text=True, errors="replace",
                                timeout=WALL_SECONDS, env={**os.environ, "STRATA_MUTANT": str(number)})
     except subprocess.TimeoutExpired:
         return "out of time"
@@ -223,7 +223,7 @@ def killer_of(place, cases, most_seconds):
         spent += case["seconds"]
         if spent > most_seconds and groups:
             break
-        if groups and groups[-1][0]["floor"] == case["floor"] and len(groups[-1]) < 25:
+        if groups and groups[-1][0]["library"] == case["library"] and len(groups[-1]) < 25:
             groups[-1].append(case)
         else:
             groups.append([case])
@@ -365,7 +365,7 @@ def main():
     verb.add_argument("--jobs", type=int, default=os.cpu_count())
     verb.add_argument("--sample", type=int, default=1000, help="a seeded draw of so many changes (default 1000); 0: all of them, which takes half a day")
     verb.add_argument("--seed", type=int, default=1)
-    verb.add_argument("targets", nargs="*", help="default: the tests of the three floors and core_digests")
+    verb.add_argument("targets", nargs="*", help="default: the tests of the three libraries and core_digests")
     verb.set_defaults(do=build)
     verbs.add_parser("reach").set_defaults(do=reach)
     verb = verbs.add_parser("run")

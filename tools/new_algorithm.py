@@ -122,8 +122,8 @@ def read(path):
 
 def texts(options):
     """What is to stand in each file, the whole of it."""
-    book, news = options.root / "peeling/reference/algorithms.md", options.root / "CHANGELOG.md"
-    sections, changes = read(book), read(news)
+    specification, news = options.root / "peeling/reference/algorithms.md", options.root / "CHANGELOG.md"
+    sections, changes = read(specification), read(news)
     number = 1 + max(int(n) for n in re.findall(r"^## (\d+) ", sections, re.MULTILINE))
 
     def filled(text):
@@ -136,7 +136,7 @@ def texts(options):
         fail(f"{news}: expected a version's heading, found none")
     return {options.root / "peeling/algorithms" / f"{options.name}.cpp": filled(LISTING),
             options.root / "tests/peeling/algorithms" / f"{options.name}_test.cpp": filled(TEST),
-            book: sections.rstrip("\n") + "\n" + filled(SECTION),
+            specification: sections.rstrip("\n") + "\n" + filled(SECTION),
             news: changes[:version.end()] + filled("- Algorithm `NAME` (PAPER): SUMMARY.\n") + changes[version.end():]}
 
 

@@ -3,7 +3,7 @@
 #   tools/test.sh               unit and golden tests
 #   tools/test.sh --ci          those, and the fast ones and 2,000 frames under sanitizers: what continuous integration runs
 #   tools/test.sh --nightly     what compiles other projects: an installation's users, the recipe, builds without a build type
-#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too, and the tests themselves; half a
+#   tools/test.sh --sanitizers  every test of the libraries under the sanitizers, the slow ones and the scenes' too, and the tests themselves; half a
 #                               minute of guided fuzzing each for frames and for the loader
 #   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
@@ -41,15 +41,15 @@ quietly() {
 # sanitizer_preset PRESET: that one if clang++ is there, which compiles faster under sanitizers, and whose build can be fuzzed.
 sanitizer_preset() { if command -v clang++ >/dev/null; then echo "$1"; else echo asan; fi; }
 
-# Every test of the floors under the sanitizers.
+# Every test of the libraries under the sanitizers.
 sanitizers() {
     local preset
     preset=$(sanitizer_preset fuzz)
-    step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
+    step "all tests of the libraries under the address and undefined-behaviour sanitizers (preset $preset)"
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
     [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs differential_seeds differential_fuzz)
     build "$preset" "${targets[@]}"
-    ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|golden|command|fuzz|house|book|docs|browser|python|port|engines|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|golden|command|fuzz|lint|specification|docs|browser|python|port|engines|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
@@ -81,12 +81,12 @@ sanitized() {
     step "the fast tests of the core under the sanitizers, and beside them the frames of seeds $first..$((first + 2000))"
     quietly frames "build/$preset/tests/fuzz/differential_seeds" --seeds "$first..$((first + 2000))" &
     frames=$!
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|slow|golden|command|fuzz|house|book|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|slow|golden|command|fuzz|lint|specification|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     wait "$frames"
 }
 
-# Is a race found, and a number that nobody wrote? Then the core's own frames: on four threads, and on one by the scalar twins,
+# Is a race found, and an uninitialised number? Then the core's own frames: on four threads, and on one by the scalar reference,
 # for the memory sanitizer takes a store of some lanes of a vector for one of all.
 instrumented() {
     step "the core under the thread sanitizer (preset tsan)"

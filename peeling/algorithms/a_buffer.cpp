@@ -2,7 +2,7 @@
 // algorithms.md 17 (Carpenter 1984, the A-buffer).
 //
 // Needs      nothing: no device ran it.
-// Passes     1. Equal depths: the first arrival in front, none lost.
+// Passes     1. Equal depths: the first submitted in front, none lost.
 // Invariant  a pixel's fragments are in submission order until they are sorted by the code of DepthPath::exact, first
 //            arrivals first.
 #include "peeling/algorithms/entry.h"
@@ -37,7 +37,7 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
     }
 }
 
-// The pass as books count it, where the fragment lists are looked up part by part.
+// The pass as statistics count it, where the fragment lists are looked up part by part.
 void count_pass(Region& region) {
     PassState state;
     state.needs = {.shader_z = false, .code = false, .color = true};
@@ -60,7 +60,7 @@ void run(Region& region) {
     if (!is_one_range) count_pass(region);
     FragmentLists fragment_lists;
     for (std::uint32_t first = 0; first < pixels; first = fragment_lists.pixels.last) {
-        list_visible(region, range_from(first), coverage, is_one_range ? Bookkeeping::counted : Bookkeeping::silent,
+        list_visible(region, range_from(first), coverage, is_one_range ? Counting::counted : Counting::silent,
                      fragment_lists);
         resolve(region, fragment_lists, result);
     }

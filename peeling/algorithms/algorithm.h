@@ -48,8 +48,8 @@ struct Algorithm {
     void (*run)(pipeline::Region&) = nullptr;
     // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some of them twice.
     std::function<void(pipeline::Region&)> body{};
-    bool (*closed_form)(pipeline::Region&) = nullptr;  // its whole loop from the record, or false; null if it has none
-    std::vector<pipeline::Feature> features{};         // what a profile must have
+    bool (*resolve_loop)(pipeline::Region&) = nullptr;  // its whole loop from the record, or false; null if it has none
+    std::vector<pipeline::Feature> features{};          // what a profile must have
     int render_targets = 1;
     int samples = 1;
     std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say

@@ -3,7 +3,7 @@
 //
 // Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs can read.
 // Passes     5 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2).
-//            Equal depths: all, the first arrival in front.
+//            Equal depths: all, the first submitted in front.
 // Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test stores.
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"

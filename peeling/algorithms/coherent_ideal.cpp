@@ -92,7 +92,7 @@ class IdealPeel {
         state.color[1] = registers_;
         state.reads = {registers_, peel_, region_.opaque_depth()};
         state.ordered_rmw = true;
-        state.selection = {.keeps = Keeps::window,
+        state.selection = {.keeps = Keeps::interval,
                            .outside = Outside::writes_alike,
                            .near = {peel_, true, 0},
                            .far = {KeyBound{region_.opaque_depth(), published_}}};  // published, a run ends there, too
@@ -126,7 +126,8 @@ class IdealPeel {
     void composite_run() {
         PassState state = composite_state(accumulated_);
         state.reads = {registers_, peel_};
-        state.selection = {.keeps = Keeps::window, .near = {peel_, false, 0}, .far = {KeyBound{registers_, false, z3}}};
+        state.selection = {
+            .keeps = Keeps::interval, .near = {peel_, false, 0}, .far = {KeyBound{registers_, false, z3}}};
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             for (std::size_t i = 0; i < lanes(in); ++i) {
                 const float z = as_float(in.code[i]);

@@ -6,14 +6,14 @@
 // Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 - transmittance),
 //            back = what lies behind far, over the background.
 // By default these passes are the definition and do not run: in replay execution, on rgba8 and float targets,
-//            peeling/loops/dual_closed.cpp finds what they leave from each pixel's sorted fragments.
+//            peeling/loops/dual_resolve.cpp finds what they leave from each pixel's sorted fragments.
 //            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and
-//            trace. Where the closed form declines (its head says when), they run.
+//            trace. Where the resolve declines (its head says when), they run.
 #include <algorithm>
 #include <utility>
 
 #include "peeling/algorithms/entry.h"
-#include "peeling/loops/dual_closed.h"
+#include "peeling/loops/dual_resolve.h"
 #include "peeling/programs/min_max.h"
 
 namespace strata::peeling::listing::dual {
@@ -130,7 +130,7 @@ std::vector<Algorithm> entries() {
                       .takes_both_ends = true,
                       .geometry_passes = [](int layers) { return 1 + std::max(1, (layers + 1) / 2); },
                       .run = run,
-                      .closed_form = dual_closed,
+                      .resolve_loop = dual_resolve,
                       .features = {float_targets, fragment_programs},
                       .render_targets = 3}};
 }

@@ -2,7 +2,7 @@
 // Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 14.
 //
 // Needs      STRATA_ordered_rmw (real devices had read-modify-write hazards here), six float render targets.
-// Passes     1. Right where no fragment has more than four deeper visible ones before it. Equal depths: first arrival in front.
+// Passes     1. Right where no fragment has more than four deeper visible ones before it. Equal depths: first submitted in front.
 // Invariant  a pixel's entries are sorted by depth, ties as they came, and behind all that is composited unless a fault says so.
 #include <array>
 

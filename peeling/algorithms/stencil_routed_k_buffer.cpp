@@ -2,14 +2,14 @@
 // afterwards. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 13.
 //
 // Needs      8-sample colour, depth and stencil targets, sample masks, a fragment covering all samples.
-// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first arrival in front.
-// Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in order of arrival; the last sample's stencil is 0
+// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first submitted in front.
+// Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in submission order; the last sample's stencil is 0
 //            where more have come.
 #include <vector>
 
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
-#include "peeling/programs/sample_columns.h"
+#include "peeling/programs/sample_lists.h"
 #include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling::listing::stencil_routed_k_buffer {
@@ -49,9 +49,9 @@ Capture capture(Region& region, Target stencil, int pass) {
     state.color[0] = into.color;
     state.reads[0] = region.opaque_depth();
     state.needs = code_with_color;
-    state.selection = {.keeps = Keeps::arrivals,
+    state.selection = {.keeps = Keeps::submitted,
                        .far = {KeyBound::beyond(region.opaque_depth())},
-                       .first_arrival = static_cast<std::uint32_t>(pass_samples * pass)};
+                       .first_submitted = static_cast<std::uint32_t>(pass_samples * pass)};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_before(in, own.depth(0), out);  // before the stencil test: what is hidden takes no sample
         out.color[0] = in.color;
@@ -68,7 +68,7 @@ Count overflowing(Region& region, Target stencil) {
     return region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}).passed;
 }
 
-// The words of every sample that the passes have filled, in the order of arrival.
+// The words of every sample that the passes have filled, in submission order.
 std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Capture>& captures) {
     std::vector<SamplePlanes> samples;
     for (const Capture& c : captures)
@@ -77,13 +77,13 @@ std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Cap
     return samples;
 }
 
-// One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's books.
+// One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's statistics.
 Target resolve(Region& region, const std::vector<Capture>& captures) {
     RegionShortcuts shortcuts{region};
     const Target result = region.make(region.frame().picture_format());
     region.call(result, "result");
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
-    SampleColumns columns{samples_of(region, captures), empty, region.profile().color_rounding()};
+    SampleLists columns{samples_of(region, captures), empty, region.profile().color_rounding()};
     const Texels background = region.storage(region.opaque_color()).texels(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
         shortcuts.store_pixel(result, pixel, columns.composite(pixel, background));
@@ -94,7 +94,7 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     const auto bytes = [&](Target t) {
         return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();
     };
-    shortcuts.book({.full_screen = 1});
+    shortcuts.count_passes({.full_screen = 1});
     shortcuts.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)});
     for (const Capture& c : captures) shortcuts.count({.bytes_read = pass_samples * (bytes(c.color) + bytes(c.depth))});
     return result;

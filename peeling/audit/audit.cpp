@@ -27,7 +27,7 @@ using rasterizer::Rect;
 namespace in_parts {
 
 // A region, or some rows of it, or a part of one row.
-using Part = RegionPlace;
+using Part = RegionArea;
 
 // The findings in some parts of the frame, and the parts that did not fit into the memory.
 struct Looked {
@@ -55,8 +55,7 @@ void move(PixelCount& count, int dx, int dy) {
 // The sum that it asks for is what the fragment lists of this pixel need, twice for the half that the trace has.
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
     const std::uint64_t list_bytes = fragments * AuditMemory::bytes_a_fragment * 2;
-    const std::uint64_t needed =
-        list_bytes > bytes ? list_bytes : 2 * bytes;  // nobody knows how long the trace would be
+    const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the trace's length is not known
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
                          std::to_string(pixel.rect.x0) + ", " + std::to_string(pixel.rect.y0) + "), which has " +
@@ -76,8 +75,8 @@ struct Audit::Impl {
     RegionScratchPool pool{};  // for those looks, as are the fragment lists
     std::mutex free_lists_mutex{};
     std::vector<FragmentLists> free_fragment_lists{};
-    std::vector<RegionPlace> places{};  // of regions; of a frame that is one region, its tiles
-    std::vector<Looked> found_at{};     // by place
+    std::vector<RegionArea> places{};  // of regions; of a frame that is one region, its tiles
+    std::vector<Looked> found_at{};    // by place
 
     Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
         : frame{f}, body{b}, algorithm{a}, shared{bytes, thread_count(t)}, alone{bytes, 1}, threads{t}, still{f} {
@@ -86,7 +85,7 @@ struct Audit::Impl {
     }
 
     // A frame that is run again as a whole begins again.
-    void begin(std::span<const RegionPlace> regions) {
+    void begin(std::span<const RegionArea> regions) {
         places.assign(regions.begin(), regions.end());
         if (places[0].extent == Extent::frame) places = tile_parts(still, threads);
         found_at.assign(places.size(), {});
@@ -109,8 +108,8 @@ struct Audit::Impl {
     // Looks at all pixels of a part whose fragments fit, range by range.
     [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const Image& color,
                                  const AuditMemory& memory) {
-        RegionBooks books;
-        Region region{still, part, books, {}, &pool};
+        RegionStatistics statistics;
+        Region region{still, part, statistics, {}, &pool};
         const std::vector<std::uint32_t> coverage = coverage_of(region);
         PixelAudit pixels{frame, algorithm};
         Looked looked;
@@ -122,7 +121,7 @@ struct Audit::Impl {
                 looked.left.push_back({rect_of(range, part.rect), part.tile, Extent::tile});
                 continue;
             }
-            list_visible(region, range, coverage, Bookkeeping::silent, fragment_lists);
+            list_visible(region, range, coverage, Counting::silent, fragment_lists);
             for (std::uint32_t p = range.first; p < range.last; ++p)
                 pixels.look_at(fragment_lists.of(p), traces,
                                pixel_at(region, p, color, fragment_lists.at_opaque[p - range.first]));
@@ -161,7 +160,7 @@ struct Audit::Impl {
 
     // A tile that the executor found equal to another has that one's figures, moved to its place.
     void copy(std::size_t like, std::size_t number) {
-        const RegionPlace &from = places[like], &to = places[number];
+        const RegionArea &from = places[like], &to = places[number];
         const int dx = to.rect.x0 - from.rect.x0, dy = to.rect.y0 - from.rect.y0;
         Looked& there = found_at[number] = found_at[like];
         move(there.found.ties, dx, dy);
@@ -186,11 +185,11 @@ struct Audit::Impl {
         while (!open.empty()) {
             const Part next = open.back();
             open.pop_back();
-            RegionBooks books;
+            RegionStatistics statistics;
             // The frame's answers to the body's questions, as a part alone might answer them otherwise and end
             // earlier.
-            books.script = result.answers;
-            Region region{again, next, books, {}, &scratch};
+            statistics.script = result.answers;
+            Region region{again, next, statistics, {}, &scratch};
             const bool fits = run_traced(region);
             if (fits) {
                 std::optional<PixelTraces> traces;
@@ -242,8 +241,8 @@ struct Audit::Impl {
                              std::to_string(alone.bytes));
         }
         if (!all.left.empty()) {
-            RegionBooks books;
-            Region region{still, all.left.front(), books, {}, &pool};
+            RegionStatistics statistics;
+            Region region{still, all.left.front(), statistics, {}, &pool};
             throw_too_deep(all.left.front(), coverage_of(region).front(), alone.bytes);
         }
         // A frame without a pixel has made no order error, which is 0 and not "no order".
@@ -258,7 +257,7 @@ Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, s
 Audit::~Audit() = default;
 
 Watch Audit::watch() {
-    return {.begun = [this](std::span<const RegionPlace> regions) { impl_->begin(regions); },
+    return {.begun = [this](std::span<const RegionArea> regions) { impl_->begin(regions); },
             .ended = [this](Region& region, std::size_t number,
                             const Image& color) { impl_->look_at(region, number, color); },
             .alike = [this](std::size_t like, std::size_t region) { impl_->copy(like, region); }};

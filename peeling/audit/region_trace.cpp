@@ -9,9 +9,9 @@ using namespace pipeline;
 
 Watch keep_traces(std::vector<RegionTrace>& traces) {
     // One place for each region, before the frame runs: workers then write to different places without a lock.
-    const auto begin = [&traces](std::span<const RegionPlace> regions) {
+    const auto begin = [&traces](std::span<const RegionArea> regions) {
         traces.clear();
-        for (const RegionPlace& place : regions) traces.push_back({place.rect, {}});
+        for (const RegionArea& place : regions) traces.push_back({place.rect, {}});
     };
     const auto keep = [&traces](Region& region, std::size_t number, const Image&) {
         RegionTrace& kept = traces[number];

@@ -1,7 +1,7 @@
-// peeling/loops/block_passes.h - the passes of a peel over a block of columns: the scalar references of block_passes_simd.cpp.
+// peeling/loops/block_passes.h - the passes of a peel over a block of lists: the scalar references of block_passes_simd.cpp.
 //
-// Rule     Pass i takes depth i of a column from the front and depth i from its back, until they meet.
-//          Columns do not meet: the twins go from column to column, the vectors through many side by side. Dual front:
+// Rule     Pass i takes depth i of a list from the front and depth i from its back, until they meet.
+//          Lists do not meet: the scalar reference goes from list to list, the vectors through many side by side. Dual front:
 //          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
 //          the code of the far colour, OVER what is there, where its alpha is not 0.
 // Ties     Fragments of one depth are one group: MAX over what each of them would leave.
@@ -9,14 +9,14 @@
 #pragma once
 #include <algorithm>
 
-#include "peeling/loops/columns.h"
+#include "peeling/loops/list_block.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/under.h"
 #include "pipeline/stages/stored_color.h"
 
 namespace strata::peeling {
 
-using BlockCodes = std::array<LaneWords, 4>;  // codes of a target by channel
+using BlockCodes = std::array<BlockLanes, 4>;  // codes of a target by channel
 
 // What the passes of a block go by.
 struct BlockRules {
@@ -34,15 +34,15 @@ using Color = std::array<float, 4>;
 using Codes = std::array<std::uint32_t, 4>;
 
 // Straight, as the rasterizer gave it.
-[[nodiscard]] inline Color color_at(const ColumnBlock& block, std::size_t lane, std::size_t k) noexcept {
-    return block.color[block.place(lane, k)];
+[[nodiscard]] inline Color color_at(const ListBlock& block, std::size_t lane, std::size_t k) noexcept {
+    return block.color[block.index(lane, k)];
 }
 
-[[nodiscard]] inline Codes column(const BlockCodes& codes, std::size_t lane) noexcept {
+[[nodiscard]] inline Codes list(const BlockCodes& codes, std::size_t lane) noexcept {
     return {codes[0][lane], codes[1][lane], codes[2][lane], codes[3][lane]};
 }
-inline void put_column(const Codes& column, std::size_t lane, BlockCodes& codes) noexcept {
-    for (std::size_t c = 0; c < 4; ++c) codes[c][lane] = column[c];
+inline void put_column(const Codes& list, std::size_t lane, BlockCodes& codes) noexcept {
+    for (std::size_t c = 0; c < 4; ++c) codes[c][lane] = list[c];
 }
 
 // Colours that MAX does not order: on float targets negative ones, -0 and NaN; and those that a half may not have sums of.
@@ -54,11 +54,11 @@ inline void put_column(const Codes& column, std::size_t lane, BlockCodes& codes)
            is_at_most(color[2], most_plain_color) && is_at_most(color[3], 1.0f);
 }
 
-// The passes of one column on one kind of target.
+// The passes of one list on one kind of target.
 template <class Rules>
 class ColumnPasses {
   public:
-    ColumnPasses(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
+    ColumnPasses(const ListBlock& block, std::size_t lane, const BlockRules& rules)
         : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules.color} {}
 
     void both_ends(Codes& front, Codes& back) const {
@@ -107,21 +107,21 @@ class ColumnPasses {
             back[c] = target_.add(target_.operand(dump[c]), alpha, target_.operand(back[c]), rest);
     }
 
-    const ColumnBlock& block_;
+    const ListBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
     pipeline::scalar::StoredColor<Rules> target_;
 };
 
-// The columns that hold a depth twice, or all of them.
-[[nodiscard]] inline bool peel_both_ends(const ColumnBlock& block, bool tied_alone, BlockCodes& front_codes,
+// The lists that hold a depth twice, or all of them.
+[[nodiscard]] inline bool peel_both_ends(const ListBlock& block, bool tied_alone, BlockCodes& front_codes,
                                          BlockCodes& back_codes, const BlockRules& rules) {
     bool is_plain = true;
     pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             if (tied_alone && block.has_ties[lane] == 0) continue;
             const ColumnPasses<Rules> passes{block, lane, rules};
-            Codes front = column(front_codes, lane), back = column(back_codes, lane);
+            Codes front = list(front_codes, lane), back = list(back_codes, lane);
             passes.both_ends(front, back);
             put_column(front, lane, front_codes);
             put_column(back, lane, back_codes);
@@ -149,8 +149,7 @@ void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCo
 
 // All passes of the block. `front` and `back` hold what was there before. False if MAX does not order the colours: the
 // codes are then of no use.
-[[nodiscard]] bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back,
-                                  const BlockRules& rules);
+[[nodiscard]] bool peel_both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules);
 // Sixteen words of an rgba8 target, red lowest.
 [[nodiscard]] inline BlockCodes codes_of(const std::uint32_t* words) noexcept {
     BlockCodes codes;

@@ -1,4 +1,4 @@
-// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at
+// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of lists at
 // a time.
 // How kernels are written: kernels.md. Tests: tests/peeling/loops/block_passes_test.cpp
 #undef HWY_TARGET_INCLUDE
@@ -23,14 +23,14 @@ struct AllLanes {
 
 #include "peeling/programs/under_text-inl.h"
 
-// Some columns of a block, and their front and back while the passes run. Dual peeling is that of columns without ties.
+// Some lists of a block, and their front and back while the passes run. Dual peeling is that of lists without ties.
 template <class Rules>
-class Columns {
+class Lists {
   public:
     using Target = StoredColors<Rules>;
     using Held = typename Target::Held;
 
-    HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
+    HWY_INLINE Lists(const ListBlock& block, std::size_t lane, const BlockRules& rules)
         : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules.color} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
@@ -65,10 +65,10 @@ class Columns {
             const Color near = take(level(pass), has_near);
             meet(near);
             blend_near(near, has_near, front);
-            if (2 * pass + 1 == block_.height) break;  // no column has a far one any more
+            if (2 * pass + 1 == block_.height) break;  // no list has a far one any more
             const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
-            const WordVec place = is_full_ ? level(block_.height - 1 - pass) : far_places(pass, has_far);
-            const Color far = take(place, has_far);
+            const WordVec index = is_full_ ? level(block_.height - 1 - pass) : far_indices(pass, has_far);
+            const Color far = take(index, has_far);
             meet(far);
             is_blended = hn::Or(is_blended, blend_far(far, back));
         }
@@ -92,43 +92,43 @@ class Columns {
         return level(k, key);
     }
     HWY_INLINE WordVec level(std::size_t k, WordVec& key) const {
-        WordVec place;
+        WordVec index;
         hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.levels + k * block_lanes + lane_),
-                             place, key);
-        return place;
+                             index, key);
+        return index;
     }
-    // Places of level visible - 1 - pass of each column: ends lie at different levels, so they are gathered.
-    HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
+    // Places of level visible - 1 - pass of each list: ends lie at different levels, so they are gathered.
+    HWY_INLINE WordVec far_indices(std::uint32_t pass, WordMask has) const {
         const Words d;
         const WordVec level = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
-        const WordVec column = hn::Add(hn::Set(d, static_cast<std::uint32_t>(lane_)), hn::Iota(d, 0));
-        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(level), column));
+        const WordVec list = hn::Add(hn::Set(d, static_cast<std::uint32_t>(lane_)), hn::Iota(d, 0));
+        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(level), list));
         return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.levels), hn::BitCast(Signed{}, word));
     }
 
-    // With gathers, or where the places follow each other, without.
-    HWY_INLINE Color take(WordVec place, WordMask has) const {
+    // With gathers, or where the indices follow each other, without.
+    HWY_INLINE Color take(WordVec index, WordMask has) const {
         const Words d;
         const Floats df;
-        place = hn::IfThenElseZero(has, place);
-        const std::uint32_t first = hn::GetLane(place);
-        const bool is_run = hn::AllTrue(d, hn::Eq(place, hn::Add(hn::Set(d, first), hn::Iota(d, 0))));
+        index = hn::IfThenElseZero(has, index);
+        const std::uint32_t first = hn::GetLane(index);
+        const bool is_run = hn::AllTrue(d, hn::Eq(index, hn::Add(hn::Set(d, first), hn::Iota(d, 0))));
         Color color;
         const float* const channels = block_.color[0].data();
         if (is_run) {
             hn::LoadInterleaved4(df, channels + 4 * std::size_t{first}, color.channel[0], color.channel[1],
                                  color.channel[2], color.channel[3]);
         } else {
-            const auto index = hn::BitCast(Signed{}, hn::ShiftLeft<2>(place));
-            for (std::size_t c = 0; c < 4; ++c) color.channel[c] = hn::GatherIndex(df, channels + c, index);
+            const auto offset = hn::BitCast(Signed{}, hn::ShiftLeft<2>(index));
+            for (std::size_t c = 0; c < 4; ++c) color.channel[c] = hn::GatherIndex(df, channels + c, offset);
         }
         for (std::size_t c = 0; c < 4; ++c)
             color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
         return color;
     }
 
-    // As the twin's blend_near. A column whose only fragment is the near one has no other to pass the old front through; a
-    // column that has ended keeps it, because 0 members differ from its number of fragments.
+    // As the scalar reference's blend_near. A list whose only fragment is the near one has no other to pass the old front through; a
+    // list that has ended keeps it, because 0 members differ from its number of fragments.
     HWY_INLINE void blend_near(const Color& color, WordMask has, Held (&front)[4]) const {
         const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, target_.value(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
@@ -140,7 +140,7 @@ class Columns {
         }
     }
 
-    // As the twin's; a column without a far fragment takes alpha 0, and keeps its back. Says which columns have changed.
+    // As the scalar reference's; a list without a far fragment takes alpha 0, and keeps its back. Says which lists have changed.
     HWY_INLINE WordMask blend_far(const Color& color, Held (&back)[4]) const {
         const Held dump = target_.stored(color.channel[3]);
         const WordMask is_there = is_set(dump);
@@ -152,7 +152,7 @@ class Columns {
         return is_there;
     }
 
-    const ColumnBlock& block_;
+    const ListBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
     Target target_;
@@ -160,11 +160,11 @@ class Columns {
     bool is_full_;
 };
 
-bool both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
+bool both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
     bool is_plain = true;
     pipeline::with_rules(rules.color, [&]<class Rules>(Rules) HWY_ATTR {
         for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-            is_plain &= Columns<Rules>{block, lane, rules}.both_ends(front, back);
+            is_plain &= Lists<Rules>{block, lane, rules}.both_ends(front, back);
     });
     return is_plain;
 }
@@ -176,7 +176,7 @@ void last_quad_by(const BlockCodes& front, const BlockCodes& back, std::uint32_t
         StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // nothing is blended here
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
-        const auto value = [lane](const LaneWords& codes)
+        const auto value = [lane](const BlockLanes& codes)
                                HWY_ATTR { return Target::value(hn::LoadU(Words{}, &codes[lane])); };
         const FloatVec through = let_through(AllLanes{}, value(front[3]));
         WordVec word = hn::Set(d, 0xff000000u);
@@ -207,8 +207,8 @@ namespace strata::peeling {
 STRATA_EXPORT(both_ends);
 STRATA_EXPORT(last_quad);
 
-// Tied columns are rare, and left to the twin.
-bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
+// Tied lists are rare, and left to the scalar reference.
+bool peel_both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
     if (simd_is_scalar()) return scalar::peel_both_ends(block, false, front, back, rules);
     const auto kernel = kernel_of(HWY_DISPATCH_TABLE(both_ends));
     if (!block.has_any_tie()) return kernel(block, front, back, rules);
@@ -217,8 +217,8 @@ bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& bac
     is_plain &= scalar::peel_both_ends(block, true, tied_front, tied_back, rules);
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
         if (block.has_ties[lane] == 0) continue;
-        scalar::put_column(scalar::column(tied_front, lane), lane, front);
-        scalar::put_column(scalar::column(tied_back, lane), lane, back);
+        scalar::put_column(scalar::list(tied_front, lane), lane, front);
+        scalar::put_column(scalar::list(tied_back, lane), lane, back);
     }
     return is_plain;
 }

@@ -26,7 +26,7 @@ void keep_after_nearest(const FragmentBatch& in, const Loads& own, Outputs& out)
 
 // The same as a selection.
 FragmentSelection selects_after_nearest(const CoherentPeel& peel) {
-    return {.keeps = Keeps::window,
+    return {.keeps = Keeps::interval,
             .near = KeyBound::at(peel.nearest),
             .far = {KeyBound::beyond(peel.previous), KeyBound::beyond(peel.region.opaque_depth())}};
 }
@@ -87,7 +87,7 @@ Drawn composite_run(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.nearest, peel.reached};
     state.selection = {
-        .keeps = Keeps::window, .near = KeyBound::at(peel.nearest), .far = {KeyBound::beyond(peel.reached)}};
+        .keeps = Keeps::interval, .near = KeyBound::at(peel.nearest), .far = {KeyBound::beyond(peel.reached)}};
     return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_from(in, own.depth(0), out);
         keep_before(in, own.depth(1), out);
@@ -101,7 +101,8 @@ Drawn composite_run(CoherentPeel& peel) {
 Drawn composite_end(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.reached, peel.region.opaque_depth()};
-    state.selection = {.keeps = Keeps::window, .near = KeyBound::at(peel.reached), .far = {KeyBound::at(peel.reached)}};
+    state.selection = {
+        .keeps = Keeps::interval, .near = KeyBound::at(peel.reached), .far = {KeyBound::at(peel.reached)}};
     peel.ties.start();
     return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_at(in, own.depth(0), out);

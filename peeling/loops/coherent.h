@@ -1,7 +1,7 @@
 // peeling/loops/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend) share.
 // Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
 //
-// Rule     An iteration composites, in arrival order, the run of fragments that starts at the nearest one not yet composited
+// Rule     An iteration composites, in submission order, the run of fragments that starts at the nearest one not yet composited
 //          (`nearest`, the paper's D(sn)) and is in order: it ends before the nearest deeper fragment that arrived earlier
 //          (`previous`), and before the nearest one that interrupts the run later (`breaker`). The least of the two and of the
 //          opaque depth is `reached`; what lies exactly there is composited last, and the next iteration starts behind it.
@@ -11,7 +11,7 @@
 
 namespace strata::peeling {
 
-// The targets and bookkeeping of one peel. Depth targets hold codes, and so does every comparison below.
+// The targets and counting of one peel. Depth targets hold codes, and so does every comparison below.
 struct CoherentPeel {
     explicit CoherentPeel(pipeline::Region& r)
         : region{r},
@@ -61,7 +61,7 @@ inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::Fragment
 
 // The same as a selection.
 [[nodiscard]] inline pipeline::FragmentSelection selects_what_is_left(const CoherentPeel& peel) {
-    return {.keeps = pipeline::Keeps::window,
+    return {.keeps = pipeline::Keeps::interval,
             .near = pipeline::KeyBound::beyond(peel.from_the_start ? pipeline::Target{} : peel.reached),
             .far = {pipeline::KeyBound::beyond(peel.region.opaque_depth())}};
 }

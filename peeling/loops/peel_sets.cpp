@@ -79,7 +79,7 @@ class Peel {
         PassState state = composite_state(accumulated_);
         state.reads = {peeled_, layer_, region_.opaque_depth()};
         state.primitives = as_span(sets_.ordered);
-        state.selection = {.keeps = Keeps::window, .far = {KeyBound::at(layer_)}};
+        state.selection = {.keeps = Keeps::interval, .far = {KeyBound::at(layer_)}};
         if (!from_the_start_) state.selection.near = KeyBound::beyond(peeled_);
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             if (!from_the_start_) keep_behind(in, own.depth(0), out);
@@ -97,7 +97,7 @@ class Peel {
         PassState state = composite_state(accumulated_);
         state.reads = {layer_, region_.opaque_depth()};
         state.primitives = as_span(sets_.unordered);
-        state.selection = {.keeps = Keeps::window, .near = KeyBound::at(layer_), .far = {KeyBound::at(layer_)}};
+        state.selection = {.keeps = Keeps::interval, .near = KeyBound::at(layer_), .far = {KeyBound::at(layer_)}};
         ties_.start();
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             keep_at(in, own.depth(0), out);

@@ -10,7 +10,7 @@ namespace strata::peeling {
 inline namespace strict {
 
 // OVER from the far end, in the order that `near_to_far` says: alpha c + (1 - alpha) D, each operation rounded to
-// binary64, in this order (algorithms.md 17). By exact depth, the first arrival of equal ones stays in front. Alpha:
+// binary64, in this order (algorithms.md 17). By exact depth, the first submitted of equal ones stays in front. Alpha:
 // 1 - (1 - background's) (1 - alpha) ..., from the far end. Premultiplied, as the background is.
 [[nodiscard]] inline std::array<double, 4> composite(std::span<const KeyedFragment> fragments,
                                                      const FragmentOrder& near_to_far,

@@ -1,5 +1,5 @@
 // peeling/programs/depth_range.h - what the fragment programs of Carr's algorithms share: discards outside a range of stored codes,
-// composites in arrival order, and pixels that a fault concerns.
+// composites in submission order, and pixels that a fault concerns.
 #pragma once
 #include <string>
 #include <utility>
@@ -90,7 +90,7 @@ class BoundTies {
     }
     void report(pipeline::Region& region) const {
         tied_.report(region, pipeline::Fault::equal_at_bound,
-                     "fragments of equal depth at the bound of a peel, composited in order of arrival");
+                     "fragments of equal depth at the bound of a peel, composited in submission order");
     }
 
   private:

@@ -98,8 +98,8 @@ PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::u
 
 // Room is given out by coverage, which counts hidden and masked fragments, too: a list may end before the next one
 // starts.
-void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
-                  Bookkeeping bookkeeping, FragmentLists& fragment_lists) {
+void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage, Counting counting,
+                  FragmentLists& fragment_lists) {
     fragment_lists.pixels = pixels;
     fragment_lists.start.resize(pixels.size());
     std::size_t fragments = 0;
@@ -114,7 +114,7 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
         fragment_lists.fragments.resize(fragments);
     }
     Filing file{region, fragment_lists};
-    if (bookkeeping == Bookkeeping::counted) {
+    if (counting == Counting::counted) {
         PassState state;
         state.needs = list_needs;
         static_cast<void>(

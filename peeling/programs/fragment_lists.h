@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/frame/region_place.h"
+#include "pipeline/frame/region_area.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/rules/raster_state.h"
 
@@ -57,6 +57,6 @@ struct FragmentLists {
 // Fills `fragment_lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted as a pass of the
 // algorithm, where the range is the whole region; or a look of the emulator's own.
 void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
-                  pipeline::Bookkeeping bookkeeping, FragmentLists& fragment_lists);
+                  pipeline::Counting counting, FragmentLists& fragment_lists);
 
 }  // namespace strata::peeling

@@ -10,7 +10,7 @@ void composite_layer(pipeline::Region& region, pipeline::Target layer, pipeline:
                      pipeline::Target accumulated);
 
 // A quad that blends a layer reads the two depths that tell where it is. The trace alone looks at their values: without one they are
-// textures, as good as loads, which nobody samples. True with a trace: then a program calls the other of this name.
+// textures, as good as loads, which no program samples. True with a trace: then a program calls the other of this name.
 [[nodiscard]] inline bool trace_layer(pipeline::PassState& state, const pipeline::Region& region,
                                       pipeline::Target depth) {
     const bool is_traced = region.frame().trace;

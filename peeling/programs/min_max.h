@@ -171,7 +171,7 @@ class DualLayers {
         state.reads = {min_max, region_.opaque_depth()};
         const DepthCompare compare = region_.frame().depth_compare();
         state.needs.reference = !compare.is_plain();
-        if (compare.is_plain()) state.selection = {.keeps = Keeps::window, .range = layer_.end};
+        if (compare.is_plain()) state.selection = {.keeps = Keeps::interval, .range = layer_.end};
         static_cast<void>(region_.draw(
             state, region_.frame().second_list(), [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
                 PeelLanes lane;

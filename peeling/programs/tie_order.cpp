@@ -22,7 +22,7 @@ std::size_t for_each_group(FragmentOrder& sorted, Body&& body) {
 
 }  // namespace
 
-// Entries are (depth, place), so that an insertion sort puts equal depths in order of arrival, as a stable sort would.
+// Entries are (depth, place), so that an insertion sort puts equal depths in submission order, as a stable sort would.
 void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                  const FragmentOrder& near_order, FragmentOrder& order) {
     order.clear();

@@ -12,7 +12,7 @@
 namespace strata::peeling {
 
 // A pixel's fragments in an order: each as its depth, above, and its place in submission order, below. Ascending numbers are
-// nearest first, and the first arrival first.
+// nearest first, and the first submitted first.
 using FragmentOrder = std::vector<std::uint64_t>;
 [[nodiscard]] constexpr std::uint32_t place_of(std::uint64_t entry) noexcept {
     return static_cast<std::uint32_t>(entry);

@@ -7,7 +7,7 @@ namespace strata::peeling {
 
 enum class TiePolicy : std::uint8_t {
     none,             // no order at all
-    first,            // all, the first arrival in front
+    first,            // all, the first submitted in front
     last,             // all, the last arrival in front
     unique,           // the first submitted only
     merged,           // one layer a key, a component-wise mixture

@@ -17,7 +17,7 @@
 
 namespace strata::peeling {
 
-// What a picture is made of: as a Renderer takes it. The references must outlive whoever keeps this.
+// What a picture is made of: as a Renderer takes it. The references must outlive this.
 struct ChainScene {
     const pipeline::DrawList& list;
     pipeline::View view;

@@ -93,7 +93,7 @@ class ChainTile {
             color_[f.pixel] = target_.stored(f.color);
         }
     }
-    // Each pixel's fragments, nearest first, in the order of arrival where depths are equal.
+    // Each pixel's fragments, nearest first, in submission order where depths are equal.
     void draw_transparent(const std::vector<ChainFragment>& fragments) {
         for (std::size_t i = 0; i < fragments.size(); ++i)
             if (fragments[i].depth < depth_[fragments[i].pixel])
@@ -108,7 +108,7 @@ class ChainTile {
     [[nodiscard]] Color color(std::size_t pixel) const { return color_[pixel]; }
 
   private:
-    // A peel keeps one layer a depth: the first arrival.
+    // A peel keeps one layer a depth: the first submitted.
     void composite(const std::vector<ChainFragment>& fragments, std::vector<std::uint32_t>& order, Color& color) const {
         if (!chain_.blend) {
             const auto is_tie = [&](std::uint32_t a, std::uint32_t b) {

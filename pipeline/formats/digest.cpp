@@ -13,10 +13,10 @@
 #include <string_view>
 
 #include "pipeline/formats/image.h"
-#include "pipeline/formats/word_digest.h"
+#include "pipeline/formats/value_digest.h"
 
 namespace strata::pipeline {
-namespace hashing {  // WordDigest::State holds a Hash, so it has external linkage
+namespace hashing {  // ValueDigest::State holds a Hash, so it has external linkage
 
 struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
@@ -91,19 +91,19 @@ std::string digest(const Image& image) {
     return hash.hexadecimal();
 }
 
-struct WordDigest::State {
+struct ValueDigest::State {
     hashing::Hash hash;
 };
 
-WordDigest::WordDigest(std::string_view name) : state_{std::make_unique<State>()} {
+ValueDigest::ValueDigest(std::string_view name) : state_{std::make_unique<State>()} {
     state_->hash.text(name);
     state_->hash.word(0, 1);
 }
 
-WordDigest::~WordDigest() = default;
+ValueDigest::~ValueDigest() = default;
 
-void WordDigest::add(std::uint32_t word) { state_->hash.word(word, 4); }
+void ValueDigest::add(std::uint32_t word) { state_->hash.word(word, 4); }
 
-std::string WordDigest::hexadecimal() { return state_->hash.hexadecimal(); }
+std::string ValueDigest::hexadecimal() { return state_->hash.hexadecimal(); }
 
 }  // namespace strata::pipeline

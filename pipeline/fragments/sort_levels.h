@@ -1,9 +1,9 @@
-// pipeline/fragments/sort_levels.h - sixteen columns of words sorted side by side: the scalar references of sort_levels_simd.cpp.
+// pipeline/fragments/sort_levels.h - sixteen lists of entries sorted side by side: the scalar references of sort_levels_simd.cpp.
 //
-// Rule     A level is sixteen words, one a column; levels follow each other. A word is a key, above, and a place: ~0 stands above a column's
-//          end and sorts last. No two words of a column are equal but these.
+// Rule     A level is sixteen entries, one a list; levels follow each other. An entry is a key, above, and an index: ~0 stands above a list's
+//          end and sorts last. No two entries of a list are equal but these.
 // Source   Batcher's merge exchange; Knuth, The Art of Computer Programming 3, 5.2.2, Algorithm M: it compares the same levels
-//          whatever they hold, so that sixteen columns go through it together.
+//          whatever they hold, so that sixteen lists go through it together.
 // Tests    tests/pipeline/fragments/sort_levels_test.cpp
 #pragma once
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Levels {
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             if (b[lane] < a[lane]) std::swap(a[lane], b[lane]);
     }
-    // a <= b in every column.
+    // a <= b in every list.
     [[nodiscard]] static bool in_order(const std::uint64_t* a, const std::uint64_t* b) noexcept {
         return std::equal(a, a + block_lanes, b, [](std::uint64_t x, std::uint64_t y) { return x <= y; });
     }
@@ -64,7 +64,7 @@ template <class Levels>
             Levels::exchange(level(at - 1), level(at));
 }
 
-// Sorts each column of `height` levels.
+// Sorts each list of `height` levels.
 void sort_levels(std::uint64_t* levels, std::size_t height) noexcept;
 
 }  // namespace strata::pipeline

@@ -124,7 +124,7 @@ void CachedTarget::put_back() {
 
 TileCache::TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame)
     : tiles_{region, frame}, is_frame_{region == frame} {
-    for (auto& owners : owner_) owners.fill(nobody);
+    for (auto& owners : owner_) owners.fill(no_tile);
 }
 
 bool TileCache::knows(const Blend& blending, Format format) noexcept {
@@ -140,7 +140,7 @@ bool TileCache::knows(const Blend& blending, Format format) noexcept {
 // The tile that has the place goes.
 void TileCache::take_place(CachedTarget& target, std::size_t number, std::uint32_t tile) {
     std::uint32_t& owner = owner_[number][tiles_.place_of(tile)];
-    if (owner != nobody && owner != tile) target.put_back(owner);
+    if (owner != no_tile && owner != tile) target.put_back(owner);
     owner = tile;
 }
 
@@ -159,7 +159,7 @@ void TileCache::blend(std::size_t number, const CachedLanes& lanes) {
         if (lanes.fetched[i] == 0) continue;
         const std::uint32_t tile = tiles_.tile_of(batch.pixel[i]), owner = owner_[number][tiles_.place_of(tile)];
         if (owner == tile) continue;
-        if (owner != nobody && first < lane) {
+        if (owner != no_tile && first < lane) {
             target.blend(lanes, first, lane);
             first = lane;
         }

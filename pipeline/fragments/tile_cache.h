@@ -121,7 +121,7 @@ class TileCache {
     CachedTiles tiles_;
     bool is_frame_;  // the region
     std::array<std::optional<CachedTarget>, max_color_targets> targets_;
-    static constexpr std::uint32_t nobody = ~0u;
+    static constexpr std::uint32_t no_tile = ~0u;
     std::array<std::array<std::uint32_t, CachedTiles::places>, max_color_targets> owner_;
 };
 

@@ -1,6 +1,6 @@
-// pipeline/fragments/tile_fragments.h - the fragments of a tile: recorded once, in the order of arrival, and read by every pass of a peel.
+// pipeline/fragments/tile_fragments.h - the fragments of a tile: recorded once, in submission order, and read by every pass of a peel.
 //
-// Rule     A fragment is a place: 0, 1, 2, ... in the order of arrival, after texture and MASK; what MASK kills has none. Its values stand in
+// Rule     A fragment is a place: 0, 1, 2, ... in submission order, after texture and MASK; what MASK kills has none. Its values stand in
 //          arrays by place. A record that would outgrow its limit forgets everything, and its region rasterizes every pass.
 // Layout   One array a value; the channels of a colour together, for passes fetch fragments from here and there. A coverage mask of samples would
 //          be one array more: nothing else here depends on how many depths a pixel has.
@@ -72,7 +72,7 @@ class TileFragments {
     void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs,
                rasterizer::FragmentBatch& batch) const noexcept;
 
-    // Takes them in batches, in the order of arrival, no pixel twice in one. `stamp`, one a pixel, are 0 at first and the reader's own.
+    // Takes them in batches, in submission order, no pixel twice in one. `stamp`, one a pixel, are 0 at first and the reader's own.
     struct Reading {
         std::size_t next = 0;
         std::uint32_t batch = 0;

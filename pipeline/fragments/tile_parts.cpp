@@ -63,10 +63,10 @@ class CutTile {
         rasterizer::TileRasterizer{rect_}.draw(geometry, geometry.bin(tile), frame.key_request(), nothing,
                                                rasterizer::BatchSink{add});
     }
-    void cut(std::vector<RegionPlace>& parts) const { cut(rect_, parts); }
+    void cut(std::vector<RegionArea>& parts) const { cut(rect_, parts); }
 
   private:
-    void cut(const Rect& part, std::vector<RegionPlace>& parts) const {
+    void cut(const Rect& part, std::vector<RegionArea>& parts) const {
         if (part.area() == 1 || fits(replay_, part, depths_of(part)))
             return parts.push_back({part, tile_, Extent::tile});
         for (const Rect& half : halves(part)) cut(half, parts);
@@ -92,11 +92,11 @@ class CutTile {
 
 }  // namespace
 
-std::vector<RegionPlace> tile_parts(const Frame& frame, int threads) {
+std::vector<RegionArea> tile_parts(const Frame& frame, int threads) {
     const Geometry& geometry = frame.repeated()->geometry;
     const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
     const bool cuts = frame.replay.bytes >= least_memory && frame.replay.bytes_a_fragment > 0;
-    std::vector<std::vector<RegionPlace>> parts(tiles);
+    std::vector<std::vector<RegionArea>> parts(tiles);
     parallel_for(tiles, threads, [&](std::size_t tile) {
         const Rect rect = tile_rect(geometry, tile);
         if (cuts && !fits(frame.replay, rect, bounds_of(geometry, tile, frame.replay)))
@@ -104,7 +104,7 @@ std::vector<RegionPlace> tile_parts(const Frame& frame, int threads) {
         else
             parts[tile].push_back({rect, tile, Extent::tile});
     });
-    std::vector<RegionPlace> all;
+    std::vector<RegionArea> all;
     for (const auto& of_tile : parts) all.insert(all.end(), of_tile.begin(), of_tile.end());
     return all;
 }

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "pipeline/frame/region_place.h"
+#include "pipeline/frame/region_area.h"
 
 namespace strata::pipeline {
 
@@ -22,6 +22,6 @@ struct Frame;
     return {{{r.x0, r.y0, x, r.y1}, {x, r.y0, r.x1, r.y1}}};
 }
 
-[[nodiscard]] std::vector<RegionPlace> tile_parts(const Frame& frame, int threads);
+[[nodiscard]] std::vector<RegionArea> tile_parts(const Frame& frame, int threads);
 
 }  // namespace strata::pipeline

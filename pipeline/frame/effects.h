@@ -1,7 +1,7 @@
 // pipeline/frame/effects.h - which effects a pass simulates: decided from its state and its materials before the first fragment.
 //
 // Rule     Needed is what the program declares, and what a stage that is switched on looks at. What materials call for is decided by
-//          the tile's own triangles. `all` simulates everything: values that nobody looks at, and where a stage is off the stage
+//          the tile's own triangles. `all` simulates everything: values that no stage reads, and where a stage is off the stage
 //          with a state that changes nothing (alpha GEQUAL 0, stencil ALWAYS and KEEP, depth ALWAYS without a write, blending ONE
 //          and ZERO); the bits and counters are the same. In a tile without opaque triangles the test against the opaque depth is not made, and no depth
 //          interpolated for it, if every triangle's bound (rasterizer/set_up/depth_bound.h) lies before the cleared 1.
@@ -54,7 +54,7 @@ struct TileCensus {
     std::vector<std::uint64_t> transparent_fragments, opaque_fragments;  // by material
     friend bool operator==(const TileCensus&, const TileCensus&) = default;
 };
-// Rasterizes every tile with these values and does nothing with them: for whoever holds a watch.
+// Rasterizes every tile with these values and discards them: for timing.
 void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs,
           int threads);
 // The fragments of the deepest pixel, before any test.

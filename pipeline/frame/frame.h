@@ -78,7 +78,7 @@ struct Frame {
     [[nodiscard]] const PreparedDraw& second_list() const noexcept {
         return second != nullptr ? *second : *transparent;
     }
-    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms rest on.
+    // Every pass sees the same fragments, and compares the depth that it stores: what resolves rest on.
     [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
 };
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/frame/region_books.h"
+#include "pipeline/frame/region_statistics.h"
 
 namespace strata::pipeline {
 
@@ -27,7 +27,7 @@ struct FrameResult {
     std::optional<Counters> counters;  // of literal execution alone
     Work work;
     std::vector<Diagnostic> diagnostics;
-    Answers answers;     // to the frame's queries: a script for whoever runs a part of it again
+    Answers answers;     // to the frame's queries: a script for running a part of it again
     double watched = 0;  // the watch's share of the time that was spent in regions
     PassLog pass_log;    // where Instruments ask for it
 };

@@ -5,7 +5,7 @@
 
 namespace strata::pipeline {
 
-// Effects that a pass can be made to simulate though nobody calls for them: values of its fragments, and stages with a
+// Effects that a pass can be made to simulate though no state needs them: values of its fragments, and stages with a
 // state that changes nothing.
 enum class Effect : std::uint8_t {
     none,

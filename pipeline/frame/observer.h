@@ -18,11 +18,12 @@ enum class Step : std::uint8_t { clear, copy, geometry, full_screen, query, publ
 
 struct StepEvent {
     Step step{};
-    const PassState* state = nullptr;   // of passes; null for one that runs beside the stages (RegionShortcuts::book)
-    Target to{};                        // of clear, copy and publish
-    Target from{};                      // of copy
-    const ClearValue* clear = nullptr;  // of clear
-    std::uint8_t sample_mask = 0xff;    // of clear
+    const PassState* state =
+        nullptr;    // of passes; null for one that runs beside the stages (RegionShortcuts::count_passes)
+    Target to{};    // of clear, copy and publish
+    Target from{};  // of copy
+    const ClearValue* clear = nullptr;      // of clear
+    std::uint8_t sample_mask = 0xff;        // of clear
     std::uint64_t passed = 0, tallied = 0;  // of passes; of a query, `passed` is the count that it asks about
     bool answer = false;                    // of a query: go on
     bool is_counted = true;

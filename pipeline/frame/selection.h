@@ -1,8 +1,8 @@
 // pipeline/frame/selection.h - which fragments a geometry pass looks at, as data: tiles visit those alone.
 //
-// Rule     A selection is a promise about the pass's own state and program. At every pixel the *window* is a range of keys
+// Rule     A selection is a promise about the pass's own state and program. At every pixel the *interval* is a range of keys
 //          (Frame::key) between bounds that targets hold there when the pass begins, and the pass keeps some fragments of the
-//          window. The others leave every target as it is: those of the window because the kept ones decide alone, those outside
+//          interval. The others leave every target as it is: those of the interval because the kept ones decide alone, those outside
 //          because they die or write what is there. The program looks at no primitive's number, and tallies nothing outside.
 //          `Instruments::check_selections` visits every fragment, too, and compares.
 // Source   execution.md 7.1.
@@ -17,26 +17,26 @@
 
 namespace strata::pipeline {
 
-// The fragments of its window that decide what a pass leaves at a pixel.
+// The fragments of its interval that decide what a pass leaves at a pixel.
 enum class Keeps : std::uint8_t {
     everything,  // no selection: every fragment is visited
-    nearest,     // the first arrival of the least key: by a depth test LESS with a write, without blending and stencil
-    window,      // all of the window, in the order of arrival, whatever the tests
-    ends,        // the first and the last key, all arrivals, and the nearest and farthest between: by MAX of (-z, z)
-    arrivals     // from number `first_arrival` of the window on, in the order of arrival, one for each sample: by a
-                 // stencil test that all of the window count down and only those meet
+    nearest,   // the first submitted of the least key: by a depth test LESS with a write, without blending and stencil
+    interval,  // all of the interval, in submission order, whatever the tests
+    ends,      // the first and the last key, all of equal keys, and the nearest and farthest between: by MAX of (-z, z)
+    submitted  // from number `first_submitted` of the interval on, in submission order, one for each sample: by a
+               // stencil test that all of the interval count down and only those meet
 };
 
-// What a fragment outside the window does.
+// What a fragment outside the interval does.
 enum class Outside : std::uint8_t {
     dies,         // by the program, by the alpha test or by a depth unit, before the tests
-    writes_alike  // writes what any other of its pixel's outside the window writes, under blends that keep it
+    writes_alike  // writes what any other of its pixel's outside the interval writes, under blends that keep it
 };
 
-// One end of a window: what a target holds.
+// One end of an interval: what a target holds.
 struct KeyBound {
     Target target{};
-    bool includes = false;  // the key itself lies in the window
+    bool includes = false;  // the key itself lies in the interval
     int channel = -1;       // of a float target that holds values of stored codes; else a depth target
     [[nodiscard]] bool exists() const noexcept { return target.exists(); }
     [[nodiscard]] static constexpr KeyBound beyond(Target target) noexcept { return {target}; }
@@ -50,7 +50,7 @@ struct FragmentSelection {
     std::array<KeyBound, 2> far{};        // keys less than each
     Target range{};                       // float target: keys from minus its red to its green, both included
     std::uint32_t least = 0, most = ~0u;  // keys, both included
-    std::uint32_t first_arrival = 0;
+    std::uint32_t first_submitted = 0;
     // Of nearest and ends: `near` or `range` bounds the depth that this compares, and no key.
     std::optional<DepthCompare> compared{};
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;

@@ -34,7 +34,7 @@ enum class CombinerRegister : std::uint8_t {
     // Of the final stage, for its inputs A to D alone.
     spare0_plus_secondary_color,
     e_times_f,
-    // As an output: nobody wants the result.
+    // As an output: the result is discarded.
     discard
 };
 inline constexpr std::size_t combiner_registers = 11;  // those that hold a value

@@ -43,8 +43,8 @@ namespace strata::pipeline {
 STRATA_EXPORT(combiner_table);
 
 const CombinerLoops& combiner_loops() noexcept {
-    static constexpr CombinerLoops twins{scalar::load, scalar::multiply, scalar::settle, scalar::mix};
-    return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(combiner_table))();
+    static constexpr CombinerLoops scalar_reference{scalar::load, scalar::multiply, scalar::settle, scalar::mix};
+    return simd_is_scalar() ? scalar_reference : *kernel_of(HWY_DISPATCH_TABLE(combiner_table))();
 }
 
 }  // namespace strata::pipeline

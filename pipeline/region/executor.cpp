@@ -20,7 +20,7 @@ namespace {
 
 // The part of a region that is kept when its storage is given back.
 struct RegionRun {
-    RegionBooks books;
+    RegionStatistics statistics;
     std::uint64_t fragments = 0;  // of all its runs
     int runs = 0;
 };
@@ -36,10 +36,10 @@ class FrameRun {
           instruments_{instruments},
           watch_{watch},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
-        places_ = extent_ == Extent::frame ? std::vector<RegionPlace>{{frame.rect(), 0, Extent::frame}}
-                                           : tile_parts(frame, threads);
-        regions_.resize(places_.size());
-        twin_.assign(regions_.size(), no_twin);
+        areas_ = extent_ == Extent::frame ? std::vector<RegionArea>{{frame.rect(), 0, Extent::frame}}
+                                          : tile_parts(frame, threads);
+        regions_.resize(areas_.size());
+        look_alike_.assign(regions_.size(), no_look_alike);
         for (std::size_t r = 0; r < regions_.size(); ++r) weight_of_all_ += weight(r);
         const rasterizer::Rect rect = frame.rect();
         result_.color = Image::for_overwrite(frame.picture_format(), rect.width(), rect.height());
@@ -49,22 +49,22 @@ class FrameRun {
     }
 
     FrameResult finish() {
-        if (watch_.begun) watch_.begun(places_);
+        if (watch_.begun) watch_.begun(areas_);
         const std::vector<std::size_t> others = run_one_blank_of_each_size();
         parallel_for(others.size(), threads_, [&](std::size_t i) {
-            if (twin_[others[i]] == no_twin)
+            if (look_alike_[others[i]] == no_look_alike)
                 run_region(others[i], {});
             else
                 copy_blank(others[i]);
         });
-        if (extent_ == Extent::tile && frame_.max_passes > 0 && regions_[0].books.loops.size() > 1) limit_loops();
+        if (extent_ == Extent::tile && frame_.max_passes > 0 && regions_[0].statistics.loops.size() > 1) limit_loops();
         settle();
         gather();
         return std::move(result_);
     }
 
   private:
-    [[nodiscard]] const rasterizer::Rect& rect(std::size_t r) const { return places_[r].rect; }
+    [[nodiscard]] const rasterizer::Rect& rect(std::size_t r) const { return areas_[r].rect; }
 
     // Copies a part of the frame into its place; parts are disjoint, so threads do not meet.
     void copy_into(const Image& part, const rasterizer::Rect& at, Image& whole) const {
@@ -79,7 +79,7 @@ class FrameRun {
     // (execution.md 6).
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) {
-            return list == nullptr || list->geometry.bin(places_[r].tile).empty();
+            return list == nullptr || list->geometry.bin(areas_[r].tile).empty();
         };
         return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
@@ -99,25 +99,25 @@ class FrameRun {
                 return rect(b).width() == rect(r).width() && rect(b).height() == rect(r).height();
             };
             const auto found = std::find_if(blanks_.begin(), blanks_.end(), same_size);
-            twin_[r] = found == blanks_.end() ? r : *found;
+            look_alike_[r] = found == blanks_.end() ? r : *found;
             if (found != blanks_.end()) {
                 others.push_back(r);
                 continue;
             }
             run_region(r, {});
-            if (regions_[r].books.diagnostics.empty()) blanks_.push_back(r);
+            if (regions_[r].statistics.diagnostics.empty()) blanks_.push_back(r);
         }
         return others;
     }
 
-    // The copy has the twin's books, for the machine would have worked in both tiles; but it rasterized nothing itself.
+    // The copy has the equal tile's statistics, for the machine would have worked in both tiles; but it rasterized nothing itself.
     void copy_blank(std::size_t r) {
-        regions_[r] = regions_[twin_[r]];
-        regions_[r].fragments = regions_[r].books.fragments_visited = 0;
-        copy(twin_[r], r, result_.color);
-        if (watch_.alike) watch_.alike(twin_[r], r);
+        regions_[r] = regions_[look_alike_[r]];
+        regions_[r].fragments = regions_[r].statistics.fragments_processed = 0;
+        copy(look_alike_[r], r, result_.color);
+        if (watch_.alike) watch_.alike(look_alike_[r], r);
         show(r);
-        if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
+        if (frame_.nearest_depth) copy(look_alike_[r], r, result_.depth);
     }
 
     // What a region counts for in the progress: its triangles of every list, and one. All regions together come to the whole.
@@ -125,7 +125,7 @@ class FrameRun {
         if (extent_ == Extent::frame) return 1;
         std::size_t triangles = 1;
         for (const PreparedDraw* list : {frame_.transparent, frame_.second, frame_.opaque})
-            if (list != nullptr) triangles += list->geometry.bin(places_[r].tile).size();
+            if (list != nullptr) triangles += list->geometry.bin(areas_[r].tile).size();
         return triangles;
     }
 
@@ -150,18 +150,18 @@ class FrameRun {
     // The image of the nearest depth depends on no answer, so the first run writes it for good.
     void run_region(std::size_t r, const Answers& script) {
         const Clock::time_point start = Clock::now();
-        RegionBooks books;
-        books.script = script;
-        books.passes_before = passes_before_;
-        Region region{frame_, places_[r], books, instruments_, &scratch_};
+        RegionStatistics statistics;
+        statistics.script = script;
+        statistics.passes_before = passes_before_;
+        Region region{frame_, areas_[r], statistics, instruments_, &scratch_};
         body_(region);
-        region.targets().report_non_finite(books.published);
+        region.targets().report_non_finite(statistics.published);
         RegionShortcuts shortcuts{region};
-        shortcuts.write_image(books.published, result_.color);
+        shortcuts.write_image(statistics.published, result_.color);
         RegionRun& kept = regions_[r];
         if (frame_.nearest_depth && kept.runs == 0) shortcuts.write_image(shortcuts.nearest_depth(), result_.depth);
-        kept.fragments += books.fragments_drawn;
-        kept.books = std::move(books);
+        kept.fragments += statistics.fragments_drawn;
+        kept.statistics = std::move(statistics);
         ++kept.runs;
         const Clock::time_point ended = Clock::now();
         if (watch_.ended) watch_.ended(region, r, result_.color);
@@ -176,7 +176,7 @@ class FrameRun {
 
     // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there, or it
     // had stopped before, and has promised that further iterations change nothing.
-    [[nodiscard]] static bool is_idle(const LoopBooks& loop, std::size_t d) {
+    [[nodiscard]] static bool is_idle(const LoopStatistics& loop, std::size_t d) {
         const std::size_t last = std::min(d, loop.decisions.size() - 1);
         return loop.decisions[last].own == 0 && loop.decisions[last].idle != Idle::no;
     }
@@ -199,14 +199,14 @@ class FrameRun {
     // far. From loop to loop it follows how many iterations the limit leaves to the frame: a region with more runs again.
     void limit_loops() {
         std::vector<int> most;  // iterations of each loop
-        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop) {
+        for (std::size_t loop = 0; loop < regions_[0].statistics.loops.size(); ++loop) {
             passes_before_.push_back(loop == 0 ? 0 : passes_before_.back() + passes_of(loop - 1, most.back()));
             const int left = std::max(0, frame_.max_passes - passes_before_[loop]);
             most.push_back(left / std::max(1, passes_of(loop, 1)));
         }
         std::vector<std::size_t> again;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
-            const std::vector<LoopBooks>& loops = regions_[r].books.loops;
+            const std::vector<LoopStatistics>& loops = regions_[r].statistics.loops;
             const auto goes_too_far = [&](std::size_t loop) { return loops[loop].iterations > most[loop]; };
             for (std::size_t loop = 0; loop < loops.size(); ++loop)
                 if (goes_too_far(loop) && (again.empty() || again.back() != r)) again.push_back(r);
@@ -218,14 +218,14 @@ class FrameRun {
     // Geometry passes of a loop of so many iterations, or of as many as the frame has made if they are fewer. Every iteration of a loop
     // makes as many; a loop without any has those that stand before it.
     [[nodiscard]] int passes_of(std::size_t loop, int iterations) const {
-        const LoopBooks& longest = regions_[longest_in(loop)].books.loops[loop];
+        const LoopStatistics& longest = regions_[longest_in(loop)].statistics.loops[loop];
         if (longest.iterations == 0) return longest.passes.geometry;
         return std::min(iterations, longest.iterations) * (longest.passes.geometry / longest.iterations);
     }
 
     // A region that has run a loop as long as the frame does: where something was left to count until its end.
     [[nodiscard]] std::size_t longest_in(std::size_t loop) const {
-        const auto iterations = [loop](const RegionRun& r) { return r.books.loops[loop].iterations; };
+        const auto iterations = [loop](const RegionRun& r) { return r.statistics.loops[loop].iterations; };
         return static_cast<std::size_t>(std::ranges::max_element(regions_, {}, iterations) - regions_.begin());
     }
 
@@ -233,13 +233,13 @@ class FrameRun {
     // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
     void settle() {
         if (extent_ == Extent::frame) {
-            for (const LoopBooks& loop : regions_[0].books.loops) {
+            for (const LoopStatistics& loop : regions_[0].statistics.loops) {
                 result_.answers.emplace_back();
                 for (const Decision& d : loop.decisions) result_.answers.back().push_back(d.answer);
             }
             return;
         }
-        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop) settle(loop);
+        for (std::size_t loop = 0; loop < regions_[0].statistics.loops.size(); ++loop) settle(loop);
     }
 
     void settle(std::size_t loop) {
@@ -257,7 +257,7 @@ class FrameRun {
             answers.push_back(continues(frame_.termination, frame_.rect(), sum));
             std::vector<std::size_t> again;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                const LoopBooks& own = regions_[r].books.loops[loop];
+                const LoopStatistics& own = regions_[r].statistics.loops[loop];
                 if (own.decisions.empty() || is_idle(own, d)) continue;
                 if (d >= own.decisions.size() || own.decisions[d].answer != answers[d]) again.push_back(r);
             }
@@ -268,23 +268,23 @@ class FrameRun {
         }
     }
 
-    // Puts the frame together from the books of all regions. Diagnostics merge in any order, so the result does not depend on
+    // Puts the frame together from the statistics of all regions. Diagnostics merge in any order, so the result does not depend on
     // threads. Without a query every region ran the same iterations.
     void gather() {
         result_.work.regions = regions_.size();
         result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;
-        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop) {
-            const LoopBooks& longest = regions_[longest_in(loop)].books.loops[loop];
+        for (std::size_t loop = 0; loop < regions_[0].statistics.loops.size(); ++loop) {
+            const LoopStatistics& longest = regions_[longest_in(loop)].statistics.loops[loop];
             result_.iterations += longest.iterations;
             result_.passes += longest.passes;
         }
-        if (extent_ == Extent::frame) result_.counters = regions_[0].books.counters;
+        if (extent_ == Extent::frame) result_.counters = regions_[0].statistics.counters;
         gather_path();
         for (const RegionRun& region : regions_) {
-            for (const Diagnostic& d : region.books.diagnostics) merge(result_.diagnostics, d);
-            gather_log(region.books.pass_log);
+            for (const Diagnostic& d : region.statistics.diagnostics) merge(result_.diagnostics, d);
+            gather_log(region.statistics.pass_log);
             result_.work.fragments += region.fragments;
-            result_.work.visited += region.books.fragments_visited;
+            result_.work.visited += region.statistics.fragments_processed;
         }
         const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
         result_.watched = watched > 0 ? watched / (watched + bodies) : 0;
@@ -293,10 +293,10 @@ class FrameRun {
 
     void gather_path() {
         if (extent_ == Extent::frame) return;
-        const auto path = [](const RegionRun& region) { return region.books.taken.path(); };
+        const auto path = [](const RegionRun& region) { return region.statistics.taken.path(); };
         const RegionRun& slowest = *std::ranges::min_element(regions_, {}, path);
         result_.work.path = path(slowest);
-        if (const char* const why = slowest.books.taken.why(); why != nullptr) result_.work.why = why;
+        if (const char* const why = slowest.statistics.taken.why(); why != nullptr) result_.work.why = why;
     }
 
     void gather_log(const PassLog& log) {
@@ -315,8 +315,8 @@ class FrameRun {
         for (std::size_t layer = 0; layer < layer_count; ++layer) {
             KeptLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                std::vector<KeptLayer>& layers = regions_[r].books.layers;
-                if (layer + regions_[r].books.idle_layers < layers.size()) kept.side = layers[layer].side;
+                std::vector<KeptLayer>& layers = regions_[r].statistics.layers;
+                if (layer + regions_[r].statistics.idle_layers < layers.size()) kept.side = layers[layer].side;
                 const KeptLayer& part = layers[std::min(layer, layers.size() - 1)];
                 if (kept.color.codes.empty()) {
                     kept.color = Image::for_overwrite(part.color.format, whole.width(), whole.height());
@@ -340,11 +340,11 @@ class FrameRun {
     const Watch& watch_;
     Extent extent_;
     RegionScratchPool scratch_;
-    std::vector<RegionPlace> places_;
+    std::vector<RegionArea> areas_;
     std::vector<RegionRun> regions_;  // at these places
-    static constexpr std::size_t no_twin = ~std::size_t{0};
-    std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
-    std::vector<int> passes_before_;          // by loop, once a limit has asked for them
+    static constexpr std::size_t no_look_alike = ~std::size_t{0};
+    std::vector<std::size_t> blanks_, look_alike_;  // blank regions that ran; by region: which of them it is like
+    std::vector<int> passes_before_;                // by loop, once a limit has asked for them
     FrameResult result_;
     std::size_t weight_of_all_ = 0;
     std::atomic<std::size_t> weight_done_{0};

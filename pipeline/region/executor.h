@@ -13,7 +13,7 @@
 
 #include "pipeline/frame/frame_result.h"
 #include "pipeline/frame/instruments.h"
-#include "pipeline/frame/region_place.h"
+#include "pipeline/frame/region_area.h"
 #include "pipeline/frame/run_settings.h"
 
 namespace strata::pipeline {
@@ -27,7 +27,7 @@ using Body = std::function<void(Region&)>;  // once a region, never a fragment
 // what was seen before is void; so is all of it if the frame is run again as a whole.
 struct Watch {
     // The regions that will run: tiles and parts of tiles, or the frame. Other functions name them by their number.
-    std::function<void(std::span<const RegionPlace>)> begun{};
+    std::function<void(std::span<const RegionArea>)> begun{};
     // Region number `region` has ended, and its part of `color` is written.
     std::function<void(Region&, std::size_t region, const Image& color)> ended{};
     // Region `region` is blank, and did not run: it left what region `like`, of the same size, left.

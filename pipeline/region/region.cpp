@@ -30,16 +30,16 @@ void RegionShared::trace(const TraceEntry& entry) const {
 void RegionShared::report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) const {
     if (pixels == 0) return;
     const auto width = static_cast<std::uint32_t>(rect().width());
-    merge(books.diagnostics, {fault, pixels, rect().x0 + static_cast<int>(first_pixel % width),
-                              rect().y0 + static_cast<int>(first_pixel / width), std::move(detail)});
+    merge(statistics.diagnostics, {fault, pixels, rect().x0 + static_cast<int>(first_pixel % width),
+                                   rect().y0 + static_cast<int>(first_pixel / width), std::move(detail)});
 }
 
 // The trace begins with what the opaque scene leaves: nothing.
-Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books, const Instruments& instruments,
-               RegionScratchPool* pool)
+Region::Region(const Frame& frame, const RegionArea& place, RegionStatistics& statistics,
+               const Instruments& instruments, RegionScratchPool* pool)
     : pool_{pool},
       scratch_{pool == nullptr ? std::make_unique<RegionScratch>() : pool->take()},
-      shared_{frame, place, books, instruments, *scratch_, *this},
+      shared_{frame, place, statistics, instruments, *scratch_, *this},
       targets_{shared_},
       stages_{shared_, targets_},
       source_{shared_, targets_, stages_},
@@ -58,7 +58,7 @@ Region::~Region() {
 }
 
 void Region::report(Fault fault, std::string detail) {
-    merge(shared_.books.diagnostics, {fault, 0, -1, -1, std::move(detail)});
+    merge(shared_.statistics.diagnostics, {fault, 0, -1, -1, std::move(detail)});
 }
 
 void copy_color(Region& region, Target from, Target to) {
@@ -78,7 +78,7 @@ void Region::publish(Target color) {
         copy_color(*this, color, picture);
         color = picture;
     }
-    shared_.books.published = color;
+    shared_.statistics.published = color;
     shared_.show({.step = Step::publish, .to = color});
 }
 
@@ -98,7 +98,7 @@ void Region::end_pass(const PassState& state, PassKind kind, const Drawn& drawn)
 }
 
 void Region::draw_opaque() {
-    const UncountedWork priming{shared_.books};
+    const UncountedWork priming{shared_.statistics};
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = opaque_depth();

@@ -3,7 +3,7 @@
 // Rule     An algorithm is one function over a region. Literal execution gives it the frame, replay one tile after another;
 //          bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
 //          A region is its targets, stages, source and loop (region_shared.h says who looks at whom); what the executor reads
-//          afterwards stands in RegionBooks (region_books.h); what fast ways need, in RegionShortcuts (region_shortcuts.h).
+//          afterwards stands in RegionStatistics (region_statistics.h); what fast ways need, in RegionShortcuts (region_shortcuts.h).
 // Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
@@ -26,8 +26,8 @@ class RegionScratchPool;
 class Region {
   public:
     // `pool`: where the region borrows its arrays; without one it brings its own.
-    Region(const Frame& frame, const RegionPlace& place, RegionBooks& books, const Instruments& instruments = {},
-           RegionScratchPool* pool = nullptr);
+    Region(const Frame& frame, const RegionArea& place, RegionStatistics& statistics,
+           const Instruments& instruments = {}, RegionScratchPool* pool = nullptr);
     Region(const Region&) = delete;
     Region& operator=(const Region&) = delete;
     ~Region();
@@ -128,7 +128,7 @@ template <FragmentProgram P>
 Drawn Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {
     const PassState state = altered(given, PassKind::geometry);
     stages_.begin_pass(state, PassKind::geometry);
-    if (state.selection.keeps == Keeps::everything || !source_.find_visits(state, list))
+    if (state.selection.keeps == Keeps::everything || !source_.find_fragments(state, list))
         return draw_everything(state, list, program);
     return shared_.instruments.check_selections ? checked([&] { return draw_visits(state, program); },
                                                           [&] { return draw_everything(state, list, program); })
@@ -152,8 +152,8 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
 
 template <FragmentProgram P>
 Drawn Region::draw_visits(const PassState& state, P& program) {
-    const bool is_routed = state.selection.keeps == Keeps::arrivals;
-    if (is_routed) source_.route_arrivals(state);
+    const bool is_routed = state.selection.keeps == Keeps::submitted;
+    if (is_routed) source_.route_submitted(state);
     stages_.open_cache(state);
     Drawn drawn;
     PassState drawn_to = state;
@@ -162,7 +162,7 @@ Drawn Region::draw_visits(const PassState& state, P& program) {
         run_batch(drawn_to, program, *batch, stages_.start_batch(*batch), drawn);
     }
     stages_.close_cache();
-    if (is_routed) source_.finish_arrivals(state);
+    if (is_routed) source_.finish_submitted(state);
     if (state.selection.outside == Outside::writes_alike)
         drawn.passed.own_ = source_.recorded();  // what lies outside passes, too
     return drawn;
@@ -195,7 +195,7 @@ void Region::trace_pixels(Target read, P&& program) {
     stages_.begin_look();
     PassState state;
     state.reads[0] = read;
-    const UncountedWork look{shared_.books};
+    const UncountedWork look{shared_.statistics};
     std::size_t next = 0;
     while (FragmentBatch* const batch = stages_.next_screen_batch(next)) {
         Outputs& out = stages_.start_batch(*batch);

@@ -1,4 +1,4 @@
-// pipeline/region/region_idle.cpp - stages that nobody calls for, simulated with a state that changes nothing: what Effects::all adds.
+// pipeline/region/region_idle.cpp - stages that no state needs, simulated with a state that changes nothing: what Effects::all adds.
 //
 // Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its outcome goes on to the next stage
 //          wherever it is the same by the stage's own rule: every alpha test and depth test that passes all, a stencil that keeps,

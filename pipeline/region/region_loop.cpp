@@ -8,27 +8,27 @@
 namespace strata::pipeline {
 
 void Loop::begin_loop() {
-    if (const std::size_t number = shared_.books.loops.size(); number < shared_.books.passes_before.size())
-        shared_.books.geometry_passes = shared_.books.passes_before[number];
-    shared_.books.loops.emplace_back();
+    if (const std::size_t number = shared_.statistics.loops.size(); number < shared_.statistics.passes_before.size())
+        shared_.statistics.geometry_passes = shared_.statistics.passes_before[number];
+    shared_.statistics.loops.emplace_back();
 }
 
 void Loop::begin_iteration() {
-    ++shared_.books.iterations;
-    ++shared_.books.loops.back().iterations;
+    ++shared_.statistics.iterations;
+    ++shared_.statistics.loops.back().iterations;
 }
 
 // A tile that counts nothing stops; the executor runs it again, with what the frame answered, unless it has promised to be idle.
 bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
-    if (shared_.instruments.log_passes) ++shared_.books.pass_log.queries;
+    if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;
     if (!shared_.instruments.trust_idle) idle = Idle::no;
-    LoopBooks& loop = shared_.books.loops.back();
-    const std::size_t index = loop.decisions.size(), number = shared_.books.loops.size() - 1;
-    const bool is_known = number < shared_.books.script.size() && index < shared_.books.script[number].size();
+    LoopStatistics& loop = shared_.statistics.loops.back();
+    const std::size_t index = loop.decisions.size(), number = shared_.statistics.loops.size() - 1;
+    const bool is_known = number < shared_.statistics.script.size() && index < shared_.statistics.script[number].size();
     bool answer = false;
     if (is_known) {
-        answer = shared_.books.script[number][index];
+        answer = shared_.statistics.script[number][index];
     } else if (shared_.is_frame()) {
         answer = continues(shared_.frame.termination, shared_.frame.rect(), count.own_);
     } else {
@@ -44,19 +44,19 @@ bool Loop::any(Count count, Idle idle) {
 // this place, so all of them stop together.
 bool Loop::limit_reached(int passes) const {
     const int fixed = shared_.frame.termination.rule == TerminationRule::fixed ? shared_.frame.termination.passes : 0;
-    const int after = shared_.books.geometry_passes + passes;
+    const int after = shared_.statistics.geometry_passes + passes;
     return (shared_.frame.max_passes > 0 && after > shared_.frame.max_passes) || (fixed > 0 && after > fixed);
 }
 
 void Loop::keep_layer(Target color, Target depth, Side side) {
     if (!shared_.frame.keep_layers) return;
-    shared_.books.layers.push_back({targets_.image(color), targets_.image(depth), side});
+    shared_.statistics.layers.push_back({targets_.image(color), targets_.image(depth), side});
 }
 
 void Loop::keep_no_layer(Target color, Target depth) {
     if (!shared_.frame.keep_layers) return;
-    shared_.books.layers.push_back({targets_.image(color), targets_.image(depth), Side::front});
-    ++shared_.books.idle_layers;
+    shared_.statistics.layers.push_back({targets_.image(color), targets_.image(depth), Side::front});
+    ++shared_.statistics.idle_layers;
 }
 
 }  // namespace strata::pipeline

@@ -54,7 +54,7 @@ rasterizer::DepthDrawn Source::draw_depth_rows(const PassState& state) {
     const rasterizer::DepthDrawn rows =
         rasterizer::draw_depth_rows(geometry, geometry.bin(shared_.place.tile), shared_.frame.key_request(),
                                     shared_.rect(), targets_.at(state.depth_target).depth_plane(0).words);
-    shared_.books.fragments_drawn += rows.fragments;
+    shared_.statistics.fragments_drawn += rows.fragments;
     return rows;
 }
 
@@ -95,7 +95,7 @@ rasterizer::DepthDrawn Source::draw_sum_rows(const PassState& state) {
     for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words;
     const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(shared_.place.tile),
                                                      shared_.frame.key_request(), shared_.rect(), planes);
-    shared_.books.fragments_drawn += rows.fragments;
+    shared_.statistics.fragments_drawn += rows.fragments;
     return rows;
 }
 

@@ -5,9 +5,9 @@
 #include <mutex>
 #include <vector>
 
-#include "pipeline/fragments/sorted_columns.h"
+#include "pipeline/fragments/fragment_waves.h"
+#include "pipeline/fragments/sorted_lists.h"
 #include "pipeline/fragments/tile_fragments.h"
-#include "pipeline/fragments/visits.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
 #include "pipeline/stages/target_storage.h"
@@ -31,8 +31,8 @@ struct alignas(64) RegionScratch {
     Lanes<std::uint32_t> saturated;
     TileFragments fragments;
     TileFragments::Reading reading;
-    SortedColumns sorted, other_sorted;  // of the record: what the present pass looks into, and what another did
-    Visits visits;                       // of the present pass
+    SortedLists sorted, other_sorted;  // of the record: what the present pass looks into, and what another did
+    FragmentWaves waves;               // of the present pass
     Trace trace;
     std::vector<TargetWords> target_words;  // of targets that are no more
 

@@ -1,4 +1,4 @@
-// pipeline/region/region_shared.h - what the parts of a region share while it runs: its place, its books, and who watches.
+// pipeline/region/region_shared.h - what the parts of a region share while it runs: its place, its statistics, and who watches.
 //
 // Rule     Targets hold render targets, stages take batches through a pass, source says where its fragments come from, loop asks and
 //          stops. Each looks at those before it alone: targets, stages, source; loop beside them. Region (region.h) has them all.
@@ -10,8 +10,8 @@
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/instruments.h"
 #include "pipeline/frame/observer.h"
-#include "pipeline/frame/region_books.h"
-#include "pipeline/frame/region_place.h"
+#include "pipeline/frame/region_area.h"
+#include "pipeline/frame/region_statistics.h"
 #include "pipeline/frame/trace.h"
 
 namespace strata::pipeline {
@@ -21,8 +21,8 @@ struct RegionScratch;
 
 struct RegionShared {
     const Frame& frame;
-    RegionPlace place;
-    RegionBooks& books;
+    RegionArea place;
+    RegionStatistics& statistics;
     Instruments instruments;
     RegionScratch& scratch;  // the arrays that a batch passes through
     Region& region;          // for those who watch or alter its steps
@@ -41,19 +41,19 @@ struct RegionShared {
     }
     // Null where the next step is to be taken as it is.
     [[nodiscard]] const Alteration* alteration() const noexcept {
-        return books.counts ? instruments.alteration : nullptr;
+        return statistics.counts ? instruments.alteration : nullptr;
     }
     // What the machine does; the emulator's own work is not counted.
     void count(const Counters& counters) const noexcept {
-        if (books.counts) books.counters += counters;
+        if (statistics.counts) statistics.counters += counters;
     }
     void count_pass(const PassCount& passes) const noexcept {
-        if (books.counts) books.loops.back().passes += passes;
+        if (statistics.counts) statistics.loops.back().passes += passes;
     }
     void show(StepEvent event) const {  // to the observer, if there is one
         if (instruments.observer == nullptr || !instruments.observer->step) return;
-        event.is_counted = books.counts;
-        event.iteration = books.iterations;
+        event.is_counted = statistics.counts;
+        event.iteration = statistics.iterations;
         instruments.observer->step(region, event);
     }
     void trace(const TraceEntry& entry) const;  // and shows it

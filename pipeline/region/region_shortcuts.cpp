@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "pipeline/formats/image_words.h"
+#include "pipeline/formats/image_texels.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
 
@@ -27,9 +27,9 @@ void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
 }
 
 // Coverage is counted first, before MASK, so that the list is allocated once and not moved while it grows.
-std::vector<CapturedFragment> RegionShortcuts::capture(Bookkeeping bookkeeping) {
+std::vector<CapturedFragment> RegionShortcuts::capture(Counting counting) {
     std::optional<UncountedWork> look;
-    if (bookkeeping == Bookkeeping::silent) look.emplace(region_.shared_.books);
+    if (counting == Counting::silent) look.emplace(region_.shared_.statistics);
     std::uint64_t fragments = 0;
     std::vector<std::uint32_t> coverage(region_.rect().area());
     count_coverage(coverage);
@@ -80,7 +80,7 @@ std::optional<SortedRecord> RegionShortcuts::sorted_record(const FragmentNeeds& 
 
 // LESS with a write over a copy of the opaque depth, in the form of the algorithm's key (execution.md 9).
 Target RegionShortcuts::nearest_depth() {
-    const UncountedWork look{region_.shared_.books};
+    const UncountedWork look{region_.shared_.statistics};
     const Target nearest = region_.make_depth();
     region_.copy(region_.opaque_depth(), nearest);
     PassState state;
@@ -113,9 +113,9 @@ std::uint64_t RegionShortcuts::target_words() const {
 }
 
 // Geometry passes also count for limit_reached, as the passes that are replaced would have.
-void RegionShortcuts::book(const PassCount& passes) {
+void RegionShortcuts::count_passes(const PassCount& passes) {
     region_.shared_.count_pass(passes);
-    region_.shared_.books.geometry_passes += passes.geometry;
+    region_.shared_.statistics.geometry_passes += passes.geometry;
     if (passes.full_screen > 0) region_.shared_.show(StepEvent{.step = Step::full_screen});
 }
 

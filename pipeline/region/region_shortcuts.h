@@ -1,7 +1,7 @@
 // pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the machine's, in the
-// machine's own books. The closed form of dual (peeling/loops), the kernels of rows and whole pixels, and the emulator's own looks.
+// machine's own statistics. The resolve of dual (peeling/loops), the kernels of rows and whole pixels, and the emulator's own looks.
 //
-// Rule     Nothing here is a pass, and nothing is counted unless `book` says so: the caller books what the passes that it
+// Rule     Nothing here is a pass, and nothing is counted unless `count_passes` says so: the caller statistics what the passes that it
 //          replaces would have counted. An algorithm that is written as its paper says needs none of it.
 // Tests    tests/peeling/execution_test.cpp: every fast way against literal execution
 #pragma once
@@ -15,13 +15,13 @@
 
 namespace strata::pipeline {
 
-class SortedColumns;
+class SortedLists;
 class TileFragments;
 
 // A tile's fragments, and by pixel in the order of the frame's key.
 struct SortedRecord {
     const TileFragments& fragments;
-    const SortedColumns& sorted;
+    const SortedLists& sorted;
 };
 
 class RegionShortcuts {
@@ -38,21 +38,21 @@ class RegionShortcuts {
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.
-    [[nodiscard]] std::vector<CapturedFragment> capture(Bookkeeping bookkeeping);
+    [[nodiscard]] std::vector<CapturedFragment> capture(Counting counting);
     // Runs `work`, whose passes, clears and copies are the emulator's own: nothing counts them.
     template <class Work>
     void uncounted(Work&& work) {
-        const UncountedWork own{region_.shared_.books};
+        const UncountedWork own{region_.shared_.statistics};
         work();
     }
 
     // Words a pixel that the region's targets have by now, samples and all.
     [[nodiscard]] std::uint64_t target_words() const;
-    void book(const PassCount& passes);  // that something stood in for
+    void count_passes(const PassCount& passes);  // that something stood in for
     // Whether a whole loop was computed from the record: null, or why not, in a sentence.
     void note_resolved(const char* why_not) noexcept {
-        region_.shared_.books.taken.is_resolved = why_not == nullptr;
-        region_.shared_.books.taken.why_unresolved = why_not;
+        region_.shared_.statistics.taken.is_resolved = why_not == nullptr;
+        region_.shared_.statistics.taken.why_unresolved = why_not;
     }
     void count(const Counters& counters) noexcept { region_.shared_.count(counters); }
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
@@ -67,7 +67,7 @@ class RegionShortcuts {
 
     // Depth of the nearest visible key: the frame's Z. Never counted.
     [[nodiscard]] Target nearest_depth();
-    void write_image(Target target, Image& frame) const;  // into this region's place in an image of the frame
+    void write_image(Target target, Image& frame) const;  // into this region's index in an image of the frame
 
   private:
     void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
@@ -78,7 +78,7 @@ class RegionShortcuts {
 
 template <class P>
 bool RegionShortcuts::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
-    const UncountedWork look{region_.shared_.books};
+    const UncountedWork look{region_.shared_.statistics};
     bool goes_on = true;
     auto sink = [&](FragmentBatch& batch) {
         if (!goes_on) return;

@@ -52,7 +52,7 @@ void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
         given(batch);
     };
     // A silent look orders nothing.
-    const bool checks = shared_.wraps_depths() && needs.code && (shared_.books.counts || from_ == From::recording);
+    const bool checks = shared_.wraps_depths() && needs.code && (shared_.statistics.counts || from_ == From::recording);
     const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, shared_.frame.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
@@ -94,7 +94,7 @@ bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     const MaterialNeeds& materials = needs_of_tile(list);
     if (rows_have(kept) && may_walk_rows(list) && materials == MaterialNeeds{} &&
         shared_.profile().raster.color == rasterizer::ColorInterpolation::exact_plane) {
-        shared_.books.fragments_drawn +=
+        shared_.statistics.fragments_drawn +=
             record_rows(fragments, list.geometry, triangles_of(list), shared_.frame.key_request(), shared_.rect());
         fragments.finish();
         return fragments.serves(needs);
@@ -115,7 +115,7 @@ bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     return fragments.serves(needs);
 }
 
-// Sends all recorded fragments down the stages, in the order of arrival.
+// Sends all recorded fragments down the stages, in submission order.
 void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
     const From before = std::exchange(from_, From::record);
     FragmentBatch& batch = shared_.scratch.recorded;
@@ -153,7 +153,7 @@ DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& l
 
 // Of passes over the list that may be recorded.
 void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
-    PathTaken& taken = shared_.books.taken;
+    PathTaken& taken = shared_.statistics.taken;
     taken.rasterizes = true;
     if (taken.why_rasterized != nullptr) return;
     taken.why_rasterized = shared_.frame.effects == Effects::all ? "--effects all simulates every effect in every pass"
@@ -172,17 +172,17 @@ void Source::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     const FragmentNeeds needs =
         with_value(pass_needs(state, materials, shared_.frame.effects, depth), shared_.instruments.once_more);
     if (shared_.instruments.log_passes)
-        shared_.books.pass_log.passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
-                                                 needs.color && materials.texcoord, &list == shared_.frame.opaque,
-                                                 shared_.books.iterations});
+        shared_.statistics.pass_log.passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
+                                                      needs.color && materials.texcoord, &list == shared_.frame.opaque,
+                                                      shared_.statistics.iterations});
     FragmentNeeds looked_at = needs;
     looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with their texture and shadow
     looked_at.units = state.needs.units;
     if (may_record(list) && state.primitives.empty() && record(list, looked_at)) {
-        shared_.books.taken.reads_record = true;
+        shared_.statistics.taken.reads_record = true;
         visit_all(looked_at, sink);
     } else {
-        if (shared_.books.counts && &list == shared_.frame.repeated()) note_rasterized(state, looked_at);
+        if (shared_.statistics.counts && &list == shared_.frame.repeated()) note_rasterized(state, looked_at);
         rasterize(list, needs, state.primitives, sink);
     }
 }

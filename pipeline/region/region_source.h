@@ -23,7 +23,7 @@ namespace strata::pipeline {
 class Stages;
 class Targets;
 struct RegionShared;
-struct Windows;
+struct KeyIntervals;
 
 class Source {
   public:
@@ -37,13 +37,13 @@ class Source {
     [[nodiscard]] bool reads_record() const noexcept { return from_ == From::record; }
 
     // The fragments that a selection keeps, if they can be found: batch after batch, null after the last.
-    [[nodiscard]] bool find_visits(const PassState& state, const PreparedDraw& list);
+    [[nodiscard]] bool find_fragments(const PassState& state, const PreparedDraw& list);
     [[nodiscard]] FragmentBatch* next_visit(const PassState& state);
     [[nodiscard]] std::size_t wave() const noexcept { return wave_; }  // of that batch
     [[nodiscard]] std::uint64_t recorded() const noexcept;             // fragments
-    // Around visits of arrivals: before the first, and behind the last.
-    void route_arrivals(const PassState& state);
-    void finish_arrivals(const PassState& state);
+    // Around waves by submission: before the first, and behind the last.
+    void route_submitted(const PassState& state);
+    void finish_submitted(const PassState& state);
 
     // Passes that rows can draw. Whether they can, and what they did.
     [[nodiscard]] bool depth_suits_rows(const PassState& state);
@@ -72,10 +72,10 @@ class Source {
     [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
     [[nodiscard]] bool sort_for(const PassState& state);
     [[nodiscard]] bool find_kept(const PassState& state);
-    [[nodiscard]] Windows windows_of(const FragmentSelection& selection) const;
+    [[nodiscard]] KeyIntervals intervals_of(const FragmentSelection& selection) const;
     void find_positions(FragmentBatch& batch) const;
     [[nodiscard]] bool waits_in_order(const PassState& state) const;
-    void find_arrivals(const PassState& state);
+    void find_submitted(const PassState& state);
     [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
     [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list);
 

@@ -59,10 +59,10 @@ void Stages::show(Stage stage, const PassState& state, const FragmentBatch& batc
                   const Lanes<std::uint32_t>& alive, int sample) const {
     if (const Observer* o = shared_.instruments.observer; o != nullptr && o->stage)
         o->stage(shared_.region,
-                 {stage, state, batch, out, alive, sample, kind_ == PassKind::geometry, shared_.books.counts});
+                 {stage, state, batch, out, alive, sample, kind_ == PassKind::geometry, shared_.statistics.counts});
 }
 
-// Checks a pass, and books all of it that does not depend on its fragments. Fragments bring one code each, so a depth
+// Checks a pass, and statistics all of it that does not depend on its fragments. Fragments bring one code each, so a depth
 // target must have the format of the frame's codes. All targets have one number of samples: check_pass has seen to it.
 void Stages::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
@@ -80,7 +80,7 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
         if (t.exists()) samples_ = targets_.at(t).samples();
     if (kind == PassKind::geometry) {
         shared_.count_pass({.geometry = 1});
-        if (shared_.books.counts) ++shared_.books.geometry_passes;
+        if (shared_.statistics.counts) ++shared_.statistics.geometry_passes;
         return;
     }
     shared_.count_pass({.full_screen = 1});
@@ -125,7 +125,7 @@ Outputs& Stages::start_batch(const FragmentBatch& batch) {
 // fragment-stages.md 2: texture, shadow, MASK. MASK cuts at the material's own alpha, so the alpha scale comes behind
 // it; its precision is that of the frame's colour format, whatever the pass's targets are.
 void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
-    shared_.books.fragments_drawn += static_cast<std::uint64_t>(batch.count);
+    shared_.statistics.fragments_drawn += static_cast<std::uint64_t>(batch.count);
     shared_.count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
     const MaterialStage& material = list.materials[batch.material];
     if (material.texture != nullptr && samples_textures_) {
@@ -195,7 +195,7 @@ void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& 
     show(Stage::program, state, batch, out, out.alive);
     if (kind_ != PassKind::geometry) return;
     shared_.count({.discarded = before - alive_count(out, batch.count)});
-    if (shared_.books.counts) shared_.books.fragments_visited += static_cast<std::uint64_t>(batch.count);
+    if (shared_.statistics.counts) shared_.statistics.fragments_processed += static_cast<std::uint64_t>(batch.count);
 }
 
 // The alpha test compares 8-bit codes unless target 0 holds floats and the profile goes by the target
@@ -235,7 +235,7 @@ void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, c
     if (kind_ == PassKind::geometry && sample == 0) shared_.count({.blended = passed});
     write_colors(state, batch, out, sample, alive, passed);
     show(Stage::written, state, batch, out, alive, sample);
-    if (out.traced && shared_.frame.trace && shared_.books.counts && sample == 0) record_trace(batch, out, alive);
+    if (out.traced && shared_.frame.trace && shared_.statistics.counts && sample == 0) record_trace(batch, out, alive);
 }
 
 // A quad composites a layer and no fragment of its own, so it names no primitive: then the audit compares keys alone.

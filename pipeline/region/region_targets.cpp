@@ -11,7 +11,7 @@
 #include "pipeline/device/check.h"
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/half.h"
-#include "pipeline/formats/image_words.h"
+#include "pipeline/formats/image_texels.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "pipeline/frame/pass_counters.h"
@@ -75,7 +75,7 @@ FoundPixels non_finite_pixels(const TargetStorage& storage, ChannelType type) {
 Targets::Targets(const RegionShared& shared) : shared_{shared} {
     opaque_depth_ = make_depth();
     opaque_color_ = make(shared_.frame.behind_format());  // the background of what is blended from behind
-    const UncountedWork priming{shared_.books};
+    const UncountedWork priming{shared_.statistics};
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = shared_.frame.background});
     opaque_depth_is_cleared_ = true;

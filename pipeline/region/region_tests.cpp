@@ -73,7 +73,7 @@ std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& 
                                                     s.stencil_stored.data(), s.saturated.data(), batch.count});
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
     shared_.count({.bytes_read = arriving, .bytes_written = arriving});
-    if (state.selection.keeps != Keeps::arrivals) report_saturation(batch);  // whose counts stop at 0 on purpose
+    if (state.selection.keeps != Keeps::submitted) report_saturation(batch);  // whose counts stop at 0 on purpose
     return static_cast<std::uint64_t>(killed);
 }
 

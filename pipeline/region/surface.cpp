@@ -18,7 +18,7 @@ struct Surface::State {
           layout{l},
           list{empty(l)},
           frame{make_frame(profile, l, list)},
-          region{frame, {frame.rect()}, books},
+          region{frame, {frame.rect()}, statistics},
           color{region.make(l.color)},
           depth{region.make_depth()},
           stencil{region.make(Format::s8)} {}
@@ -45,7 +45,7 @@ struct Surface::State {
     SurfaceLayout layout;
     PreparedDraw list;  // what is drawn
     Frame frame;
-    RegionBooks books;
+    RegionStatistics statistics;
     Region region;
     Target color, depth, stencil;
 };
@@ -160,7 +160,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     pass.blend[0].write_mask = state.color_mask;
     pass.needs.shader_z = false;
     pass.needs.code = false;
-    const std::uint64_t before = s.books.counters.blended;
+    const std::uint64_t before = s.statistics.counters.blended;
     if (state.path != nullptr) {
         FragmentPathProgram program{s.region, *state.path};
         program.apply(pass);
@@ -170,7 +170,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
             for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
         }));
     }
-    return s.books.counters.blended - before;
+    return s.statistics.counters.blended - before;
 }
 
 // A narrow surface stores 8-bit codes with the bits that it lacks filled in, so its image is one of rgba8.

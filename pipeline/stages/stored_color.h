@@ -1,4 +1,4 @@
-// pipeline/stages/stored_color.h - how a colour target keeps and blends a channel, for passes that blend no pixel twice: the scalar twins
+// pipeline/stages/stored_color.h - how a colour target keeps and blends a channel, for passes that blend no pixel twice: the scalar reference
 // of stored_color-inl.h.
 //
 // Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes

@@ -49,7 +49,7 @@ TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels, Tar
     words_.resize(size);
 }
 
-// Const, because the contents are zeros whoever asks first. A region belongs to one thread, so nobody asks at the same
+// Const, because the contents are zeros for any first reader. A region belongs to one thread, so no two reads happen at the same
 // time.
 void TargetStorage::write_zeros() const noexcept {
     std::ranges::fill(words_, 0u);

@@ -78,7 +78,7 @@ class TargetStorage {
     std::size_t pixels_;
     Texels layout_;  // without a place
     mutable TargetWords words_;
-    mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
+    mutable bool has_words_ = false;  // else zeros that were not read yet: most targets are cleared first
 };
 
 // The codes that a colour target of this format stores for a colour, channel by channel; 0 for depth and stencil.

@@ -214,7 +214,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     if (!options.is_checked) check(list);
     check(view);
     SoupVertices vertices;
-    // Vertices that nobody asks for before are written while they are set up, and nobody needs indices of all of them.
+    // Vertices that are not read earlier are written while they are set up, and indices of all of them are not needed.
     const bool alters = options.alteration != nullptr && options.alteration->vertices;
     const bool is_written = alters || options.order;
     rasterizer::TriangleSoup soup =

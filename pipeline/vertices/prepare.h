@@ -112,7 +112,7 @@ struct PrepareOptions {
 [[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                                    const DeviceProfile& profile, const PrepareOptions& options);
 
-// The clip-space soup that `prepare` sets up; for tests and for whoever wants the vertices.
+// The clip-space soup that `prepare` sets up; for tests and for callers that want the vertices.
 [[nodiscard]] rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options);
 
 }  // namespace strata::pipeline

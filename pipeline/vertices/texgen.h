@@ -37,7 +37,7 @@ struct TexGen {
 
 // The way of a texture unit's coordinates s, t, r, q: generation, texture matrix, then the factors below.
 struct CoordinateUnit {
-    // Somebody looks at this unit; of the others nothing is computed.
+    // Some stage reads this unit; nothing is computed for the others.
     bool enabled = false;
     std::array<TexGen, 4> gen{};
     Matrix matrix = identity;

@@ -1,7 +1,7 @@
 // rasterizer/base/enum_values.h - the values of an enum and their names, as the compiler knows them: lists that nobody can forget to
 // lengthen.
 //
-// Rule     An enum of this house numbers its values 0, 1, 2 ... The compiler spells a constant by its name where the enum
+// Rule     An enum of this project numbers its values 0, 1, 2 ... The compiler spells a constant by its name where the enum
 //          has one for that number, else as a cast; the first cast ends the list. A value's name is its identifier.
 // Source   __PRETTY_FUNCTION__ of GCC and Clang names template arguments.
 // Tests    tests/rasterizer/base/enum_values_test.cpp, tests/pipeline/device/enum_lists_test.cpp
@@ -33,7 +33,7 @@ template <auto value>
 }
 
 // How many values an enum has: the first number from 0 on for which the compiler knows no name. A gap in the numbers
-// would end the list there, so no enum of this house has one.
+// would end the list there, so no enum of this project has one.
 template <class Enum, std::size_t number = 0>
 [[nodiscard]] consteval std::size_t count() {
     if constexpr (identifier<static_cast<Enum>(number)>().empty())

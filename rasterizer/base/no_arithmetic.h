@@ -5,7 +5,7 @@
 //          vector with a vector or a number, a matrix with a matrix, a number or a column. Functions: those that the header of the
 //          matrix brings along, for the arguments that GLM takes. Only == and != are left: they compare value by value.
 // Source   ISO C++ [over.match.best]: a function that is not a template beats a specialisation of one. GLSL 4.60 chapter 8 (the names).
-// Tests    tests/rasterizer/base/vector_test.cpp; tests/house/glm.py: no function of GLM's headers is missing here.
+// Tests    tests/rasterizer/base/vector_test.cpp; tests/lint/glm.py: no function of GLM's headers is missing here.
 #pragma once
 #ifndef STRATA_GLM_IS_STORAGE
 #error "include rasterizer/base/vector.h"

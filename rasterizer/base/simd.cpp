@@ -46,7 +46,7 @@ std::vector<Simd> available_simd() {
 #if HWY_ARCH_X86
     static const std::int64_t machine = supported_targets() & HWY_TARGETS;
 #else
-    constexpr std::int64_t machine = 0;  // the names above are x86's: all other machines run the scalar twins
+    constexpr std::int64_t machine = 0;  // the names above are x86's: all other machines run the scalar reference
 #endif
     std::vector<Simd> all{Simd::scalar};
     for (const Simd simd : {Simd::sse4, Simd::avx2, Simd::avx512})

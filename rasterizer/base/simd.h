@@ -1,9 +1,9 @@
 // rasterizer/base/simd.h - which instruction set the kernels use. A matter of speed alone: every choice gives the same bits.
 //
 // Rule     A kernel lives in a *_simd.cpp that Highway compiles once an instruction set; its meaning is a plain loop in a
-//          header, its scalar twin. `scalar` runs the twins. Only operations that are exact or correctly rounded on every
+//          header, its scalar reference. `scalar` runs the scalar reference. Only operations that are exact or correctly rounded on every
 //          set: no fused multiply-add, no approximate reciprocal, no horizontal float sum; NaN and -0 go by the rules of
-//          the twins, not by a machine's MIN and MAX.
+//          the scalar reference, not by a machine's MIN and MAX.
 //          The choice belongs to a call, not to the process: a public entry opens a SimdScope, as it opens a
 //          FloatEnvironment, and parallel_for hands it to its workers. What Highway chooses for the host program is not
 //          changed, and no change of it is looked at.
@@ -15,7 +15,7 @@
 
 namespace strata {
 
-// By rising width. `scalar` means the twins, `best` the last one that the processor has.
+// By rising width. `scalar` means the scalar reference, `best` the last one that the processor has.
 enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
 
 // Those of the first four that this processor can run, by rising width; `scalar` is always there.
@@ -37,7 +37,7 @@ class SimdScope {
 // The set that this thread uses; never `best`, but the one that it stands for.
 [[nodiscard]] Simd chosen_simd() noexcept;
 
-// For kernels: take the scalar twin.
+// For kernels: take the scalar reference.
 [[nodiscard]] inline bool simd_is_scalar() noexcept { return chosen_simd() == Simd::scalar; }
 
 }  // namespace strata

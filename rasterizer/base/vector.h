@@ -6,7 +6,7 @@
 //          types below; programs that use Strata keep them.
 // Numbers  A matrix is stored by columns, as OpenGL writes it: m[column][row]. Without a value a vector is zero and a matrix the
 //          identity (GLM_FORCE_CTOR_INIT); a matrix of zeros is Matrix(0.0). One value in braces fills every component.
-// Tests    tests/rasterizer/base/vector_test.cpp, tests/house/glm.py
+// Tests    tests/rasterizer/base/vector_test.cpp, tests/lint/glm.py
 #pragma once
 #include <array>
 #include <cstddef>

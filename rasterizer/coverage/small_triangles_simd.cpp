@@ -110,8 +110,8 @@ STRATA_EXPORT(small_table);
 inline namespace strict {
 
 const SmallKernels& small_kernels() noexcept {
-    static constexpr SmallKernels twins{scalar::set_up_group, scalar::set_up_boxes, scalar::emit_small};
-    return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(small_table))();
+    static constexpr SmallKernels scalar_reference{scalar::set_up_group, scalar::set_up_boxes, scalar::emit_small};
+    return simd_is_scalar() ? scalar_reference : *kernel_of(HWY_DISPATCH_TABLE(small_table))();
 }
 
 }  // namespace strict

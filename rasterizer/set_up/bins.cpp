@@ -33,7 +33,7 @@ namespace {
     return intersection({x, y, x + geometry.tile_size, y + geometry.tile_size}, viewport);
 }
 
-// Visits the tiles of one size that a triangle may touch, in their order.
+// FragmentWaves the tiles of one size that a triangle may touch, in their order.
 class TileWalk {
   public:
     explicit TileWalk(const Geometry& geometry)

@@ -46,7 +46,7 @@ struct TriangleRun {
     std::uint32_t object = 0;  // whose triangles these are: the caller's number
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
-    // Where its indices stand if not in the soup: lent by somebody who has checked them, and counted from `first_vertex`.
+    // Where its indices stand if not in the soup: lent by a caller that has checked them, and counted from `first_vertex`.
     const std::uint32_t* lent = nullptr;
     std::uint32_t first_vertex = 0;
 };

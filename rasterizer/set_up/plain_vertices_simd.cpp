@@ -93,7 +93,7 @@ HWY_INLINE void store_corners(hn::Vec<I> x, hn::Vec<I> y, const VF (&value)[4], 
 }
 
 // The corners of `lanes` vertices, and which of them are plain.
-// The others may hold anything: set_up_vertex writes them anew.
+// The others may hold anything: set_up_vertex writes them again.
 HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, WindowCorner* corners) {
     const F d;
     alignas(64) float positions[4 * lanes];

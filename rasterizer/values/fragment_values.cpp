@@ -329,7 +329,7 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     return fallbacks;
 }
 
-// Arrays that nobody asked for hold what they held before.
+// Arrays that were not requested keep what they held before.
 void FragmentValues::turn_into_keys(int first, FragmentBatch& batch) const noexcept {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
         if (needs_.shader_z) batch.shader_z[i] = depth_key(batch.shader_z[i]);

@@ -1,9 +1,9 @@
-// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table, one for each set, and their scalar twins.
+// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table, one for each set, and their scalar reference.
 //
-// Rule     The twins below are the definition; every set gives the same bits (simd.h). `depth` has no twin of its own:
+// Rule     The scalar reference below is the definition; every set gives the same bits (simd.h). `depth` has no scalar reference of its own:
 //          its meaning is FragmentValues::fill, and where it is null, or cannot decide, that runs.
 // Numbers  Loops run over whole blocks of lanes and may write up to 15 lanes beyond the count: usable_capacity.
-// Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp runs every available set against the twins.
+// Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp runs every available set against the scalar reference.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -43,7 +43,7 @@ struct AppendRow {
     }
 };
 
-// The walk is the twins'; it and what it calls are compiled here for this set.
+// The walk is the scalar reference's; it and what it calls are compiled here for this set.
 [[gnu::flatten]] bool emit(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
     const auto span_of = [&](int row) HWY_ATTR { return spans[row]; };
     return scalar::emit_rows(run, claims, batch, span_of, AppendRow{});
@@ -164,7 +164,7 @@ struct WidePlane {
     HWY_INLINE WideVec at(hn::Vec<hn::RebindToSigned<Wide>> x, hn::Vec<hn::RebindToSigned<Wide>> y) const {
         const Wide d;
         const hn::RebindToSigned<Wide> di;
-        // The set has a fused multiply-add of its own: rounded once, as the twin's.
+        // The set has a fused multiply-add of its own: rounded once, as the scalar reference's.
         if constexpr (rule == PlaneRule::reciprocal_area_fused)
             return hn::MulAdd(dy, hn::ConvertTo(d, y), hn::MulAdd(dx, hn::ConvertTo(d, x), origin));
         if constexpr (rule == PlaneRule::greatest_w) {
@@ -242,7 +242,7 @@ void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, cons
     float_attributes_of<PlaneRule::reciprocal_area_fused>(a, x, y, count);
 }
 #else
-// Without a fused multiply-add the twin's exact emulation is the way.
+// Without a fused multiply-add the scalar reference's exact emulation is the way.
 void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
                  float* out) noexcept {
     scalar::float_plane(rule, plane, x, y, count, out);
@@ -270,9 +270,9 @@ STRATA_EXPORT(table);
 inline namespace strict {
 
 const LaneKernels& lane_kernels() noexcept {
-    static constexpr LaneKernels twins{scalar::emit, scalar::weights,     scalar::attributes,
-                                       nullptr,      scalar::float_plane, scalar::float_attributes};
-    return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(table))();
+    static constexpr LaneKernels scalar_reference{scalar::emit, scalar::weights,     scalar::attributes,
+                                                  nullptr,      scalar::float_plane, scalar::float_attributes};
+    return simd_is_scalar() ? scalar_reference : *kernel_of(HWY_DISPATCH_TABLE(table))();
 }
 
 }  // namespace strict

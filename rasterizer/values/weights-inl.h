@@ -2,7 +2,7 @@
 // time. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
 //
 // Rule     The operations and their order are those of PixelWeights, FilterPlane and depth_text-inl.h: every set gives the bits
-//          of the twins in lane_kernels.h.
+//          of the scalar reference in lane_kernels.h.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/values/lane_kernels.h"

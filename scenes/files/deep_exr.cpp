@@ -8,7 +8,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "pipeline/formats/word_digest.h"
+#include "pipeline/formats/value_digest.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_formats.h"
@@ -98,7 +98,7 @@ std::array<std::size_t, words_a_fragment> offsets_in(const PartHeader& header, c
 
 std::string digest(const DeepFragments& fragments) {
     const FloatEnvironment environment;
-    pipeline::WordDigest hash{"deep"};
+    pipeline::ValueDigest hash{"deep"};
     hash.add(static_cast<std::uint32_t>(fragments.width));
     hash.add(static_cast<std::uint32_t>(fragments.height));
     for (const std::uint32_t count : fragments.count) hash.add(count);

@@ -162,7 +162,7 @@ class PartReader {
         throw InputError(path_, fmt::format("part {}", number_), expected, found);
     }
 
-    // By name, or, in somebody else's file, by the type of R.
+    // By name, or, in a file of another program, by the type of R.
     [[nodiscard]] Format color_format() const {
         if (const auto format = format_named(attribute(header_, "format.color")); format && pipeline::is_color(*format))
             return *format;

@@ -132,7 +132,7 @@ class JsonReader {
     [[nodiscard]] bool is_null(const std::string& key) { return at(key).is_null(); }
     [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
     [[nodiscard]] std::string pointer_of(const std::string& key) const { return pointer_ + "/" + key; }
-    // InputError for a key that nobody has read.
+    // InputError for a key that was not read.
     void end() const;
 
   private:

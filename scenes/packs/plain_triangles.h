@@ -1,4 +1,4 @@
-// scenes/packs/plain_triangles.h - triangles of somebody who has buffers and no glTF: a .npy or a .json file.
+// scenes/packs/plain_triangles.h - triangles for users who have buffers and no glTF: a .npy or a .json file.
 //
 // Rule     .npy: binary32 of shape (triangles, 3, 3), x y z of every corner, or (triangles, 3, 7), with r g b a behind them; or 4 and 8 of
 //          them, with w behind z: clip space, which is drawn as it is unless a view is named. .json: an object

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Counts the instructions of callgrind_jobs' jobs and compares them with counts.txt: none may differ by more than 5 %.
 #   tests/callgrind/counts.sh build/release/tests/callgrind/callgrind_jobs            exit status 77: nothing could be compared
-#   tests/callgrind/counts.sh build/release/tests/callgrind/callgrind_jobs --update   writes counts.txt anew
+#   tests/callgrind/counts.sh build/release/tests/callgrind/callgrind_jobs --update   writes counts.txt again
 set -euo pipefail
 trap 'echo "counts.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
 kept="$(cd "$(dirname "$0")" && pwd)/counts.txt"

@@ -1,5 +1,5 @@
 // tests/faults/unset.cpp - two ways with a vector whose elements have no value yet, under the memory sanitizer: `unset read` decides
-// by one that nobody wrote, `unset write` writes it first. The sanitizer must tell the first and be silent about the second.
+// by an uninitialised one, `unset write` writes it first. The sanitizer must tell the first and be silent about the second.
 #include <cstdio>
 #include <cstring>
 

@@ -136,7 +136,7 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     if (bytes.one_in(6)) o.alpha = bytes.fraction();
     if (bytes.one_in(2))
         for (float& channel : components(o.background)) channel = bytes.fraction();
-    if (o.background[3] < 0.5f) o.background[3] = 1;  // dual's closed form is for opaque ones
+    if (o.background[3] < 0.5f) o.background[3] = 1;  // dual's resolve is for opaque ones
     o.termination = termination(bytes);
     if (bytes.one_in(6)) o.max_passes = 1 + bytes.below(8);
     o.keep_layers = algorithm != nullptr && algorithm->makes_layers && bytes.one_in(4);

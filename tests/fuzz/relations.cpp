@@ -54,7 +54,7 @@ void part_corners(DrawList& list) {
     }
 }
 
-void add_what_nobody_names(DrawList& list) {
+void add_unreferenced(DrawList& list) {
     if (!list.meshes.empty()) list.meshes.push_back(list.meshes.front());
     if (!list.textures.empty()) list.textures.push_back(list.textures.front());
     for (const pipeline::AlphaMode mode : {pipeline::AlphaMode::mask, pipeline::AlphaMode::blend}) {
@@ -103,7 +103,7 @@ bool counts_no_triangles(const FrameCase& frame) {
 constexpr std::array<Relation, 7> relations{
     {{"meshes in two parts", has_no_objects, to_list<split_meshes>},
      {"corners apart", always, to_list<part_corners>},
-     {"more that nobody names", always, to_list<add_what_nobody_names>},
+     {"more that is not referenced", always, to_list<add_unreferenced>},
      {"points added", counts_no_triangles, to_list<add_points>, Stays::but_counts},
      {"state that changes nothing", always, add_idle_state},
      {"viewport moved by whole tiles", can_move, move_by_tiles, Stays::but_places},

@@ -1,6 +1,6 @@
 // tests/fuzz/relations.h - frames that are said in another way and must stay the same picture.
 //
-// Rule     A mesh in two parts, triangles with corners of their own, materials, meshes and textures that nobody names, a viewport further
+// Rule     A mesh in two parts, triangles with corners of their own, materials, meshes and textures that are not referenced, a viewport further
 //          by whole tiles, and state that changes nothing (a white texel, an offset of 0, a scissor as large as the viewport, all
 //          effects) leave whatever a user sees. Triangles without an area change counters and diagnostics alone. Where no two
 //          fragments of a pixel have one depth, the order of triangles leaves the pictures of algorithms that sort by depth.

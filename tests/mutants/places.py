@@ -1,6 +1,6 @@
 """Where a source can be changed by one step, and the source with all these changes in it, each chosen by its number at run time.
 
-A change is text put before and behind a place: `a < b` becomes `a < Less<17>{} < b`. The house's format tells operators from
+A change is text put before and behind a place: `a < b` becomes `a < Less<17>{} < b`. The source format tells operators from
 brackets and references: a binary operator alone has a space on both sides. Constant expressions keep their value.
 """
 import bisect

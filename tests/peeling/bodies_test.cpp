@@ -56,7 +56,7 @@ TEST_CASE("a program sees the same window position in a pass that visits what it
         for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
             scene.pixels[p].fragments.push_back({depth, {1, 1, 1, 1}});
     strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("front_to_back");
-    algorithm.closed_form = nullptr;
+    algorithm.resolve_loop = nullptr;
     algorithm.body = [](strata::pipeline::Region& region) {
         using namespace strata::pipeline;
         const Target first = region.make_depth(), second = region.make_depth(), result = region.make_color();
@@ -105,7 +105,7 @@ TEST_CASE("nothing passes LESS against a depth below 0, in a pass that visits wh
         for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
             pixel.fragments.push_back({depth, {1, 1, 1, 1}});
     strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("front_to_back");
-    algorithm.closed_form = nullptr;
+    algorithm.resolve_loop = nullptr;
     algorithm.body = [](strata::pipeline::Region& region) {
         using namespace strata::pipeline;
         const Target depth = region.make_depth(), result = region.make_color();

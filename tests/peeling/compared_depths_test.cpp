@@ -11,7 +11,7 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::peeling::RenderOptions;
 
-// `layers` at every pixel, a 2048th of the range apart, in an order of arrival that is no order of depth.
+// `layers` at every pixel, a 2048th of the range apart, in an submission order that is no order of depth.
 FragmentScene shuffled_layers(std::uint32_t layers) {
     FragmentScene scene{16, 16};
     Random random{6};

@@ -15,7 +15,7 @@ using strata::pipeline::KeptLayer;
 using strata::pipeline::Rgba;
 using strata::pipeline::Side;
 
-// 0 to 15 fragments a pixel on eight depths, in any order of arrival, so that some tie.
+// 0 to 15 fragments a pixel on eight depths, in any submission order, so that some tie.
 FragmentScene columns_of_any_height(std::uint64_t seed) {
     FragmentScene scene{16, 8};
     Random random{seed};

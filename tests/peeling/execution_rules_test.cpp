@@ -180,7 +180,7 @@ TEST_CASE(
                     options.color_format = format;
                     options.alpha = random_channel(random);
                     options.background = random_color(random);
-                    options.background[3] = 1;  // closed forms are for an opaque background
+                    options.background[3] = 1;  // resolves are for an opaque background
                     options.execution = Execution::literal;
                     const auto drawn = [&](const RenderOptions& how) {
                         return drawn_on(profile, scene, algorithm, how);
@@ -197,7 +197,7 @@ TEST_CASE(
                 }
 }
 
-// Rows and closed forms know colours by exact planes alone, even where depth is theirs.
+// Rows and resolves know colours by exact planes alone, even where depth is theirs.
 TEST_CASE("colours by the chip's weights execute alike on a device whose depth is an exact plane") {
     strata::pipeline::DeviceProfile profile = *strata::pipeline::find_profile("ideal");
     profile.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;

@@ -113,8 +113,8 @@ using Codes = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>; 
 // The codes that a pass would store if nothing lay before anything.
 template <class Program>
 Codes codes_of(const Frame& frame, PassState state, Program&& program) {
-    RegionBooks books;
-    Region region{frame, {frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{frame, {frame.rect()}, statistics};
     state.needs.code = true;
     Codes codes;
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
@@ -160,8 +160,8 @@ struct Listed {
     std::size_t fragments = 0, other_pixel = 0, other_r = 0;
 };
 Listed listed(const Scene& scene) {
-    RegionBooks books;
-    Region region{scene.frame, {scene.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{scene.frame, {scene.frame.rect()}, statistics};
     PassState state;
     FragmentPathProgram listing{region, stages({})};
     listing.apply(state);

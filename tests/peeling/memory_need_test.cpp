@@ -43,8 +43,8 @@ TEST_CASE("pictures take a word a channel and one for the depth") {
     CHECK(need_of("dual", without).pictures == std::uint64_t{300} * 200 * 4 * 4);
 }
 
-// A closed form keeps the picture and no targets of passes. Whether denormals are flushed matters to denormal depths alone.
-TEST_CASE("a closed form takes fewer words a pixel than the passes that it stands for, on devices that flush, too") {
+// A resolve keeps the picture and no targets of passes. Whether denormals are flushed matters to denormal depths alone.
+TEST_CASE("a resolve takes fewer words a pixel than the passes that it stands for, on devices that flush, too") {
     for (const char* algorithm : {"dual"}) {
         RenderOptions options = options_of(1024, 512);
         options.tile_size = 32;

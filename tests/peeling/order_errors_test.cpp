@@ -47,7 +47,7 @@ TEST_CASE("order errors are given the cause that the algorithm's order and its d
     }
 }
 
-TEST_CASE("options stand as the book has them until somebody sets them") {
+TEST_CASE("options have the specification's values until they are set") {
     const RenderOptions options;
     CHECK(options.fragment_memory == 268435456u);
     CHECK(options.average_count == strata::pipeline::Format::r16f);

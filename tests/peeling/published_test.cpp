@@ -67,7 +67,7 @@ DrawList two_sets(const FragmentScene& unordered, const FragmentScene& ordered) 
     return list;
 }
 
-// The two sets of every pixel as hybrid composites them: equal depths ordered set first, then in order of arrival.
+// The two sets of every pixel as hybrid composites them: equal depths ordered set first, then in submission order.
 std::vector<Rgba> hybrid_order(const GivenPixel& unordered, const GivenPixel& ordered) {
     GivenPixel both = unordered;
     both.fragments = ordered.fragments;

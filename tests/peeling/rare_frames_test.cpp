@@ -32,7 +32,7 @@ RenderResult on(const DeviceProfile& profile, const DrawList& list, const char* 
     return renderer.render(*find_algorithm(algorithm));
 }
 
-// The same frame literally and in tiles: pictures, books and audits.
+// The same frame literally and in tiles: pictures, statistics and audits.
 void check_both_ways(const DeviceProfile& profile, const DrawList& list, const char* algorithm, RenderOptions options,
                      const View& view = {}) {
     options.execution = Execution::literal;
@@ -103,7 +103,7 @@ TEST_CASE("tiles leave what the frame does where colours are signed zeros or dep
                 }
 }
 
-TEST_CASE("a closed form cuts blended colours where its profile does") {
+TEST_CASE("a resolve cuts blended colours where its profile does") {
     DeviceProfile cuts = *find_profile("geforce8");
     cuts.blend_rounding = BlendRounding::truncate;
     const TriangleScene scene = random_triangles(23, 20);
@@ -179,13 +179,13 @@ TEST_CASE("batches know no bounds of a w buffer's depths, and peel it as they pe
 }
 
 TEST_CASE("fragments that are equal in everything may stand for each other in the audit") {
-    FragmentScene twins{4, 4};
-    for (GivenPixel& pixel : twins.pixels)
+    FragmentScene equal_tiles{4, 4};
+    for (GivenPixel& pixel : equal_tiles.pixels)
         for (const float depth : {0.5f, 0.25f, 0.5f, 0.25f, 0.5f})
             pixel.fragments.push_back({depth, {depth, depth, 0.5f, 0.5f}});
     for (const Algorithm& algorithm : algorithms()) {
         const RenderResult result =
-            on(*find_profile("ideal"), draw_list(twins), algorithm.name.c_str(), options_for(twins));
+            on(*find_profile("ideal"), draw_list(equal_tiles), algorithm.name.c_str(), options_for(equal_tiles));
         INFO(algorithm.name);
         if (algorithm.exact) CHECK(result.audit.order_errors == 0u);
     }

@@ -54,12 +54,12 @@ TEST_CASE(
 }
 
 TEST_CASE("a new algorithm has the last section of the page and the first line of the changes") {
-    const std::string book = text_of("peeling/reference/algorithms.md");
+    const std::string sections = text_of("peeling/reference/algorithms.md");
     const int listed = listing::drawn_by_recipe::entries()[0].listed;
     const std::string heading = "\n## " + std::to_string(listed / 10) + " `drawn_by_recipe`\n";
-    REQUIRE(times(book, heading) == 1);
-    CHECK(times(book, "\n## " + std::to_string(listed / 10) + " ") == 1);
-    CHECK(book.find("\n## ", book.find(heading) + 1) == std::string::npos);
+    REQUIRE(times(sections, heading) == 1);
+    CHECK(times(sections, "\n## " + std::to_string(listed / 10) + " ") == 1);
+    CHECK(sections.find("\n## ", sections.find(heading) + 1) == std::string::npos);
     for (const Algorithm& other : algorithms()) CHECK(other.listed < listed);
     const std::string changes = text_of("CHANGELOG.md");
     const std::size_t version = changes.find("\n## ");

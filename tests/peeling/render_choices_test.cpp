@@ -200,10 +200,10 @@ TEST_CASE("memory is foretold of an algorithm that carries values as of the func
     const Algorithm& listed = *find_algorithm("front_to_back");
     Algorithm carrying = listed;
     carrying.run = nullptr;
-    carrying.closed_form = nullptr;
+    carrying.resolve_loop = nullptr;
     carrying.body = [&](Region& region) { listed.run(region); };
     Algorithm running = listed;
-    running.closed_form = nullptr;
+    running.resolve_loop = nullptr;
     RenderOptions options = four_by_four();
     options.keep_layers = true;
     for (const bool keeps : {false, true}) {
@@ -252,7 +252,7 @@ TEST_CASE("an ordered set is named by its mesh or by its material, and spares hy
         return result.frame.passes.geometry;
     };
     const int without = passes({});
-    CHECK(passes({"somebody else"}) == without);
+    CHECK(passes({"another user"}) == without);
     CHECK(passes({"panes"}) < without);
     CHECK(passes({"transparent"}) == passes({"panes"}));
 }

@@ -27,7 +27,7 @@ RenderOptions frame_of_many_tiles() {
 
 enum class Arrival : std::uint8_t { shuffled, near_to_far, far_to_near, nearly_sorted };
 
-// `layers` at every pixel, by default in an order of arrival that is no order of depth.
+// `layers` at every pixel, by default in an submission order that is no order of depth.
 FragmentScene deep_scene(std::uint32_t layers, Arrival arrival = Arrival::shuffled, int side = 16) {
     FragmentScene scene{side, side};
     Random random{5};
@@ -71,7 +71,7 @@ TEST_CASE("every selection keeps the promise that it makes of its program, on ev
                     options.max_passes = max_passes;
                     INFO(algorithm.name << " on " << profile << ", at most " << max_passes << " passes");
                     strata::peeling::Algorithm by_passes = algorithm;
-                    by_passes.closed_form = nullptr;
+                    by_passes.resolve_loop = nullptr;
                     strata::peeling::Renderer renderer{scene.list, scene.view, *find_profile(profile), options};
                     CHECK_NOTHROW(renderer.render(by_passes, {}, {.check_selections = true}));
                 }
@@ -210,7 +210,7 @@ TEST_CASE("coherent peeling in the order that it is made for visits each fragmen
         }
 }
 
-TEST_CASE("runs in deep columns are what visiting everything finds, in every order of arrival", "[slow]") {
+TEST_CASE("runs in deep columns are what visiting everything finds, in every submission order", "[slow]") {
     for (const auto& [profile, algorithm] :
          {std::pair{"geforce8", "coherent_stencil"}, std::pair{"geforce8", "coherent_blend"},
           std::pair{"ideal", "coherent_ideal"}})

@@ -180,7 +180,7 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 17, the oracle: all fragments, the first arrival of a depth in front, in binary64.
+// algorithms.md 17, the oracle: all fragments, the first submitted of a depth in front, in binary64.
 [[nodiscard]] inline std::array<double, 3> exact_composite(const DepthGroups& groups, const Rgba& background) {
     std::array<double, 3> result{background[0], background[1], background[2]};
     for (auto depth = groups.rbegin(); depth != groups.rend(); ++depth)

@@ -21,7 +21,7 @@ namespace strata::testing {
     return result;
 }
 
-// FIRST: by depth, the first arrival in front.
+// FIRST: by depth, the first submitted in front.
 [[nodiscard]] inline std::vector<Rgba> in_first_order(const std::vector<GivenFragment>& fragments) {
     std::vector<Rgba> colors;
     for (const auto& [depth, sources] : groups_of(fragments))

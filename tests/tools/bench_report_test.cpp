@@ -133,7 +133,7 @@ TEST_CASE("a job without a fragment has no time and no bytes a fragment") {
     CHECK((row.at(row.size() - 2) == "-" && row.back() == "-"));
 }
 
-TEST_CASE("a job that nobody has counted has neither fragments nor what is divided by them") {
+TEST_CASE("a job that was not counted has neither fragments nor what is divided by them") {
     BenchResult uncounted = result_of("dual", Execution::replay);
     uncounted.last.counters.reset();
     const auto job = to_json(std::vector{uncounted}, {}).at("jobs").at(0);

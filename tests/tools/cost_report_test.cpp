@@ -141,7 +141,7 @@ TEST_CASE("a cell has five rounds, up to 25 while they last under 2 s, and exact
     for (const int asked : {1, 3, 40}) CHECK(rounds_of(60, asked) == asked);
 }
 
-TEST_CASE("the oracle, and what the processor sorts, have no time on a card, and make nobody else's ratio") {
+TEST_CASE("the oracle, and what the processor sorts, have no time on a card, and are in no other ratio") {
     for (const char* name : {"a_buffer", "painter"}) {
         Lines lines{made_line(0, "default", 0.5), made_line(1, "algorithm", 0.25)};
         lines[1]["algorithm"] = name;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads packs as somebody else's program would, by PACK.md and its schema alone.
+"""Reads packs as another program would, by PACK.md and its schema alone.
 
 usage: pack_schema.py STRATA SCHEMA
 

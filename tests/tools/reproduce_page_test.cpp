@@ -156,7 +156,7 @@ TEST_CASE("each curve of a chart has its colour, its row in the legend and a pat
     const char* const colors[] = {"#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"};
     for (std::size_t i = 0; i < 6; ++i)
         CHECK(count_of(svg, std::string("stroke=\"") + colors[i] + "\"") ==
-              (i == 0 ? 4u : 2u));  // the seventh begins anew
+              (i == 0 ? 4u : 2u));  // the seventh begins again
     for (int i = 0; i < 7; ++i) {
         const std::string row = std::to_string(34 + 18 * i) + ".0";
         CHECK(count_of(svg, "<text x=\"328.0\" y=\"" + row + "\" text-anchor=\"start\">curve " + std::to_string(i)) ==

@@ -50,7 +50,7 @@ TEST_CASE("a second run on a folder says who writes to it, and changes nothing")
     CHECK_FALSE(std::filesystem::exists(folder / "out/.results.jsonl.lock"));
 }
 
-TEST_CASE("a lock goes with its process, and its file is then nobody's") {
+TEST_CASE("a lock ends with its process, and its file is then free") {
     const Folder folder;
     const std::string journal = folder / "results.jsonl";
     const pid_t child = ::fork();

@@ -22,7 +22,7 @@ FORMATS = {"geforce3": ["rgba8"], "geforce8": ["rgba8", "rgba16f", "rgba32f"], "
 PEELS = ["front_to_back", "dual", "dual_independent", "depth_units", "shadow_map_depth_replace", "layer_peel", "coherent_stencil",
          "coherent_blend", "coherent_ideal", "stencil_routed_k_buffer", "hybrid", "batched"]
 MOST_ON_SLICES, MOST_ON_MODELS = 2.5, {"batched": 3.0, "stencil_routed_k_buffer": 3.0}
-# Visits a fragment, iterations times what one keeps: coherent_stencil and coherent_blend keep eight at most for the two layers of an
+# FragmentWaves a fragment, iterations times what one keeps: coherent_stencil and coherent_blend keep eight at most for the two layers of an
 # iteration (as long as the stencil counts all, up to 255 layers in one place), coherent_ideal five for its layer.
 MOST_VISITS = {"coherent_stencil": 4, "coherent_blend": 4, "coherent_ideal": 5}
 LIMIT = 20  # of the rows with --max-passes

@@ -189,7 +189,7 @@ one, {worst:.3f} at most. The others were more than twice as fast on two threads
 use, so these say that the share is below the noise, and no more. Two bounds stand beside it. Tiles: {options.size} has
 {tiles} tiles of 64; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
 fragments crowd into a few tiles scales with these. Memory: what a thread keeps of fragments is --fragment-memory divided by the
-threads; a tile that does not fit is cut into parts that do, or a closed form walks it band by band.
+threads; a tile that does not fit is cut into parts that do, or a resolve walks it band by band.
 """)
 
 

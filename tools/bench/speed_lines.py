@@ -12,17 +12,17 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MOST = 6500
 GROUPS = {
-    "dual to its end at once": ["peeling/loops/block_passes*", "peeling/loops/columns.h", "peeling/loops/dual_closed.*"],
+    "dual to its end at once": ["peeling/loops/block_passes*", "peeling/loops/list_block.h", "peeling/loops/dual_resolve.*"],
     "the record of a tile's fragments": [
         "pipeline/fragments/tile_fragments.*", "pipeline/fragments/record_rows*", "pipeline/region/region_source.cpp", "pipeline/fragments/tile_parts.*"],
     "passes visit what they keep": [
-        "pipeline/fragments/sort*", "pipeline/fragments/find_visits.*", "pipeline/fragments/visits.h",
-        "pipeline/frame/selection.h", "pipeline/region/region_visits.cpp"],
+        "pipeline/fragments/sort*", "pipeline/fragments/find_fragments.*", "pipeline/fragments/fragment_waves.h",
+        "pipeline/frame/selection.h", "pipeline/region/region_selected.cpp"],
     "rows: passes without batches": [
         "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*",
         "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],
     "targets without gathers": [
-        "pipeline/formats/image_words*", "pipeline/stages/lane_words.h", "pipeline/stages/stored_color*"],
+        "pipeline/formats/image_texels*", "pipeline/stages/lane_words.h", "pipeline/stages/stored_color*"],
     "triangles and pixels side by side": [
         "rasterizer/set_up/plain_*", "rasterizer/coverage/small_*", "rasterizer/values/chip_lanes*", "rasterizer/values/lane_kernels*",
         "rasterizer/set_up/depth_bound*"],

@@ -1,4 +1,4 @@
-# strata::numerics - the floating-point rules of every result bit (rasterizer/base/numerics.h), for our targets and for whoever includes our arithmetic.
+# strata::numerics - the floating-point rules of every result bit (rasterizer/base/numerics.h), for our targets and for those that include our arithmetic.
 add_library(strata_numerics INTERFACE)
 add_library(strata::numerics ALIAS strata_numerics)
 target_compile_features(strata_numerics INTERFACE cxx_std_20)

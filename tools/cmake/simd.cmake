@@ -1,5 +1,5 @@
 # PkgConfig::HIGHWAY - the instruction sets that the kernels are compiled for: those that `--simd` names. A machine with none of them
-# runs the scalar twins, so Highway's own fallbacks would be compiled for nobody. Instrumented builds, where a kernel takes a minute
+# runs the scalar reference, so Highway's own fallbacks would never run. Instrumented builds, where a kernel takes a minute
 # to compile, have one set.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes tools/docs/gallery.md and its pictures: every built-in scene by every algorithm, with its error.
 
-    tools/docs/gallery.py build/release                 writes them anew
+    tools/docs/gallery.py build/release                 writes them again
     tools/docs/gallery.py build/release --check [SCENE] compares them, or one scene's, with what the program draws; exit status 1 if they differ
 
 A picture of the gallery is a strip: for each scene what an algorithm draws, above four times its difference from the exact A-buffer. Needs no

@@ -54,7 +54,7 @@ def decibels(row):
 
 
 def ratio(row):
-    """Of the depth range; nan where the view is the scene's own, whose planes nobody named."""
+    """Of the depth range; nan where the view is the scene's own, whose planes were not given."""
     return row["far"] / row["near"] if row["near"] else math.nan
 
 

@@ -75,7 +75,7 @@ std::uint32_t nearest(Code code, double v) noexcept {
 
 bool is_equal(Stored reference, Stored candidate) noexcept {
     if (reference.code == candidate.code) return reference.word == candidate.word;
-    // Bare integers, as NumPy has them, are somebody's codes.
+    // Bare integers, as NumPy has them, are codes.
     if (reference.code == Code::integer || candidate.code == Code::integer) return reference.word == candidate.word;
     const double r = value(reference.code, reference.word), c = value(candidate.code, candidate.word);
     if (tells_apart(candidate.code, reference.code)) return nearest(candidate.code, r) == candidate.word;

@@ -50,7 +50,7 @@ Mask where(const Target& target, auto&& holds) {
     return mask;
 }
 
-// The codes that a known background has in a target; channels that nobody knows are those of 0, and alpha 1.
+// The codes that a known background has in a target; unknown channels are those of 0, and alpha 1.
 Color codes_of(const Background& known, const Target& target) {
     Color codes;
     for (std::size_t c = 0; c < static_cast<std::size_t>(target.channels); ++c)

@@ -24,7 +24,7 @@ struct Masks {
     Mask reference, candidate;
 };
 
-// The channels of the reference's background as values; empty: nobody knows.
+// The channels of the reference's background as values; empty: not known.
 using Background = std::vector<double>;
 
 // Nothing if the pictures do not tell what is background.

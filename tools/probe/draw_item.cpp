@@ -81,7 +81,7 @@ Answer drawn(const DeviceProfile& profile, const Item& item, YDirection y) {
     frame.transparent = &list;
     frame.depth = {profile.raster.depth_path, format_of(profile, item)};
     frame.color_format = item.color;
-    pipeline::RegionBooks books;
+    pipeline::RegionStatistics books;
     pipeline::Region region{frame, {frame.rect()}, books};
     const pipeline::Target color = region.make_color();
     region.clear(color, {});

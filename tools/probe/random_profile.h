@@ -1,4 +1,4 @@
-// tools/probe/random_profile.h - devices that nobody built: every rule that decides a pixel of the kit at random.
+// tools/probe/random_profile.h - random devices: every rule that decides a pixel of the kit at random.
 //
 // Rule     Features and limits are those of a built-in device, for a driver says them. A guard band has any power of two as
 //          often as any other; every other field any of its values, until all go together (fields.h).

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "pipeline/formats/word_digest.h"
+#include "pipeline/formats/value_digest.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
 #include "tools/oracle/picture.h"
@@ -23,7 +23,7 @@ using Digests = std::vector<scenes::FileDigest>;
 
 // Of codes that no target of ours has, or of one channel: the hash over a name, the size and the codes (images.md 5).
 std::string digest_of(const oracle::Target& target, int first, int count, const std::string& name) {
-    pipeline::WordDigest digest{name};
+    pipeline::ValueDigest digest{name};
     digest.add(static_cast<std::uint32_t>(target.width));
     digest.add(static_cast<std::uint32_t>(target.height));
     for (std::size_t pixel = 0; pixel < target.pixels(); ++pixel)

@@ -12,7 +12,7 @@ namespace strata::tools {
 enum class Remaining : std::uint8_t { hidden, shown };
 
 // A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard error is a terminal, a second
-// has passed and nobody asked for quiet, and wipes its line when it ends. Under -v the end tells how long the work took.
+// has passed and --quiet was not given, and wipes its line when it ends. Under -v the end tells how long the work took.
 class Progress {
   public:
     explicit Progress(std::string label, Remaining remaining = Remaining::hidden);

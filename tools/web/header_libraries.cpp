@@ -17,7 +17,7 @@
 
 namespace tinygltf {
 
-// Its writer's, which nobody calls.
+// Its writer's, which is never called.
 bool WriteImageData(const std::string*, const std::string*, const Image*, bool, std::string*, void*) { return false; }
 
 }  // namespace tinygltf

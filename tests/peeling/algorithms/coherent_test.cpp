@@ -15,7 +15,7 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
 
-// Depths of one pixel in units of 1/128, in order of arrival, before a surface at `opaque`.
+// Depths of one pixel in units of 1/128, in submission order, before a surface at `opaque`.
 FragmentScene one_pixel(const std::vector<int>& depths, int opaque = 0) {
     FragmentScene scene{4, 4};
     Random random{7};
@@ -28,12 +28,12 @@ FragmentScene one_pixel(const std::vector<int>& depths, int opaque = 0) {
 // The passes of an iteration, one at a time, over the frame; depths are in units of 1/128.
 struct Passes {
     TestFrame test;
-    strata::pipeline::RegionBooks books;
+    strata::pipeline::RegionStatistics statistics;
     Region region;
     CoherentPeel peel;
 
     explicit Passes(const FragmentScene& scene)
-        : test{scene, "geforce8"}, region{test.frame, {test.frame.rect()}, books}, peel{region} {
+        : test{scene, "geforce8"}, region{test.frame, {test.frame.rect()}, statistics}, peel{region} {
         test.frame.trace = true;
     }
     [[nodiscard]] double depth(Target target) const {
@@ -200,7 +200,7 @@ TEST_CASE("E20: fragments that arrive in short runs never count to 128, however 
     }
 }
 
-TEST_CASE("E21: equal depths at the bound of a peel are composited in order of arrival, and said") {
+TEST_CASE("E21: equal depths at the bound of a peel are composited in submission order, and said") {
     for (const Machine& machine : {stencil, blend, ideal, Machine{"geforce8", "layer_peel"}}) {
         const RenderResult tied = render(one_pixel({3, 2, 2, 1}), machine);
         INFO(machine.algorithm);

@@ -32,7 +32,7 @@ struct Audited {
 // A peel that forgets every third layer it composites, so that there is something to find.
 Algorithm forgetful() {
     Algorithm a = *find_algorithm("front_to_back");
-    a.closed_form = nullptr;
+    a.resolve_loop = nullptr;
     a.run = [](Region& region) {
         find_algorithm("front_to_back")->run(region);
         Trace& trace = RegionShortcuts{region}.trace();

@@ -73,7 +73,7 @@ RenderResult broken_frame(const FragmentScene& scene, const Algorithm& broken, E
     const DrawList list = draw_list(scene);
     RenderOptions options = options_for(scene);
     options.execution = execution;
-    options.fragment_memory = 0;  // else replay runs the closed form of what was broken
+    options.fragment_memory = 0;  // else replay runs the resolve of what was broken
     options.tile_size = 8;
     Renderer renderer{list, {}, *find_profile("geforce8"), options};
     return renderer.render(broken);
@@ -147,7 +147,7 @@ TEST_CASE("a layer blended twice shifts all that follow, the shallow pixel inclu
     check(peel<Mistake::blends_first_twice>, {1 + 4 + 5, {3, 12, 3}});
 }
 
-TEST_CASE("fragments of equal depth in the wrong arrival order are errors although their keys agree") {
+TEST_CASE("fragments of equal depth in the wrong submission order are errors although their keys agree") {
     FragmentScene scene{8, 8};
     for (const float depth : {0.75f, 0.75f, 0.5f, 0.25f, 0.25f, 0.25f})  // back to front: OVER in this order is LAST
         scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});

@@ -46,11 +46,11 @@ float random_value(Random& random, const BlockRules& rules, Colors colors) {
     return std::bit_cast<float>(rare[static_cast<std::size_t>(kind - 22)]);
 }
 
-// Sixteen columns of `depth` fragments or fewer; half of the scenes have depths of several fragments.
+// Sixteen lists of `depth` fragments or fewer; half of the scenes have depths of several fragments.
 struct PassScene {
     std::vector<std::uint64_t> levels;
     std::vector<Color> color;
-    ColumnBlock block;
+    ListBlock block;
 
     PassScene(Random& random, std::uint32_t depth, bool full, bool ties, const BlockRules& rules, Colors colors)
         : levels(depth * block_lanes, ~std::uint64_t{0}) {
@@ -71,22 +71,22 @@ struct PassScene {
                 const bool is_tied = k > 0 && ties && random_int(random, 0, 2) == 0;
                 key += is_tied ? 0 : 1;
                 if (is_tied) block.has_ties[lane] = ~0u;
-                const std::size_t place = full ? k * block_lanes + lane : random() % levels.size();
-                levels[k * block_lanes + lane] = key << 32 | place;
+                const std::size_t index = full ? k * block_lanes + lane : random() % levels.size();
+                levels[k * block_lanes + lane] = key << 32 | index;
             }
         }
         block.levels = levels.data();
         block.color = color.data();
     }
 
-    // A column's colours, depth by depth.
+    // A list's colours, depth by depth.
     [[nodiscard]] std::vector<std::vector<Color>> depths(std::size_t lane) const {
         std::vector<std::vector<Color>> all;
         for (std::size_t k = 0; k < block.visible[lane]; ++k) {
             const std::uint64_t word = levels[k * block_lanes + lane];
             if (k == 0 || word >> 32 != levels[(k - 1) * block_lanes + lane] >> 32) all.emplace_back();
-            const auto place = static_cast<std::size_t>(word & 0xffffffffu);
-            all.back().push_back(color[place]);
+            const auto index = static_cast<std::size_t>(word & 0xffffffffu);
+            all.back().push_back(color[index]);
         }
         return all;
     }
@@ -115,7 +115,7 @@ struct PassScene {
     }
 };
 
-// None, or one about where the deepest column ends.
+// None, or one about where the deepest list ends.
 std::uint32_t any_limit(Random& random, std::uint32_t depth) {
     const int limit = random_int(random, -4, static_cast<int>(depth) + 2);
     return limit < 0 ? ~0u : static_cast<std::uint32_t>(limit);
@@ -137,7 +137,7 @@ TEST_CASE(
                 for (auto& channel : opaque)
                     for (auto& code : channel) code = any_stored_code(random, rules.color);
                 for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-                    Codes f{}, b = scalar::column(opaque, lane);
+                    Codes f{}, b = scalar::list(opaque, lane);
                     scene.peel_dual(rules, lane, f, b);
                     scalar::put_column(f, lane, front);
                     scalar::put_column(b, lane, back);
@@ -191,7 +191,7 @@ TEST_CASE("the last quad puts a front over what is behind it, and leaves every c
         for (int trial = 0; trial < 64; ++trial) {
             const bool is_empty = trial < 16;
             BlockCodes front{}, back{};
-            LaneWords expected;
+            BlockLanes expected;
             for (std::size_t lane = 0; lane < block_lanes; ++lane) {
                 expected[lane] = 0xff000000u;
                 for (std::size_t c = 0; c < 4; ++c) {
@@ -209,7 +209,7 @@ TEST_CASE("the last quad puts a front over what is behind it, and leaves every c
             }
             for (const Simd simd : available_simd()) {
                 const SimdScope kernels{simd};
-                LaneWords words{};
+                BlockLanes words{};
                 composite_block(front, back, rules, words.data());
                 wrong += words == expected ? 0 : 1;
             }

@@ -70,17 +70,17 @@ TEST_CASE("lists hold the fragments before the opaque surface in submission orde
     const auto extent = GENERATE(Extent::frame, Extent::tile);
     const std::uint64_t most = GENERATE(as<std::uint64_t>{}, 1, 7, 60, 100000);
     TestFrame test{scene, "geforce8"};
-    RegionBooks books;
+    RegionStatistics statistics;
     Region region{test.frame,
                   {extent == Extent::frame ? test.frame.rect() : strata::rasterizer::Rect{8, 0, 16, 8}, 1, extent},
-                  books};
+                  statistics};
     const std::vector<std::uint32_t> coverage = coverage_of(region);
     std::set<std::uint32_t> seen;
     std::size_t wrong = 0;
     FragmentLists lists;
     for (std::uint32_t first = 0; first < coverage.size(); first = lists.pixels.last) {
         const PixelRange range = next_range(coverage, region.rect().width(), first, most);
-        list_visible(region, range, coverage, Bookkeeping::silent, lists);
+        list_visible(region, range, coverage, Counting::silent, lists);
         for (std::uint32_t p = range.first; p < range.last; ++p) {
             seen.insert(p);
             const auto width = static_cast<std::uint32_t>(region.rect().width());

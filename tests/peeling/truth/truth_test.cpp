@@ -173,7 +173,7 @@ TEST_CASE(
     CHECK(shared == 3000);
 }
 
-TEST_CASE("an exact bilinear lookup weighs four texels by fractions that nobody cut") {
+TEST_CASE("an exact bilinear lookup weighs four texels by uncut fractions") {
     Texture texture;
     texture.width = 2;
     texture.wrap_s = TextureWrap::clamp_to_edge;

@@ -1,4 +1,4 @@
-// Model: the scalar references' batches, appended one after the other.
+// Model: the scalar reference's batches, appended one after the other.
 #include "pipeline/fragments/record_rows.h"
 
 #include <catch2/catch.hpp>

@@ -17,7 +17,7 @@ struct GivenRecord {
         std::array<float, 4> color;
     };
     pipeline::TileFragments record;
-    std::vector<Fragment> living;  // in the order of arrival
+    std::vector<Fragment> living;  // in submission order
     std::uint64_t dead = 0;
 };
 

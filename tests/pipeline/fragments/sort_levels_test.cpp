@@ -1,4 +1,4 @@
-// Model: std::sort of each column on its own.
+// Model: std::sort of each list on its own.
 #include "pipeline/fragments/sort_levels.h"
 
 #include <algorithm>
@@ -18,36 +18,36 @@ using testing::random_int;
 enum class Order { any, rising, falling, rising_but_for_two, falling_but_for_two };
 enum class Heights { equal, any };
 
-using Column = std::vector<std::uint64_t>;
+using List = std::vector<std::uint64_t>;
 
-// Sixteen columns in the order of arrival, ~0 above their ends.
-std::vector<Column> columns_of(Random& random, std::size_t height, Order order, Heights heights) {
-    std::vector<Column> columns(block_lanes);
+// Sixteen lists in submission order, ~0 above their ends.
+std::vector<List> columns_of(Random& random, std::size_t height, Order order, Heights heights) {
+    std::vector<List> lists(block_lanes);
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
         const bool is_full = heights == Heights::equal || lane == 3;
-        Column& column = columns[lane];
-        column.resize(is_full ? height : static_cast<std::size_t>(random_int(random, 0, static_cast<int>(height))));
-        for (auto& word : column) word = random() >> 1;
+        List& list = lists[lane];
+        list.resize(is_full ? height : static_cast<std::size_t>(random_int(random, 0, static_cast<int>(height))));
+        for (auto& entry : list) entry = random() >> 1;
         const bool has_two = order == Order::rising_but_for_two || order == Order::falling_but_for_two;
-        const auto behind = order == Order::any ? column.size() : has_two ? std::min<std::size_t>(column.size(), 2) : 0;
-        const auto ordered = column.end() - static_cast<std::ptrdiff_t>(behind);
-        std::sort(column.begin(), ordered);
-        if (order == Order::falling || order == Order::falling_but_for_two) std::reverse(column.begin(), ordered);
-        column.resize(height, ~std::uint64_t{0});
+        const auto behind = order == Order::any ? list.size() : has_two ? std::min<std::size_t>(list.size(), 2) : 0;
+        const auto ordered = list.end() - static_cast<std::ptrdiff_t>(behind);
+        std::sort(list.begin(), ordered);
+        if (order == Order::falling || order == Order::falling_but_for_two) std::reverse(list.begin(), ordered);
+        list.resize(height, ~std::uint64_t{0});
     }
-    return columns;
+    return lists;
 }
 
-std::vector<std::uint64_t> levels_of(const std::vector<Column>& columns, std::size_t height) {
+std::vector<std::uint64_t> levels_of(const std::vector<List>& lists, std::size_t height) {
     std::vector<std::uint64_t> levels(height * block_lanes);
     for (std::size_t k = 0; k < height; ++k)
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) levels[k * block_lanes + lane] = columns[lane][k];
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) levels[k * block_lanes + lane] = lists[lane][k];
     return levels;
 }
 
 }  // namespace
 
-TEST_CASE("columns of any height and order are sorted, each on its own, on every instruction set") {
+TEST_CASE("lists of any height and order are sorted, each on its own, on every instruction set") {
     Random random{91};
     std::uint64_t wrong = 0;
     for (const Simd simd : available_simd()) {
@@ -56,11 +56,11 @@ TEST_CASE("columns of any height and order are sorted, each on its own, on every
             for (const Order order :
                  {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
                 for (const Heights heights : {Heights::equal, Heights::any}) {
-                    std::vector<Column> columns = columns_of(random, height, order, heights);
-                    std::vector<std::uint64_t> levels = levels_of(columns, height);
+                    std::vector<List> lists = columns_of(random, height, order, heights);
+                    std::vector<std::uint64_t> levels = levels_of(lists, height);
                     pipeline::sort_levels(levels.data(), height);
-                    for (Column& column : columns) std::ranges::sort(column);
-                    wrong += levels == levels_of(columns, height) ? 0 : 1;
+                    for (List& list : lists) std::ranges::sort(list);
+                    wrong += levels == levels_of(lists, height) ? 0 : 1;
                 }
     }
     CHECK(wrong == 0);

@@ -175,8 +175,8 @@ TEST_CASE(
     const FragmentScene scene = ten_on_each(8, 4, 0.34f / 255.0f, {5});
     const auto red_on = [&](const char* profile) {
         TestFrame test{scene, profile};
-        RegionBooks books;
-        Region region{test.frame, {test.frame.rect()}, books};
+        RegionStatistics statistics;
+        Region region{test.frame, {test.frame.rect()}, statistics};
         add_twice(region);
         return region.storage({region.targets().count() - 2}).code(5, 0, 0);
     };
@@ -205,8 +205,8 @@ TEST_CASE("a fragment that its program discards fetches its tile, unless the pas
         ten_on_each(width, 128, 0.34f / 255.0f, {321, 65 * width + 3});  // tiles (5, 0) and (0, 1)
     for (const bool has_test : {false, true}) {
         TestFrame test{scene, "softpipe"};
-        RegionBooks books;
-        Region region{test.frame, {test.frame.rect()}, books};
+        RegionStatistics statistics;
+        Region region{test.frame, {test.frame.rect()}, statistics};
         PassState state;
         state.color[0] = region.make(Format::rgba8);
         state.blend[0] = blend_mode::sum;

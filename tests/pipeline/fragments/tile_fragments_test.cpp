@@ -105,7 +105,7 @@ TEST_CASE("a record that would outgrow its limit forgets everything until it is 
     }
 }
 
-TEST_CASE("all places are read once, in the order of arrival, and no batch of them holds a pixel twice") {
+TEST_CASE("all places are read once, in submission order, and no batch of them holds a pixel twice") {
     Random random{2304};
     for (const std::uint32_t pixels : {1u, 7u, 300u, 5000u}) {
         GivenRecord given;

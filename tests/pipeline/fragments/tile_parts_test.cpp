@@ -57,7 +57,7 @@ TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits i
         const auto parts = tile_parts(test.frame, 1 + round % 3);
         std::vector<int> covered(scene.pixels.size());
         bool is_right = true;
-        for (const RegionPlace& part : parts) {
+        for (const RegionArea& part : parts) {
             const Rect around = tile_of(part.rect, 16);
             const bool is_whole = part.rect == around, fits = Room{scene, part.rect}.fits(test.frame.replay, part.rect);
             is_right &= part.extent == Extent::tile &&

@@ -60,7 +60,7 @@ TEST_CASE("a pass needs what its program, its tests and its materials look at, a
     testing.stencil = {.enabled = true, .two_sided = true, .front = {}, .back = {}};
     CHECK(pass_needs(testing, plain, Effects::needed).facing);
     const MaterialNeeds textured{.texcoord = true};
-    CHECK_FALSE(pass_needs(state, textured, Effects::needed).texcoord);  // nobody looks at its colour
+    CHECK_FALSE(pass_needs(state, textured, Effects::needed).texcoord);  // its colour is not read
     const MaterialNeeds masked{.texcoord = true, .color = true};
     CHECK(pass_needs(state, masked, Effects::needed).color);
     CHECK(pass_needs(state, masked, Effects::needed).texcoord);

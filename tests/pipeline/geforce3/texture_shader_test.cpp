@@ -336,7 +336,7 @@ TEST_CASE("a stage that is not consistent does nothing, and so does what depends
     CHECK(ops({look, dot, replace, none})[2] == ShaderOp::dot_product_depth_replace);
     CHECK(last({look, none, dot, replace}) == ShaderOp::dot_product_depth_replace);
     CHECK(last({look, dot, none, replace}) == ShaderOp::none);     // the stage before is no dot product
-    CHECK(last({look, dot, replace, replace}) == ShaderOp::none);  // a depth is nobody's first dot product
+    CHECK(last({look, dot, replace, replace}) == ShaderOp::none);  // a depth is no first dot product
     CHECK(ops({dot, replace, none, none}) == ShaderOps{});         // nothing to multiply with, in units 0 and 1
     CHECK(ops({none, dot, replace, none}) == ShaderOps{});         // NONE has no texel
     CHECK(ops({look, {.op = ShaderOp::dot_product, .previous = 1, .texture = {}}, none, none})[1] == ShaderOp::none);

@@ -22,11 +22,11 @@ FragmentScene ramp_of_reds() {
 
 struct AlteredMachine {
     TestFrame test;
-    strata::pipeline::RegionBooks books;
+    strata::pipeline::RegionStatistics statistics;
     Region region;
     explicit AlteredMachine(const Alteration& alteration)
         : test{ramp_of_reds(), "geforce8"},
-          region{test.frame, {test.frame.rect()}, books, {.alteration = &alteration}} {}
+          region{test.frame, {test.frame.rect()}, statistics, {.alteration = &alteration}} {}
 };
 
 // Clears a float target to red 1/4 and draws the ramp over it.
@@ -96,10 +96,10 @@ TEST_CASE("an alteration stands in for a program, around it or without it") {
             if (call.out.color[0][0][i] > 0.5f) call.out.discard(static_cast<int>(i));
     }};
     CHECK(reds_after_pass(behind) == std::vector<float>{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.25f, 0.25f, 0.25f});
-    const Alteration nobody{.program = [](const ProgramCall& call, const std::function<void()>&) {
+    const Alteration unused{.program = [](const ProgramCall& call, const std::function<void()>&) {
         for (auto& channel : call.out.color[0]) channel.fill(0.0625f);
     }};
-    CHECK(reds_after_pass(nobody) == std::vector<float>(8, 0.0625f));
+    CHECK(reds_after_pass(unused) == std::vector<float>(8, 0.0625f));
 }
 
 TEST_CASE("a clear and a copy may be changed, turned elsewhere or left out") {

@@ -389,7 +389,7 @@ TEST_CASE("faults of tiles add up to the frame's, the first pixel in row-major o
     const FrameResult result = both(test, [](Region& region) {
         std::uint64_t pixels = 0;
         std::uint32_t first = ~0u;
-        for (const CapturedFragment& f : RegionShortcuts{region}.capture(Bookkeeping::silent))
+        for (const CapturedFragment& f : RegionShortcuts{region}.capture(Counting::silent))
             ++pixels, first = std::min(first, f.pixel);
         region.report(Fault::half_saturated, pixels, first, "a test's");
         region.publish(region.opaque_color());

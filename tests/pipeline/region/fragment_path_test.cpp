@@ -101,8 +101,8 @@ TEST_CASE("a screen-aligned depth texture of any unit peels: the second pass kee
     const std::size_t unit = GENERATE(as<std::size_t>{}, 0, 1, 2, 3);
     const FragmentScene scene = layers(341);
     TestFrame test = frame_of(scene, 0, 0, unit);
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     const Peel peel{region, unit};
     std::size_t wrong = 0, second_layers = 0;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
@@ -170,8 +170,8 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
         in_range.geometry.state.depth_far = far;
         Frame frame = test.frame;
         frame.transparent = &in_range;
-        RegionBooks books;
-        Region region{frame, {frame.rect()}, books};
+        RegionStatistics statistics;
+        Region region{frame, {frame.rect()}, statistics};
         const Target depth = region.make_depth(), layer = region.make_color();
         region.clear(depth, {});
         region.clear(layer, {});
@@ -198,16 +198,16 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
 
 TEST_CASE("texture shaders are refused by name where the device has none") {
     TestFrame test{layers(344), "geforce8"};
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     CHECK_THROWS_WITH(FragmentPathProgram(region, {}),
                       "profile geforce8 has no texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
 
 TEST_CASE("a depth texture that is written by its own pass is a feedback loop") {
     TestFrame test = frame_of(layers(345), 0, 0);
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     const Target depth = region.make_depth();
     PassState state = peel_state(region.make_color(), depth);
     FragmentPathProgram program{region, compare_with(depth, CompareFunc::lequal)};
@@ -227,8 +227,8 @@ TEST_CASE(
     "a copied rectangle lands where it was moved, counts its bytes, and stays within its region or needs the frame") {
     const FragmentScene scene = layers(346);
     TestFrame test = frame_of(scene, 0, 0);
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     const Target from = region.make_depth(), to = region.make_depth();
     region.clear(from, {});
     region.clear(to, {.depth = 0.0f});
@@ -236,7 +236,7 @@ TEST_CASE(
     FragmentPath path;
     path.combiners = texture_environment({});
     Peel::peel(region, path, state);
-    const RegionBooks before = books;
+    const RegionStatistics before = statistics;
     const Rect part{2, 1, 14, 7};
     region.targets().copy_rectangle(from, part, to, 3, -2);
     std::size_t wrong = 0;
@@ -251,12 +251,12 @@ TEST_CASE(
             pixels += written;
         }
     CHECK(wrong == 0);
-    CHECK(books.counters.bytes_read - before.counters.bytes_read == 4 * pixels);
-    CHECK(books.counters.bytes_written - before.counters.bytes_written == 4 * pixels);
-    CHECK(books.loops[0].passes.copies - before.loops[0].passes.copies == 1);
+    CHECK(statistics.counters.bytes_read - before.counters.bytes_read == 4 * pixels);
+    CHECK(statistics.counters.bytes_written - before.counters.bytes_written == 4 * pixels);
+    CHECK(statistics.loops[0].passes.copies - before.loops[0].passes.copies == 1);
 
-    RegionBooks tile_books;
-    Region tile{test.frame, {{0, 0, 8, 8}, 0, Extent::tile}, tile_books};
+    RegionStatistics tile_statistics;
+    Region tile{test.frame, {{0, 0, 8, 8}, 0, Extent::tile}, tile_statistics};
     const Target a = tile.make_depth(), b = tile.make_depth();
     CHECK_NOTHROW(tile.targets().copy_rectangle(a, test.frame.rect(), b, 0, 0));
     CHECK_THROWS_AS(tile.targets().copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);
@@ -265,8 +265,8 @@ TEST_CASE(
 TEST_CASE("combiners have the primary colour, whether or not the pass asked for colours") {
     const FragmentScene scene = layers(342);
     TestFrame test = frame_of(scene, 0, 0);
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     FragmentPath path;
     path.combiners = texture_environment({});
     PassState state;

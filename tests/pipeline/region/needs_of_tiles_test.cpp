@@ -138,8 +138,8 @@ TEST_CASE("an image of rows that are longer than a batch has every pixel, sample
     for (std::size_t p = 0; p < row_px; ++p)
         scene.pixels[p].fragments = {{0.5f, {static_cast<float>(p), 0.25f, 0.5f, 0.75f}}};
     const TestFrame test{scene, "geforce8", 64};
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     for (const Format format : {Format::rgba32f, Format::r32f})
         for (const int samples : {1, 8}) {
             PassState state;

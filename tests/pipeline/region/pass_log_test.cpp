@@ -65,7 +65,7 @@ TEST_CASE("literal execution logs the frame's passes once") {
     CHECK(log.queries == draws / 4);
 }
 
-TEST_CASE("a run that nobody asked to log keeps no log") {
+TEST_CASE("a run without logging keeps no log") {
     const TestFrame test{one_fragment_a_pixel(), "ideal", tile};
     const FrameResult result = run(test.frame, marked_passes, Execution::replay, 2);
     CHECK(result.pass_log.passes.empty());

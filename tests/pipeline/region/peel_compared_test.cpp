@@ -110,7 +110,7 @@ class Peel {
         state.color[0] = sum_;
         state.blend[0] = blend_mode::over;
         state.reads[0] = peeled_;
-        state.selection = {.keeps = Keeps::window, .near = KeyBound::at(peeled_), .far = {KeyBound::at(peeled_)}};
+        state.selection = {.keeps = Keeps::interval, .near = KeyBound::at(peeled_), .far = {KeyBound::at(peeled_)}};
         static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
             out.color[0] = in.color;
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)

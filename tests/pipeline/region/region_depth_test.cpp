@@ -12,10 +12,10 @@ using namespace strata::pipeline;
 
 struct DepthRegion {
     TestFrame test;
-    RegionBooks books;
+    RegionStatistics statistics;
     Region region;
     DepthRegion(const FragmentScene& scene, const char* profile)
-        : test{scene, profile}, region{test.frame, {test.frame.rect()}, books} {}
+        : test{scene, profile}, region{test.frame, {test.frame.rect()}, statistics} {}
 };
 
 }  // namespace
@@ -40,8 +40,8 @@ TEST_CASE("a full-screen program that replaces depths has them compared and writ
 TEST_CASE("a depth beyond the range is compared with all its bits and stored with the format's") {
     TestFrame test{FragmentScene{8, 4}, "softpipe"};
     test.frame.depth.format = DepthFormat::d24;
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     const Target depth = region.make(Format::d24);
     for (const auto& [func, stored] : {std::pair{CompareFunc::less, 0x800000u}, {CompareFunc::greater, 0xffffffu}}) {
         region.clear(depth, {.depth = 0.50000003f});
@@ -74,8 +74,8 @@ TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere
     clamping.has_unclamped_depth_clear = false;
     TestFrame test{FragmentScene{1, 1}, "geforce8"};
     test.frame.profile = &clamping;
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     const Target depth = region.make(Format::d32f);
     region.clear(depth, {.depth = -1.0f});
     CHECK(region.storage(depth).depth(0)[0] == 0u);

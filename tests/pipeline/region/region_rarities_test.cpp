@@ -19,8 +19,8 @@ FragmentScene few_fragments() {
 
 struct Fixture {
     TestFrame test{few_fragments(), "geforce8"};
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
 };
 
 std::string broken(Region& region, const PassState& state) {

@@ -19,10 +19,10 @@ using namespace strata::pipeline;
 // A frame and the region that covers it.
 struct Machine {
     TestFrame test;
-    strata::pipeline::RegionBooks books;
+    strata::pipeline::RegionStatistics statistics;
     Region region;
     Machine(const FragmentScene& scene, const char* profile)
-        : test{scene, profile}, region{test.frame, {test.frame.rect()}, books} {}
+        : test{scene, profile}, region{test.frame, {test.frame.rect()}, statistics} {}
 };
 
 // Pixel p gets counts[p] fragments; the i-th has depth 1/2 and red i.
@@ -60,11 +60,11 @@ TEST_CASE("INCR counts depth complexity up to 255, and pixels that saturate are 
     static_cast<void>(m.region.draw(state, write_nothing));
     const std::vector<std::uint32_t> expected{0, 1, 7, 255, 255, 255, 0, 3};
     for (std::size_t p = 0; p < expected.size(); ++p) CHECK(stencil_of(m.region, stencil, p) == expected[p]);
-    REQUIRE(m.books.diagnostics.size() == 1);
-    CHECK(m.books.diagnostics[0].fault == Fault::stencil_saturated);
-    CHECK(m.books.diagnostics[0].pixels == 2);  // those of 256 and of 300 fragments
-    CHECK(m.books.diagnostics[0].first_x == 4);
-    CHECK(m.books.diagnostics[0].first_y == 0);
+    REQUIRE(m.statistics.diagnostics.size() == 1);
+    CHECK(m.statistics.diagnostics[0].fault == Fault::stencil_saturated);
+    CHECK(m.statistics.diagnostics[0].pixels == 2);  // those of 256 and of 300 fragments
+    CHECK(m.statistics.diagnostics[0].first_x == 4);
+    CHECK(m.statistics.diagnostics[0].first_y == 0);
 }
 
 TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k samples and tells an overflow") {
@@ -214,7 +214,7 @@ TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil
     static_cast<void>(m.region.draw(state, pass_color));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 4);
     CHECK(m.region.targets().color(state.color[0], 0)[0] == 7.0f);
-    const Counters& counted = m.books.counters;
+    const Counters& counted = m.statistics.counters;
     CHECK(counted.fragments_rasterized == 9);
     CHECK(counted.alpha_killed == 5);
     CHECK(counted.blended == 4);
@@ -238,7 +238,7 @@ TEST_CASE("without a colour target the alpha test compares 8-bit codes, as on an
                                                         : alpha > code;
             INFO("ref " << ref);
             CHECK(stencil_of(m.region, state.stencil_target, 0) == living);
-            CHECK(m.books.counters.alpha_killed == 9 - living);
+            CHECK(m.statistics.counters.alpha_killed == 9 - living);
         }
 }
 
@@ -289,17 +289,17 @@ TEST_CASE("a stencil count that stops where arrivals are routed is no fault") {
     PassState state;
     state.stencil = every_fragment(StencilOp::incr);
     state.stencil_target = m.region.make(Format::s8);
-    state.selection.keeps = Keeps::arrivals;
+    state.selection.keeps = Keeps::submitted;
     static_cast<void>(m.region.draw(state, write_nothing));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 255);
-    CHECK(m.books.diagnostics.empty());
+    CHECK(m.statistics.diagnostics.empty());
 }
 
 TEST_CASE("a limit is reached when fewer passes are left than an iteration needs") {
     TestFrame test{stacks({1}), "geforce8"};
     test.frame.max_passes = 3;
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics};
     CHECK_FALSE(region.limit_reached(3));
     CHECK(region.limit_reached(4));
     static_cast<void>(region.draw({}, write_nothing));
@@ -329,7 +329,7 @@ TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     CHECK(m.region.targets().image(to) == m.region.targets().image(from));
     CHECK(m.region.targets().image(to).codes[4] == 0x7fc12345u);
     CHECK(m.region.targets().image(to).codes[5] == 0xff800001u);
-    CHECK(m.books.loops[0].passes.copies == 1);
+    CHECK(m.statistics.loops[0].passes.copies == 1);
 }
 
 TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient, or a binary32 product with 1/255") {
@@ -366,8 +366,8 @@ TEST_CASE("an observer sees each batch behind its shading, its program, its test
     std::vector<Stage> stages;
     const Observer observer{.stage = [&](const Region&, const StageEvent& event) { stages.push_back(event.stage); }};
     const TestFrame test{stacks({1, 2}), "geforce8", 8};
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books, {.observer = &observer}};
+    RegionStatistics statistics;
+    Region region{test.frame, {test.frame.rect()}, statistics, {.observer = &observer}};
     PassState state;
     state.color[0] = region.make_color();
     stages.clear();
@@ -392,5 +392,5 @@ TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
     CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[0] == std::bit_cast<std::uint32_t>(1.0f));
     CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[1] == std::bit_cast<std::uint32_t>(0.25f));
     CHECK(m.region.targets().color(m.region.opaque_color(), 1) == Rgba{1, 0, 1, 1});  // alphaMode OPAQUE ignores alpha
-    CHECK(m.books.counters == Counters{});
+    CHECK(m.statistics.counters == Counters{});
 }

@@ -62,11 +62,11 @@ constexpr DepthTest any_stays{.enabled = true, .func = CompareFunc::always, .wri
 
 const std::vector<Stage> stages{
     {.keeps = Keeps::nearest, .depth = nearest_stays},
-    {.keeps = Keeps::window, .blend = blend_mode::over, .least = 0x3f400000},
-    {.keeps = Keeps::window, .face = &counts_updates, .depth = nearest_stays, .least = 0x3f400000},
-    {.keeps = Keeps::arrivals, .samples = 4, .face = &routes, .depth = any_stays},
+    {.keeps = Keeps::interval, .blend = blend_mode::over, .least = 0x3f400000},
+    {.keeps = Keeps::interval, .face = &counts_updates, .depth = nearest_stays, .least = 0x3f400000},
+    {.keeps = Keeps::submitted, .samples = 4, .face = &routes, .depth = any_stays},
     {.keeps = Keeps::ends, .blend = blend_mode::max, .color = Format::rg32f, .outside = Outside::writes_alike},
-    {.keeps = Keeps::window,
+    {.keeps = Keeps::interval,
      .blend = blend_mode::under,
      .least = 0x3f400000,
      .outside = Outside::writes_alike,
@@ -117,7 +117,7 @@ void draw_stage(Region& region, const Stage& stage, const Changed& change) {
         state.stencil = {.enabled = true, .front = *stage.face, .back = {}};
         state.stencil_target = region.make(Format::s8, stage.samples);
         region.clear(state.stencil_target, {.stencil = 0});
-        for (int s = 0; stage.keeps == Keeps::arrivals && s < stage.samples; ++s)
+        for (int s = 0; stage.keeps == Keeps::submitted && s < stage.samples; ++s)
             region.clear(state.stencil_target, {.stencil = static_cast<std::uint8_t>(s + 2)},
                          static_cast<std::uint8_t>(1u << s));
     }

@@ -30,7 +30,7 @@ template <class T>
 
 }  // namespace
 
-TEST_CASE("a state that nobody set is OpenGL's initial one") {
+TEST_CASE("the default state is OpenGL's initial state") {
     const Blend blend;
     CHECK_FALSE(blend.enabled);
     CHECK(blend.constant == strata::Rgba{0, 0, 0, 0});

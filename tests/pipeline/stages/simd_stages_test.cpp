@@ -76,7 +76,7 @@ struct Memory {
         result.first = {words.data(), plane_pixels};
         return result;
     }
-    // The spare words are nobody's.
+    // The spare elements are unused.
     [[nodiscard]] bool same_pixels(const Memory& other) const {
         for (std::size_t i = 0; i < words.size(); ++i)
             if (i % (plane_pixels + spare_words) < plane_pixels && words[i] != other.words[i]) return false;

@@ -250,10 +250,10 @@ TEST_CASE("parts keep their primitives and lie between their depths, which no fr
         REQUIRE(draw.parts.size() == 2);
         TestFrame test{FragmentScene{64, 64}, profile};
         test.frame.transparent = &draw;
-        RegionBooks books;
-        Region region{test.frame, {test.frame.rect()}, books};
+        RegionStatistics statistics;
+        Region region{test.frame, {test.frame.rect()}, statistics};
         std::size_t outside = 0;
-        const auto fragments = RegionShortcuts{region}.capture(Bookkeeping::counted);
+        const auto fragments = RegionShortcuts{region}.capture(Counting::counted);
         for (const CapturedFragment& f : fragments)
             for (const DrawPart& part : draw.parts)
                 if (f.primitive >= part.primitives.first && f.primitive < part.primitives.last)
@@ -322,9 +322,9 @@ TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
             test.frame.transparent = &draw;
             for (const Format format : {Format::rgba8, Format::rgba32f}) {
                 test.frame.color_format = format;
-                RegionBooks books;
-                Region region{test.frame, {test.frame.rect()}, books};
-                const auto fragments = RegionShortcuts{region}.capture(Bookkeeping::counted);
+                RegionStatistics statistics;
+                Region region{test.frame, {test.frame.rect()}, statistics};
+                const auto fragments = RegionShortcuts{region}.capture(Counting::counted);
                 CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
                 for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);
             }

@@ -78,7 +78,7 @@ struct PlaneCase {
 
 }  // namespace
 
-TEST_CASE("a clip plane that nobody set keeps everything in front of the eye") {
+TEST_CASE("a clip plane that is not set keeps everything in front of the eye") {
     CHECK(ClipPlane{} == ClipPlane{.a = 0, .b = 0, .c = 0, .d = 1});
 }
 

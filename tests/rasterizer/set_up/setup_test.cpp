@@ -192,7 +192,7 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
     for (const ClipVertex& v : soup.vertices)
         with_extras.extras.values.insert(with_extras.extras.values.end(), {random() % 20 == 0 ? no_end : v.z, v.w});
     const auto compare = [&](const RasterRules& rules, const TriangleSoup& given, std::uint64_t least_dropped) {
-        const strata::SimdScope twins{strata::Simd::scalar};
+        const strata::SimdScope scalar_reference{strata::Simd::scalar};
         const Geometry scalar = set_up(given, state, rules, 1);
         CHECK(scalar.counters.non_finite > least_dropped);
         CHECK(scalar.triangles.size() > 700);

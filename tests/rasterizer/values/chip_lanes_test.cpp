@@ -60,7 +60,7 @@ void add_units(Geometry& g, std::uint64_t seed) {
                                   std::uint64_t& compared) {
     std::vector<std::uint32_t> expected;
     {
-        const strata::SimdScope twins{strata::Simd::scalar};
+        const strata::SimdScope scalar_reference{strata::Simd::scalar};
         CHECK(chip_kernels() == nullptr);
         expected = words_of_batches(g, depth, needs);
     }

@@ -1,5 +1,5 @@
 // A pass that draws rows leaves what fragments leave that are tested one after the other. The model is the batches of the
-// scalar twins and a plain loop over them.
+// scalar reference and a plain loop over them.
 #include "rasterizer/walk/rows.h"
 
 #include <catch2/catch.hpp>
@@ -76,7 +76,7 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
             Geometry geometry = random_triangles(517 + static_cast<std::uint64_t>(size), count, size, device);
             add_ties(geometry);
             for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{69, 0, 70, 40}}) {
-                const strata::SimdScope twins{strata::Simd::scalar};
+                const strata::SimdScope scalar_reference{strata::Simd::scalar};
                 CHECK_FALSE(row_walk_suits(geometry, device.depth, region));
                 const Drawn expected = by_fragments(geometry, device.depth, region);
                 for (const strata::Simd simd : strata::available_simd()) {
@@ -107,7 +107,7 @@ TEST_CASE(
                  {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{61, 0, 70, 40}, Rect{0, 34, 70, 40}}) {
                 const Rect region = intersection(part, geometry.state.viewport);
                 const DepthRequest depth{DepthPath::float32, format};
-                const strata::SimdScope twins{strata::Simd::scalar};
+                const strata::SimdScope scalar_reference{strata::Simd::scalar};
                 const Drawn expected = by_fragments(geometry, depth, region);
                 for (const strata::Simd simd : strata::available_simd()) {
                     const strata::SimdScope kernels{simd};

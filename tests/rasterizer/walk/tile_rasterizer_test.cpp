@@ -84,7 +84,7 @@ struct Batches {
 
 }  // namespace
 
-TEST_CASE("every instruction set hands out the batches of the scalar twins, to the bit", "[slow]") {
+TEST_CASE("every instruction set hands out the batches of the scalar reference, to the bit", "[slow]") {
     std::vector<Device> all = devices();
     const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = PlaneOrigin::unsnapped};
     all.push_back({unsnapped, {DepthPath::float32, DepthFormat::d32f}});
@@ -109,11 +109,11 @@ TEST_CASE("every instruction set hands out the batches of the scalar twins, to t
             for (const FragmentNeeds& needs : {depth_only, no_exact_code, everything})
                 for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
                     const strata::SimdScope scalar_kernels{strata::Simd::scalar};
-                    const Batches twins = batches_of(geometry, device.depth, needs, region);
-                    fragments += twins.fragments.size();
+                    const Batches scalar_reference = batches_of(geometry, device.depth, needs, region);
+                    fragments += scalar_reference.fragments.size();
                     for (const strata::Simd simd : strata::available_simd()) {
                         const strata::SimdScope kernels{simd};
-                        wrong += batches_of(geometry, device.depth, needs, region) != twins ? 1 : 0;
+                        wrong += batches_of(geometry, device.depth, needs, region) != scalar_reference ? 1 : 0;
                     }
                 }
         }

@@ -28,7 +28,7 @@ struct ChipCodes {
 }
 
 [[nodiscard]] ChipCodes tested_in_turn(const Geometry& g, const DepthRequest& depth, const Rect& region) {
-    const strata::SimdScope twins{strata::Simd::scalar};
+    const strata::SimdScope scalar_reference{strata::Simd::scalar};
     ChipCodes found{any_codes(region, depth.format)};
     constexpr FragmentNeeds code_alone{false, true, false, false, false, false};
     for (const Fragment& f : draw(g, depth, code_alone, region, g.all_triangles).fragments) {

@@ -137,12 +137,12 @@ TEST_CASE("temporaries of a killed process with this one's number are left alone
     const auto dash = first.rfind('-');
     const int next = std::stoi(first.substr(dash + 1)) + 1;
     for (int i = 0; i < 5; ++i)
-        std::ofstream(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") << "somebody's";
+        std::ofstream(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") << "another's";
     strata::scenes::write_file(folder / "a.txt", "x");
     CHECK(strata::test::bytes_of(folder / "a.txt") == "x");
     CHECK(files_in(folder.path) == 6);
     for (int i = 0; i < 5; ++i)
-        CHECK(strata::test::bytes_of(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") == "somebody's");
+        CHECK(strata::test::bytes_of(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") == "another's");
 }
 
 TEST_CASE("a pipe gets the bytes of the finished file and stays a pipe, also behind a symbolic link") {

@@ -33,7 +33,7 @@ bool is_near(double found, double wanted) { return std::fabs(found - wanted) < 1
 
 }  // namespace
 
-TEST_CASE("the showroom's objects stand where the book says") {
+TEST_CASE("the showroom's objects stand where the specification says") {
     const Scene scene = make_showroom({});
     struct Stated {
         const char* name;

@@ -14,10 +14,10 @@ async function validate(file) {
   } catch (e) { return {file, errors: ['THROWN: ' + String(e).split('\n')[0]], warnings: []}; }
 }
 
-// On some files the validator throws where nobody catches it: that is its verdict, then, and the next file's turn.
+// On some files the validator throws an exception that is not caught: that is its verdict, then, and the next file's turn.
 let giveUp = () => {};
 for (const event of ['uncaughtException', 'unhandledRejection'])
-  process.on(event, () => giveUp('THROWN: nobody catches it'));
+  process.on(event, () => giveUp('THROWN: not caught'));
 
 (async () => {
   for (const file of fs.readFileSync(0, 'utf8').split('\n').filter((line) => line)) {

@@ -10,7 +10,7 @@ namespace strata::test {
 // found again and again. Four passes.
 inline void peel_by_less(peeling::Algorithm& algorithm) {
     algorithm.name = "by-less";
-    algorithm.closed_form = nullptr;
+    algorithm.resolve_loop = nullptr;
     algorithm.run = [](pipeline::Region& region) {
         using namespace pipeline;
         const Target result = region.make_color();

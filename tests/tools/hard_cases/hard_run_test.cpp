@@ -120,7 +120,7 @@ TEST_CASE(
 
 TEST_CASE("an algorithm whose execution by default gives other bits than its passes is called failed") {
     peeling::Algorithm broken = *peeling::find_algorithm("front_to_back");
-    broken.closed_form = [](Region& region) {
+    broken.resolve_loop = [](Region& region) {
         if (region.frame().replay.bytes == 0) return false;  // literal execution
         const Target result = region.make_color();
         region.copy(region.opaque_color(), result);

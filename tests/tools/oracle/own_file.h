@@ -1,4 +1,4 @@
-// tests/tools/oracle/own_file.h - a file with a name that nobody else has, for one test.
+// tests/tools/oracle/own_file.h - a file with a unique name, for one test.
 #pragma once
 #include <unistd.h>
 

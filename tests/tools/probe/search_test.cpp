@@ -24,7 +24,7 @@ std::optional<DeviceProfile> turned(const DeviceProfile& profile, const ProfileF
 
 }  // namespace
 
-TEST_CASE("three devices that nobody built come back from their answers alone") {
+TEST_CASE("three random devices are inferred from their answers alone") {
     const std::vector<Item> unseen = unseen_scenes(100, 20);
     for (const int number : {2, 4, 6}) {
         const RoundTrip trip = round_trip(random_profile(number), unseen, YDirection::down);

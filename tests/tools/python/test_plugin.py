@@ -1,4 +1,4 @@
-"""Model: a test of somebody else's that fails on purpose, run by pytest in a folder of its own."""
+"""Model: a user's test that fails on purpose, run by pytest in a folder of its own."""
 import numpy as np
 
 import strata

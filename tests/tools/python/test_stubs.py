@@ -14,7 +14,7 @@ def own_names(kind):
 
 
 def names_in(kind):
-    """Methods, and attributes that nobody may set."""
+    """Methods and read-only attributes."""
     methods = {part.name for part in kind.body if isinstance(part, ast.FunctionDef)}
     return (methods | {part.target.id for part in kind.body if isinstance(part, ast.AnnAssign)}) - COMMON
 

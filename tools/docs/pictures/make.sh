@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md and of tools/docs anew. Needs a release build and oiiotool.
+# Makes the pictures of README.md and of tools/docs again. Needs a release build and oiiotool.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 trap 'echo "tools/docs/pictures/make.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR

@@ -44,8 +44,8 @@ struct BenchRun {
     double seconds = 0, geometry_seconds = 0;
     int geometry_passes = 0, iterations = 0;
     std::optional<pipeline::Counters> counters{};  // of a run of its own, where they were asked for
-    std::uint64_t visited = 0;  // fragments that programs ran on, in all passes that were no closed form
-    pipeline::Image picture;    // the depths for `depth`
+    std::uint64_t visited = 0;                     // fragments that programs ran on, in all passes that were no resolve
+    pipeline::Image picture;                       // the depths for `depth`
 };
 
 struct BenchResult {

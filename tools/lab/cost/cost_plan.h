@@ -23,7 +23,7 @@ struct CostCell {
     pipeline::DeviceProfile profile;
     peeling::RenderOptions options;
     const peeling::Algorithm* algorithm = nullptr;
-    std::optional<peeling::Chain> chain{};  // a picture of the chain, which no machine draws and nobody times
+    std::optional<peeling::Chain> chain{};  // a picture of the chain, which no machine draws and no run times
     bool is_timed_with_audit = false;
 };
 

@@ -2,7 +2,7 @@
 //
 // Rule     Every kind of run is repeated, the kinds taking turns on warm caches; its time is the median. A stage costs
 //          the difference that one more stage of its kind makes, with a state that changes nothing; that measures
-//          stages which nobody calls for, too (pipeline/frame/effects.h). A value that is left out is measured in the
+//          stages which no state needs, too (pipeline/frame/effects.h). A value that is left out is measured in the
 //          same way. A value that passes do call for costs the difference between two walks over all fragments, one
 //          with it and one without, times the number of those passes. Effects are timed without replay, since
 //          Effects::all does not use it.

@@ -61,7 +61,7 @@ std::string names_of(const pipeline::DrawList& list, Holds holds) {
     return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), more);
 }
 
-// A row that the state of each pass decides: `called` says who calls for it, `idle` why nobody
+// A row that the state of each pass decides: `called` says what needs it, `idle` why nothing
 // does.
 struct PassEffect {
     const char* name;

@@ -18,7 +18,7 @@ namespace strata::tools {
 struct EffectRow {
     std::string effect;
     bool is_simulated = false;
-    std::string why;                                      // who calls for it, or that nobody does
+    std::string why;                                      // what needs it, or that nothing does
     std::uint64_t passes = 0;                             // geometry passes that simulate it
     std::uint64_t fragments = 0;                          // that go through it in these, in literal execution
     pipeline::Effect effect_id = pipeline::Effect::none;  // of those whose cost can be measured

@@ -51,7 +51,7 @@ Layers layers_of(const Sequence& sequence) {
     return layers;
 }
 
-// A layer of a key is its first arrival's alone, or all fragments' of the key.
+// A layer of a key is its first submitted's alone, or all fragments' of the key.
 int place_of(const Layers& layers, const std::vector<VisibleFragment>& visible, std::size_t i, bool merges) {
     const auto find = [](const auto& known, std::uint32_t name) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == name; });

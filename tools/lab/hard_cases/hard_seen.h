@@ -58,7 +58,7 @@ struct Looked {
     bool names_misplaced = false;  // a diagnostic explains fragments in wrong places
 };
 [[nodiscard]] Looked look(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, int width);
-// The same without the algorithm's passes: layers are the distinct stored depths, and the first arrival has each.
+// The same without the algorithm's passes: layers are the distinct stored depths, and the first submitted has each.
 [[nodiscard]] Looked look_at_depths(peeling::Renderer& renderer, const peeling::Algorithm& algorithm);
 
 }  // namespace strata::tools

@@ -30,7 +30,7 @@ namespace strata::tools {
 
 class ExactCase;  // hard_exact.h
 
-// Somebody who draws a scene and says what is seen.
+// A renderer that draws a scene and says what is seen.
 using Look = std::function<Looked(const scenes::Scene& scene, const pipeline::View& view)>;
 
 // What is known of who looks.

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "pipeline/formats/word_digest.h"
+#include "pipeline/formats/value_digest.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/system_error.h"
@@ -24,7 +24,7 @@ using nlohmann::ordered_json;
 namespace {
 
 std::string digest_of(std::string_view text) {
-    pipeline::WordDigest digest{"line"};
+    pipeline::ValueDigest digest{"line"};
     for (const char c : text) digest.add(static_cast<unsigned char>(c));
     return digest.hexadecimal();
 }

@@ -67,7 +67,7 @@ class Journal {
 [[nodiscard]] std::string text_of(const Lines& lines);
 // Warns of each line that counts for nothing.
 void warn_of(const std::string& path, const Found& found);
-// Opens a journal behind its whole lines. One with lines that count for nothing is written anew first.
+// Opens a journal behind its whole lines. One with lines that count for nothing is written again first.
 [[nodiscard]] Journal journal_behind(const std::string& path, const Found& found, const Lines& whole);
 
 }  // namespace strata::tools

@@ -1,6 +1,6 @@
 // tools/lab/sweep/leftovers.h - temporary files that a killed run has left.
 //
-// Rule     Whoever holds a shard's lock is the only one who writes the shard's files, so temporaries of these names are a
+// Rule     The holder of a shard's lock is the only one that writes the shard's files, so temporaries of these names are a
 //          dead run's: results and timings in the folder, and in images/ the files that begin with a cell's number.
 // Tests    tests/tools/sweep_lock_test.cpp
 #pragma once

@@ -67,7 +67,7 @@ Lock::Lock(const std::string& journal) {
     if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, text.data(), text.size(), 0) < 0) return;
 }
 
-// The file goes before the lock does: nobody then locks a file that is about to lose its name without seeing it.
+// The file goes before the lock does: no process then locks a file that is about to lose its name without seeing it.
 Lock::~Lock() {
     if (place_ >= 0) {
         ::unlink(path_.c_str());

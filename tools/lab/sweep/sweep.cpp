@@ -65,7 +65,7 @@ std::string without_constants(Table& table) {
     return text;
 }
 
-// A row a cell; a page of thousands of rows helps nobody.
+// A row a cell; a page of thousands of rows is of no use.
 void add_cells(PlainPage& page, const std::string& csv) {
     constexpr std::size_t most_rows = 1000;
     page.heading("Cells");
@@ -96,7 +96,7 @@ PlainPage page_of(const Work& work, const std::string& folder, const std::string
     return page;
 }
 
-// What is made anew from all lines.
+// What is made again from all lines.
 int finish(const Work& work, const std::string& folder, const Lines& lines) {
     const std::string csv = work.csv(lines), summary = work.summary(lines);
     scenes::write_file(path_in(folder, "results.csv"), csv);
@@ -113,7 +113,7 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
                      const Found& found, Lines& lines) {
     const std::string results = shard_file(folder, "results", shard), timings = shard_file(folder, "timings", shard);
     const auto missing = std::count(lines.begin(), lines.end(), nullptr);
-    bool in_order = found.in_order || !found.changed.empty();  // a changed journal is written anew
+    bool in_order = found.in_order || !found.changed.empty();  // a changed journal is written again
     if (missing == 0 && found.changed.empty() && !found.torn && in_order) return;
     const Found timed = read_journal(timings);
     Journal journal = journal_behind(results, found, lines), clock = journal_behind(timings, timed, timed.lines);
@@ -169,7 +169,7 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
         print(fmt::format("{}: {} cells; --merge {} puts the shards together\n", results, lines.size(), shard.count));
         return 0;
     }
-    // results.csv is made anew from all lines; only the journal grows.
+    // results.csv is made again from all lines; only the journal grows.
     return finish(work, folder, lines);
 }
 

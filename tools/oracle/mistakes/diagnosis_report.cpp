@@ -54,7 +54,7 @@ std::string line_of(const Finding& f, const Diagnosis& d) {
     return text;
 }
 
-// How far the candidate's passes are somebody's; "" where they were not compared.
+// How far the candidate's passes are those of one machine; "" where they were not compared.
 std::string line_of(const std::optional<PassAgreement>& passes, const std::string& whose) {
     if (!passes) return "";
     if (passes->is_whole())

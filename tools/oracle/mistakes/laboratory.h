@@ -21,7 +21,7 @@ enum class Depths : std::uint8_t { left_out, made };
 class Laboratory {
   public:
     // Throws Refused where the right run is refused. What `input` refers to must live as long.
-    // `limit`: the geometry passes after which the candidate gives up; 0: nobody knows.
+    // `limit`: the geometry passes after which the candidate gives up; 0: not known.
     Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths = Depths::left_out,
                int limit = 0);
 

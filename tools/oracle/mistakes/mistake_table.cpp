@@ -37,11 +37,11 @@ char sign_of(Cell cell) noexcept {
 
 namespace {
 
-struct DeclaredTwins {
+struct DeclaredLookAlikes {
     std::string_view first, second;
     const char* reason;
 };
-constexpr DeclaredTwins declared[] = {
+constexpr DeclaredLookAlikes declared[] = {
     {"min_for_max", "add_for_max",
      "Both leave no pixel a range that begins before it ends: from (-1, -1) on, MIN stays there, and every sum of "
      "(-z, z) and (-1, -1) has its near end above its far one. Nothing is ever peeled, and zeros are what MIN and ADD "
@@ -50,14 +50,14 @@ constexpr DeclaredTwins declared[] = {
 
 }  // namespace
 
-const char* reason_for(const Twins& pair) {
-    for (const DeclaredTwins& d : declared)
+const char* reason_for(const LookAlikes& pair) {
+    for (const DeclaredLookAlikes& d : declared)
         if (d.first == pair.first->name && d.second == pair.second->name) return d.reason;
     return nullptr;
 }
 
-bool is_declared_twin(const Mistake& mistake) {
-    return std::ranges::find(declared, mistake.name, &DeclaredTwins::second) != std::end(declared);
+bool is_declared_look_alike(const Mistake& mistake) {
+    return std::ranges::find(declared, mistake.name, &DeclaredLookAlikes::second) != std::end(declared);
 }
 
 TableColumn table_column(const SuiteScene& scene) {
@@ -80,8 +80,8 @@ TableColumn table_column(const SuiteScene& scene) {
     return column;
 }
 
-std::vector<Twins> twins(const std::vector<TableColumn>& columns) {
-    std::vector<Twins> found;
+std::vector<LookAlikes> look_alikes(const std::vector<TableColumn>& columns) {
+    std::vector<LookAlikes> found;
     const auto all = catalogue();
     for (std::size_t a = 0; a < all.size(); ++a)
         for (std::size_t b = a + 1; b < all.size(); ++b)
@@ -107,21 +107,22 @@ std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns) {
 
 namespace {
 
-// Where a mistake is named first: the first such scene, and in how many; of a declared twin, whose name is named instead.
+// Where a mistake is named first: the first such scene, and in how many; of a declared look_alike, whose name is named instead.
 std::string first_scene(const std::vector<TableColumn>& columns, std::size_t mistake) {
     const auto scenes = named_in(columns, mistake);
     if (!scenes.empty()) return fmt::format("{} ({} in all)", scenes.front()->name, scenes.size());
-    const auto twin = std::ranges::find(declared, catalogue()[mistake].name, &DeclaredTwins::second);
-    return twin == std::end(declared) ? "nowhere" : fmt::format("named as {}, its equal", twin->first);
+    const auto look_alike = std::ranges::find(declared, catalogue()[mistake].name, &DeclaredLookAlikes::second);
+    return look_alike == std::end(declared) ? "nowhere" : fmt::format("named as {}, its equal", look_alike->first);
 }
 
 // "none", or their names with what each is equal to.
 std::string unnamed_text(const std::vector<TableColumn>& columns) {
     std::string text;
     for (const Mistake* mistake : unnamed(columns)) {
-        const auto twin = std::ranges::find(declared, mistake->name, &DeclaredTwins::second);
+        const auto look_alike = std::ranges::find(declared, mistake->name, &DeclaredLookAlikes::second);
         text += fmt::format("{}{}", text.empty() ? "" : ", ", mistake->name);
-        if (twin != std::end(declared)) text += fmt::format(" (it always leaves the picture of {})", twin->first);
+        if (look_alike != std::end(declared))
+            text += fmt::format(" (it always leaves the picture of {})", look_alike->first);
     }
     return text.empty() ? "none" : text;
 }
@@ -157,7 +158,7 @@ std::string findings(const std::vector<TableColumn>& columns) {
         "Of {} diagnoses {} name another mistake; pairs of mistakes that leave the same pictures of all scenes: {}.\n"
         "The scene {} shows most of them, {}, and {} show in one scene alone: no single scene tests a port.\n",
         all, all - unnamed(columns).size(), columns.size(), unnamed_text(columns), diagnoses, wrong,
-        twins(columns).size(), best->scene->name, most, in_one);
+        look_alikes(columns).size(), best->scene->name, most, in_one);
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ std::string to_page(const std::vector<TableColumn>& columns, const std::string& 
     for (std::size_t c = 0; c < columns.size(); ++c)
         page += fmt::format("| {} {} | {} | `{}` |\n", c + 1, columns[c].scene->name, columns[c].scene->why,
                             command_of(*columns[c].scene));
-    for (const Twins& pair : twins(columns))
+    for (const LookAlikes& pair : look_alikes(columns))
         if (const char* reason = reason_for(pair))
             page +=
                 fmt::format("\n{} and {} leave the same pictures. {}\n", pair.first->name, pair.second->name, reason);

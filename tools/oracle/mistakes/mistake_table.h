@@ -28,16 +28,16 @@ struct TableColumn {
 };
 [[nodiscard]] TableColumn table_column(const SuiteScene& scene);
 
-struct Twins {
+struct LookAlikes {
     const Mistake* first = nullptr;
     const Mistake* second = nullptr;
 };
 // Mistakes that no column tells apart.
-[[nodiscard]] std::vector<Twins> twins(const std::vector<TableColumn>& columns);
-// Why two mistakes can leave no unequal pictures, a sentence; null where nobody has said so.
-[[nodiscard]] const char* reason_for(const Twins& pair);
+[[nodiscard]] std::vector<LookAlikes> look_alikes(const std::vector<TableColumn>& columns);
+// Why two mistakes can leave no unequal pictures, a sentence; null where none is stated.
+[[nodiscard]] const char* reason_for(const LookAlikes& pair);
 // Whether it is the second one of such a pair: always named by the first one's name.
-[[nodiscard]] bool is_declared_twin(const Mistake& mistake);
+[[nodiscard]] bool is_declared_look_alike(const Mistake& mistake);
 // The scenes in which a mistake of the catalogue is named first.
 [[nodiscard]] std::vector<const SuiteScene*> named_in(const std::vector<TableColumn>& columns, std::size_t mistake);
 // Mistakes that no column names.

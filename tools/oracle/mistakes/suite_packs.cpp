@@ -50,7 +50,7 @@ std::string list_of(const std::vector<TableColumn>& columns) {
                                     {"beside_another", scenes_with(columns, m, Cell::alike, Cell::alike)},
                                     {"named_otherwise", scenes_with(columns, m, Cell::wrong, Cell::accused)},
                                     {"does_not_show", scenes_with(columns, m, Cell::hidden, Cell::hidden)}});
-    for (const Twins& pair : twins(columns))
+    for (const LookAlikes& pair : look_alikes(columns))
         if (const char* reason = reason_for(pair))
             list["equivalent"].push_back(
                 {{"first", pair.first->name}, {"second", pair.second->name}, {"reason", reason}});

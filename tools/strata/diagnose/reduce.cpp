@@ -1,4 +1,4 @@
-// tools/strata/diagnose/reduce.cpp - strata reduce: the smallest scene on which somebody's renderer still goes wrong.
+// tools/strata/diagnose/reduce.cpp - strata reduce: the smallest scene on which a user's renderer still goes wrong.
 #include "tools/oracle/reduce/reduce.h"
 
 #include <fmt/format.h>

@@ -50,9 +50,9 @@ TEST_CASE("every mistake is named first in a scene of the suite, none where it d
     CHECK(wrong == 0);
     for (const Mistake* mistake : unnamed(columns)) {
         INFO(mistake->name);
-        CHECK(is_declared_twin(*mistake));
+        CHECK(is_declared_look_alike(*mistake));
     }
-    for (const Twins& pair : twins(columns)) {
+    for (const LookAlikes& pair : look_alikes(columns)) {
         INFO(pair.first->name << " and " << pair.second->name);
         CHECK(reason_for(pair) != nullptr);
     }

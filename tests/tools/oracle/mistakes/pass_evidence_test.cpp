@@ -142,7 +142,7 @@ TEST_CASE("a mistake that explains half of the pixels to the last code and all w
     CHECK(first_of(found).mistakes[0]->name == "red_for_blue");
     CHECK(first_of(found).nearly == found.pixels);
     CHECK(first_of(found).agreeing < found.pixels);
-    // Colours one code from the right ones are nobody's mistake.
+    // Colours one code from the right ones are no mistake.
     Picture off = bench.laboratory.right();
     for (std::size_t i = 0; i < off.targets[0].codes.size(); i += 40)
         off.targets[0].codes[i] = off.targets[0].codes[i] < 255 ? off.targets[0].codes[i] + 1 : 254;

@@ -94,7 +94,7 @@ TEST_CASE("a scene whose colours are off by one code everywhere is explained by 
     const ScenesDiagnosis found = diagnosed(random_peel(), peeled, planes_peel(), planes);
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(first_names(found) == FirstNames{"red_for_blue"});
-    // Off by one in both, nobody explains most pixels to the last code.
+    // Off by one in both, no machine explains most pixels to the last code.
     CHECK(diagnosed(random_peel(), off_by_one(peeled), planes_peel(), planes).verdict == Verdict::none_of_mine);
 }
 

@@ -101,7 +101,7 @@ function differenceAt(algorithm, p) {
 }
 const heat = (v) => { const t = Math.min(1, v) * 3; return [byte(t), byte(t - 1), byte(t - 2)]; };
 
-const drawings = [];  // what is drawn anew when a control moves
+const drawings = [];  // what is drawn again when a control moves
 function drawSheet() {
   const gain = 2 ** Number(at("gain").value);
   at("gain-value").textContent = gain;

@@ -1,0 +1,214 @@
+// peeling/loops/dual_resolve.cpp - dual peeling as a resolve: pass i takes the i-th depth from the front and the
+// i-th from the back. It runs by default in place of the passes of peeling/algorithms/dual.cpp, which are its
+// definition: it leaves their bits, passes, queries and trace. tests/peeling/execution_test.cpp and
+// sequences_test.cpp compare the two.
+//
+// Declines   where a pixel's fragments alone do not decide how far it is peeled (a ratio, the paper's exit), where passes see another
+//            depth of a fragment, layers are kept, the background's alpha is not 1, the colour format is not one of stored_color.h or not
+//            that of back and picture, or no record can be sorted; and where MAX asks for an order or changes a depth: float targets with other than plain colours (block_passes.h), visible
+//            depths below the cleared -1, denormals that are flushed. Then the passes run.
+// Source     algorithms.md 0.7.
+// Ties       a depth is one group (block_passes.h).
+#include "peeling/loops/dual_resolve.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "peeling/loops/block_passes.h"
+#include "peeling/programs/min_max.h"
+#include "peeling/programs/region_programs.h"
+#include "pipeline/region/region_shortcuts.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// Null where it may be tried.
+const char* why_not(const Frame& frame) {
+    using enum TerminationRule;
+    const auto rule = frame.termination.rule;
+    const bool is_known = frame.color_format == Format::rgba8 || frame.color_format == Format::rgba16f ||
+                          frame.color_format == Format::rgba32f;
+    if (!is_known) return "the colour format is none of rgba8, rgba16f and rgba32f";
+    if (rule != exact && rule != any && rule != fixed) return "--termination asks after every pass how many are left";
+    if (!frame.is_invariant()) return "passes compare other depths than they store, or draw other vertices";
+    if (frame.published_format || frame.back_format) return "the back or the picture has a format of its own";
+    if (!frame.is_opaque()) return "the background's alpha is not 1";
+    return frame.keep_layers ? "layers are kept" : nullptr;
+}
+
+// Limits count the first pass, too, which peels nothing.
+BlockRules rules_of(const Frame& frame) {
+    BlockRules rules{.color = color_rules(*frame.profile, frame.color_format)};
+    const int fixed = frame.termination.rule == TerminationRule::fixed ? frame.termination.passes : 0;
+    for (const int limit : {frame.max_passes, fixed})
+        if (limit > 0) rules.most_passes = std::min(rules.most_passes, static_cast<std::uint32_t>(limit - 1));
+    return rules;
+}
+
+// Depths that MAX blending of (-z, z) onto (-1, -1) does not keep, or that have no order (depth.md 2.9).
+bool has_foreign_depths(const TileFragments& fragments, const DeviceProfile& profile) {
+    const bool flushes = profile.denormals == DenormalRule::flush;
+    const bool wraps = profile.raster.depth_limits == rasterizer::DepthLimits::wrap;
+    const auto is_denormal = [](float z) { return z != 0.0f && z > -0x1p-126f && z < 0x1p-126f; };
+    return std::ranges::any_of(fragments.shader_z(), [&](float z) {
+        return z < -1.0f || (flushes && is_denormal(z)) || (wraps && !(z >= 0.0f && z <= 1.0f));
+    });
+}
+
+// Depths of a sorted list.
+std::uint32_t distinct(const ListBlock& block, std::size_t lane) {
+    std::uint32_t depths = 0;
+    const std::uint32_t end = block.visible[lane];
+    for (std::uint32_t k = 0; k < end; k = block.end_of_depth(lane, k, end)) ++depths;
+    return depths;
+}
+
+std::uint32_t most_distinct(const ListBlock& block) {
+    std::uint32_t most = 0;
+    for (std::size_t lane = 0; lane < block_lanes; ++lane)
+        most = std::max(most, block.has_ties[lane] != 0 ? distinct(block, lane) : block.visible[lane]);
+    return most;
+}
+
+// Pass by pass, the front before the back. A depth's fragments are one mixture, so its entry names the depth and no
+// fragment; near == far is one group, and the near one (algorithms.md 5.1).
+void trace_pixel(Region& region, const ListBlock& block, std::size_t lane, std::uint32_t most_passes) {
+    std::uint32_t near = 0, far = block.visible[lane];
+    const auto add = [&](std::uint32_t k, Side side) {
+        region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, side, false});
+    };
+    for (std::uint32_t pass = 0; near < far && pass < most_passes; ++pass) {
+        add(near, Side::front);
+        near = block.end_of_depth(lane, near, far);
+        if (near == far) break;
+        add(far - 1, Side::back);
+        far = block.begin_of_depth(lane, near, far - 1);
+    }
+}
+
+// Blocks of an rgba8 region from their opaque colours up to the last quad.
+class Rgba8Course {
+  public:
+    explicit Rgba8Course(Region& region)
+        : region_{region},
+          target_{region.make_color()},
+          opaque_{RegionShortcuts{region}.words(region.opaque_color())},
+          result_{RegionShortcuts{region}.words(target_)} {
+        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
+            result_[pixel] = opaque_[pixel] | 0xff000000u;
+    }
+
+    // False if MAX does not order the colours.
+    bool run(const ListBlock& block, const BlockRules& rules) {
+        BlockCodes front{}, back = codes_of(opaque_ + block.first);
+        const bool is_plain = peel_both_ends(block, front, back, rules);
+        composite_block(front, back, rules, result_ + block.first);
+        return is_plain;
+    }
+
+    void publish() {
+        RegionShortcuts{region_}.count_passes({.full_screen = 1});
+        region_.publish(target_);
+    }
+
+  private:
+    Region& region_;
+    Target target_;
+    const Word* opaque_;
+    Word* result_;
+};
+
+// The same of floats, which are stored: the quad is a pass, which alone says which of two NaN stays.
+class FloatCourse {
+  public:
+    explicit FloatCourse(Region& region) : region_{region}, front_{region.make_color()}, back_{region.make_color()} {
+        RegionShortcuts{region}.uncounted([&] {
+            region.clear(front_, {.color = {0, 0, 0, 0}});
+            region.copy(region.opaque_color(), back_);
+        });
+    }
+
+    bool run(const ListBlock& block, const BlockRules& rules) {
+        const auto first = static_cast<std::uint32_t>(block.first);
+        BlockCodes front{}, back{};
+        std::iota(pixel_.begin(), pixel_.begin() + block_lanes, first);
+        region_.storage(region_.opaque_color()).gather(pixel_, block.count, 0, codes_);
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes_[c].begin(), block.count, back[c].begin());
+        const bool is_plain = peel_both_ends(block, front, back, rules);
+        store(front, first, block.count, front_);
+        store(back, first, block.count, back_);
+        return is_plain;
+    }
+
+    void publish() { publish_over(region_, front_, FrontAlpha::covers, back_); }
+
+  private:
+    void store(const BlockCodes& codes, std::uint32_t first, int count, Target to) {
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes[c].begin(), count, codes_[c].begin());
+        RegionShortcuts{region_}.store_pixels(to, first, count, codes_);
+    }
+
+    Region& region_;
+    Target front_, back_;
+    Lanes<std::uint32_t> pixel_;
+    ColorCodes codes_;
+};
+
+// Colours first, passes last: as long as colours may still turn out to be ones that MAX orders nothing is booked, and the trace is cut
+// back to where it was.
+template <class Course>
+bool peel_region(Region& region, const SortedRecord& record) {
+    RegionShortcuts shortcuts{region};
+    const BlockRules rules = rules_of(region.frame());
+    const std::uint32_t* const surface = region.storage(region.opaque_depth()).depth(0);
+    const std::size_t traced = shortcuts.trace().size();
+    Course course{region};
+    std::uint32_t deepest = 0;
+    bool is_plain = true;
+    for (std::size_t number = 0; number < record.sorted.blocks(); ++number) {
+        if (record.sorted.height(number) == 0) continue;
+        const ListBlock block = block_of(record.sorted, number, surface, record.fragments.color().data());
+        if (block.height == 0) continue;
+        deepest = std::max(deepest, most_distinct(block));
+        is_plain &= course.run(block, rules);
+        if (!region.frame().trace) continue;
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
+            trace_pixel(region, block, lane, rules.most_passes);
+    }
+    if (!is_plain) {
+        shortcuts.trace().shorten(traced);
+        return false;
+    }
+    shortcuts.count_passes({.geometry = 1, .copies = 1});
+    for (std::uint64_t passes = 1; !region.limit_reached(); ++passes) {
+        region.begin_iteration();
+        shortcuts.count_passes({.geometry = 1, .full_screen = 1});
+        if (!region.any(RegionShortcuts::query_of(deepest > 2 * passes ? 1 : 0), Idle::yes)) break;
+    }
+    course.publish();
+    return true;
+}
+
+}  // namespace
+
+bool dual_resolve(Region& region) {
+    RegionShortcuts shortcuts{region};
+    const auto declines = [&](const char* reason) {
+        shortcuts.note_resolved(reason);
+        return reason != nullptr;
+    };
+    if (declines(why_not(region.frame()))) return false;
+    const auto record = shortcuts.sorted_record(
+        {.shader_z = true, .code = false, .exact_code = false, .color = true, .texcoord = false, .facing = false});
+    if (declines(record ? nullptr : "a tile's fragments are not recorded, or their depths have no order")) return false;
+    if (has_foreign_depths(record->fragments, region.profile()))
+        return !declines("MAX does not keep every depth as it is");
+    const bool is_done = region.frame().color_format == Format::rgba8 ? peel_region<Rgba8Course>(region, *record)
+                                                                      : peel_region<FloatCourse>(region, *record);
+    return !declines(is_done ? nullptr : "MAX does not order the colours of this float target");
+}
+
+}  // namespace strata::peeling

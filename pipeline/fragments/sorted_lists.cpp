@@ -1,0 +1,106 @@
+#include "pipeline/fragments/sorted_lists.h"
+
+#include <algorithm>
+
+#include "pipeline/formats/lane_mask.h"
+#include "pipeline/stages/alpha_test.h"
+#include "rasterizer/rules/depth_code.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+[[nodiscard]] bool holds(const std::vector<PrimitiveRange>& ranges, std::uint32_t primitive) noexcept {
+    const auto behind = std::ranges::upper_bound(ranges, primitive, {}, &PrimitiveRange::first);
+    return behind != ranges.begin() && primitive < std::prev(behind)->last;
+}
+
+// As TileFragments does: an array that grows again and again leaves memory behind. Nothing of it is copied.
+template <class T>
+void take_room(UninitializedVector<T>& array, std::size_t admitted) {
+    constexpr std::size_t most_at_once = std::size_t{1} << 20;
+    array.clear();
+    array.reserve(std::min(admitted, most_at_once));
+}
+
+}  // namespace
+
+bool SortedLists::sort(const TileFragments& fragments, const SortRequest& request, std::size_t pixels,
+                       std::uint64_t limit, const std::uint32_t* surface) {
+    request_ = request;
+    state_ = State::declined;
+    if (!has_order(fragments)) return false;
+    const auto admitted = static_cast<std::size_t>(limit / sizeof(std::uint64_t));
+    take_room(entries_, admitted);
+    take_room(taken_, admitted);
+    choose(fragments, surface);
+    const auto pixel = fragments.pixel();
+    count_.assign(pixels, 0);
+    for (std::size_t index = 0; index < pixel.size(); ++index) count_[pixel[index]] += taken_[index] & 1u;
+    begin_.assign(1, 0);
+    std::uint64_t entries = 0;
+    size_ = 0;
+    for (std::size_t first = 0; first < pixels; first += block_lanes) {
+        std::uint32_t tallest = 0;
+        for (std::size_t p = first; p < std::min(first + block_lanes, pixels); ++p) {
+            tallest = std::max(tallest, count_[p]);
+            size_ += count_[p];
+        }
+        entries += std::uint64_t{tallest} * block_lanes;
+        if (entries * sizeof(std::uint64_t) > limit || entries > 0xffffffff) return false;
+        begin_.push_back(static_cast<std::uint32_t>(entries));
+    }
+    found_.assign(pixels, {});
+    place_words(fragments);
+    for (std::size_t block = 0; !request.by_submission && block < blocks(); ++block)
+        sort_levels(entries_.data() + begin_[block], height(block));
+    state_ = State::sorted;
+    return true;
+}
+
+// Whether the order of entries is that of depths.
+bool SortedLists::has_order(const TileFragments& fragments) const {
+    bool has = true;
+    if (request_.key == DepthKey::shader_z)
+        for (const float z : fragments.shader_z()) has &= z == z;
+    else
+        for (const std::uint32_t code : fragments.code()) has &= !request_.is_float || code <= 0x7f800000u;
+    return has;
+}
+
+void SortedLists::choose(const TileFragments& fragments, const std::uint32_t* surface) {
+    taken_.resize(fragments.size());
+    std::ranges::fill(taken_, ~0u);
+    const auto primitive = fragments.primitive();
+    for (std::size_t index = 0; !request_.primitives.empty() && index < taken_.size(); ++index)
+        taken_[index] = mask(holds(request_.primitives, primitive[index]));
+    for (std::size_t index = 0; surface != nullptr && index < taken_.size(); ++index)
+        taken_[index] &= mask(fragments.code()[index] < surface[fragments.pixel()[index]]);
+    rasterizer::Lanes<float> alpha;
+    for (std::size_t first = 0; request_.alpha.enabled && first < taken_.size(); first += alpha.size()) {
+        const std::size_t count = std::min(alpha.size(), taken_.size() - first);
+        for (std::size_t i = 0; i < count; ++i) alpha[i] = fragments.color()[first + i][3];
+        alpha_test(request_.alpha, request_.eight_bit_alpha, alpha.data(), &taken_[first], static_cast<int>(count));
+    }
+}
+
+// Words go where their pixels' lists have got to; what lies above a list is cleared first.
+void SortedLists::place_words(const TileFragments& fragments) {
+    entries_.resize(begin_.back());
+    std::ranges::fill(entries_, ~std::uint64_t{0});
+    const auto pixel = fragments.pixel();
+    std::vector<std::uint32_t> next(pixels());
+    for (std::size_t p = 0; p < next.size(); ++p)
+        next[p] = begin_[p / block_lanes] + static_cast<std::uint32_t>(p % block_lanes);
+    const bool is_value = request_.key == DepthKey::shader_z;
+    for (std::size_t index = 0; index < pixel.size(); ++index) {
+        if (taken_[index] == 0) continue;
+        const std::uint32_t key =
+            is_value ? rasterizer::ordered_code(fragments.shader_z()[index]) : fragments.code()[index];
+        std::uint32_t& at = next[pixel[index]];
+        entries_[at] = std::uint64_t{key} << 32 | static_cast<std::uint32_t>(index);
+        at += block_lanes;
+    }
+}
+
+}  // namespace strata::pipeline
