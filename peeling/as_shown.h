@@ -1,8 +1,9 @@
-// peeling/as_shown.h - from what a device holds in memory to what a caller sees: depths for keys, and the upper row first.
+// peeling/as_shown.h - from what a device holds in memory to what a caller sees: depths for keys, and the upper row
+// first.
 //
-// Rule     Under reversed depth memory holds keys (rasterizer/rules/depth_key.h): depth targets leave as depths. With the origin
-//          lower_left memory begins at the lowest row: images, and pixels that are named, leave with y counted from the top. Of several
-//          pixels the first is the first in memory.
+// Rule     Under reversed depth memory holds keys (rasterizer/rules/depth_key.h): depth targets leave as depths. With
+//          the origin lower_left memory begins at the lowest row: images, and pixels that are named, leave with y
+//          counted from the top. Of several pixels the first is the first in memory.
 // Tests    tests/peeling/origin_test.cpp, reversed_depth_test.cpp
 #pragma once
 #include <cstdint>

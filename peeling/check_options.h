@@ -1,4 +1,5 @@
-// peeling/check_options.h - what a frame asks for, looked at before anything is prepared: nonsense throws, what the device lacks is refused by name.
+// peeling/check_options.h - what a frame asks for, looked at before anything is prepared: nonsense throws, what the
+// device lacks is refused by name.
 //
 // Tests    tests/peeling/refusals_test.cpp
 #pragma once

@@ -1,8 +1,9 @@
 // peeling/invariance.h - one experiment of the invariance laboratory: a peel whose passes see two depths, measured.
 //
-// Rule     `write` computes the depth that is stored, `compare` the depth that a later pass compares with it. The fragments of
-//          both are paired and counted; the peel is then run on the emulated machine with that pair and the given remedy (bias,
-//          epsilon, quantisation), and its trace and picture are held against the exact A-buffer.
+// Rule     `write` computes the depth that is stored, `compare` the depth that a later pass compares with it. The
+//          fragments of both are paired and counted; the peel is then run on the emulated machine with that pair and
+//          the given remedy (bias, epsilon, quantisation), and its trace and picture are held against the exact
+//          A-buffer.
 // Source   Everitt 2001; audit.md 11; texturing.md 4.1; numbers.md 6.
 // Tests    tests/peeling/invariance_test.cpp
 #pragma once
@@ -41,8 +42,8 @@ struct Experiment {
 struct Advice {
     std::optional<SafeRange> epsilon_ulps;
     std::optional<SafeAbsolute> epsilon;
-    // Of polygon offset, in units. Fixed-point formats alone, where a unit is a code; and only if the offset moves the stored
-    // depth and not the compared one.
+    // Of polygon offset, in units. Fixed-point formats alone, where a unit is a code; and only if the offset moves the
+    // stored depth and not the compared one.
     std::optional<SafeRange> bias;
 };
 

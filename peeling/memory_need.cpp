@@ -22,7 +22,8 @@ constexpr int block_px = 8;  // of the parts of it whose density is told
 constexpr std::uint64_t word_bytes = 4;
 // A transformed vertex with what set-up takes of it, a triangle set up, and its place in the bins of a few tiles.
 constexpr std::uint64_t vertex_bytes = 32, triangle_bytes = 64;
-// A recorded fragment with its depth, its colour and its sorted words; one in a pixel's list; and what the audit holds of one: its step of the trace, and itself in a list.
+// A recorded fragment with its depth, its colour and its sorted words; one in a pixel's list; and what the audit holds
+// of one: its step of the trace, and itself in a list.
 constexpr std::uint64_t captured_bytes = 80, listed_bytes = 32, audited_bytes = 64;
 
 // Fragments a pixel: of the region, and of its densest block.

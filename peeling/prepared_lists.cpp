@@ -27,8 +27,8 @@ bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
 }
 
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
-    // What cannot be prepared is refused now. Transparent lists wait until an algorithm draws them, in its own order and with what it
-    // compares.
+    // What cannot be prepared is refused now. Transparent lists wait until an algorithm draws them, in its own order
+    // and with what it compares.
     check(s_.profile);
     rasterizer::check(s_.raster);
     check(s_.list);

@@ -1,7 +1,8 @@
 // peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed and set up once.
 //
-// Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is what all passes
-//          but the first draw, where another vertex path, another split of the surfaces or another depth clamp was asked for.
+// Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is what
+//          all passes but the first draw, where another vertex path, another split of the surfaces or another depth
+//          clamp was asked for.
 // Tests    tests/peeling/comparison_test.cpp, partial_order_test.cpp, sort_test.cpp
 #pragma once
 #include <array>
@@ -36,8 +37,8 @@ class PreparedLists {
     void bin(int tile_size_px);
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
-    // What they are set up from, for callers that want the vertices; and the numbers of the transparent soup's triangles in the
-    // order in which they are submitted, empty if as listed.
+    // What they are set up from, for callers that want the vertices; and the numbers of the transparent soup's
+    // triangles in the order in which they are submitted, empty if as listed.
     [[nodiscard]] rasterizer::TriangleSoup opaque_soup() const;
     [[nodiscard]] rasterizer::TriangleSoup transparent_soup() const;
     [[nodiscard]] std::vector<std::uint32_t> submission(ListOrder order) const;

@@ -7,7 +7,8 @@
 
 namespace strata::peeling {
 
-// The state of a frame's rasterization: viewport, depth format, and in memory's rows where clip-space +y points and what the scissor leaves.
+// The state of a frame's rasterization: viewport, depth format, and in memory's rows where clip-space +y points and
+// what the scissor leaves.
 [[nodiscard]] inline rasterizer::RasterState raster_state(const RenderOptions& options,
                                                           const pipeline::DeviceProfile& profile) noexcept {
     using enum rasterizer::YDirection;

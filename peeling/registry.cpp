@@ -1,8 +1,9 @@
 // peeling/registry.cpp - the algorithms, gathered from their files.
 //
-// Rule     Algorithm::listed says in which order every list and table prints them; those of one number stay as their file names them.
-// Tests    tests/peeling/refusals_test.cpp, passes_test.cpp; tests/lint/specification_covers.py: each name has a section in the
-//          specification
+// Rule     Algorithm::listed says in which order every list and table prints them; those of one number stay as their
+//          file names them.
+// Tests    tests/peeling/refusals_test.cpp, passes_test.cpp; tests/lint/specification_covers.py: each name has a
+//          section in the specification
 #include "peeling/registry.h"
 
 #include <algorithm>

@@ -70,8 +70,8 @@ struct Renderer::State {
     }
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm, const Instruments& instruments) const {
-        // A tile that stops early does not know how many passes the others made in the loops that it left early, unless every
-        // answer is its own count's; and a log of passes names them all.
+        // A tile that stops early does not know how many passes the others made in the loops that it left early, unless
+        // every answer is its own count's; and a log of passes names them all.
         const bool is_open =
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
@@ -125,9 +125,9 @@ struct Renderer::State {
                 .bytes_a_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
     }
 
-    // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
-    // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that. A replaced depth is the
-    // quotient that is compared: that peel ends by itself, and the triangles, a fragment of the pixel each at most, bound it for nothing.
+    // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored,
+    // or by other vertices, it may find the same fragments for ever: twice as many passes show that. A replaced depth
+    // is the quotient that is compared: that peel ends by itself, and the number of triangles bounds it.
     [[nodiscard]] int pass_limit(const Frame& f) {
         if (limits_passes() || f.is_invariant()) return options.max_passes;
         constexpr std::size_t most = 1u << 30;
@@ -221,7 +221,7 @@ struct Renderer::State {
         return options.quantize_reference && profile.raster.hypothesis.quantize_reference;
     }
 
-    // Keys of reversed depth (rasterizer/rules/depth_key.h) are those of float codes; a light's map would need both orders.
+    // Keys of reversed depth (rasterizer/rules/depth_key.h) are of float codes; a light's map would need both orders.
     [[nodiscard]] Verdict check_order() const {
         if (!is_reversed()) {
             if (options.raster.depth_near > options.raster.depth_far)

@@ -1,8 +1,8 @@
 // peeling/render.h - one call from a draw list to a finished frame with its statistics: what tools and tests use.
 //
-// Rule     Options that no profile could mean throw InputError. A combination that this profile lacks is refused by name,
-//          in the order of devices.md 9.2. Defaults are those of devices.md 11. Kernels run on the instruction set that
-//          the options name, in the calling thread and in its workers.
+// Rule     Options that no profile could mean throw InputError. A combination that this profile lacks is refused by
+//          name, in the order of devices.md 9.2. Defaults are those of devices.md 11. Kernels run on the instruction
+//          set that the options name, in the calling thread and in its workers.
 // Tests    tests/peeling/refusals_test.cpp, comparison_test.cpp
 #pragma once
 #include <functional>
@@ -54,28 +54,29 @@ struct FrameFragments {
 // Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
 class Renderer {
   public:
-    // Throws InputError, which names the field, for options that no profile could mean and for a list whose parts do not fit
-    // together. `list` must outlive the renderer.
+    // Throws InputError, which names the field, for options that no profile could mean and for a list whose parts do
+    // not fit together. `list` must outlive the renderer.
     Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options);
     Renderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options) = delete;  // a temporary list would dangle
     ~Renderer();
 
-    // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the fragments of
-    // one pixel are more than the audit's memory holds.
+    // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the
+    // fragments of one pixel are more than the audit's memory holds.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       const pipeline::Instruments& instruments = {});
 
     // Renders without an audit; `traces` gets the trace of every region.
     [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
 
-    // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.
+    // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in
+    // frame.depth.
     [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {},
                                           const pipeline::Instruments& instruments = {});
 
-    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused, and InputError if the
-    // fragments take more than the audit's memory.
+    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused, and
+    // InputError if the fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;

@@ -1,5 +1,5 @@
-// peeling/render_diagnostics.h - what a frame says beside its picture: the causes of order errors, peels that found no end, and what no
-// device had.
+// peeling/render_diagnostics.h - what a frame says beside its picture: the causes of order errors, peels that found no
+// end, and what no device had.
 //
 // Source   keys-and-counts.md 3.4 and 7.3.
 // Tests    tests/peeling/comparison_test.cpp, published_test.cpp, algorithms/shadow_map_test.cpp

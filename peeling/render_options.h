@@ -1,4 +1,5 @@
-// peeling/render_options.h - what a caller may choose for a frame: its size and formats, depths and orders, and how it is run.
+// peeling/render_options.h - what a caller may choose for a frame: its size and formats, depths and orders, and how it
+// is run.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,7 +27,8 @@ struct Algorithm;
 inline constexpr int tile_sizes[] = {8, 16, 32, 64, 128};
 inline constexpr std::uint64_t least_audit_memory = std::uint64_t{16} << 20;
 
-// How the first pass of a peel computes its positions (default: as the view says), and how further ones do (default: alike).
+// How the first pass of a peel computes its positions (default: as the view says), and how further ones do (default:
+// alike).
 struct VertexPaths {
     std::optional<pipeline::VertexPath> first{}, second{};
     friend bool operator==(const VertexPaths&, const VertexPaths&) = default;
@@ -71,15 +73,15 @@ struct RenderOptions {
     bool nearest_depth = true;  // make the Z image
     // The viewport's corner on its surface, in pixels; positions move with it exactly.
     std::array<int, 2> window_origin{0, 0};
-    // Conventions, as the picture shows them: raster_state.h makes them those of memory. The viewport is set from width, height and
-    // window_origin.
+    // Conventions, as the picture shows them: raster_state.h makes them those of memory. The viewport is set from
+    // width, height and window_origin.
     rasterizer::RasterState raster{};
     const pipeline::VertexAlteration* vertex_alteration = nullptr;  // outlives the renderer; null: none
 };
 
-// The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all and the frame has many
-// tiles: triangles are divided among fewer. (More passes keep more a pixel, and want it in the caches.)
-// Whether fragments are visited once, by the algorithm's resolve, and what is kept of them lasts for a tile.
+// The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all
+// and the frame has many tiles: triangles are divided among fewer. (More passes keep more a pixel, and want it in the
+// caches.) Whether fragments are visited once, by the algorithm's resolve, and what is kept of them lasts for a tile.
 [[nodiscard]] bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 [[nodiscard]] int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 

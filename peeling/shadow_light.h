@@ -22,8 +22,8 @@ struct LightMap {
     pipeline::ShadowStage stage;    // looks at `depth`, whose codes stay where they are when this is moved
 };
 
-// The map of the list's light, in the depth that the device writes by itself; `eye` lends its conventions: clip depth, y direction, depth
-// range. None without a light, or if the device cannot have that depth, for then nothing runs.
+// The map of the list's light, in the depth that the device writes by itself; `eye` lends its conventions: clip depth,
+// y direction, depth range. None without a light, or if the device cannot have that depth, for then nothing runs.
 [[nodiscard]] std::unique_ptr<const LightMap> light_map(const pipeline::DrawList& list,
                                                         const pipeline::DeviceProfile& profile,
                                                         const rasterizer::RasterState& eye, int threads);

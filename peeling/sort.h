@@ -1,10 +1,10 @@
 // peeling/sort.h - the order in which triangles are submitted: by the depth of their centroids, more or less well.
 //
-// Rule     Key: the sum of the three clip z, an increasing function of the centroid's eye depth for every projection whose
-//          third row is (0, 0, a, b); NaN counts as 0; negated
-//          where the greater z is nearer. exact: by key, near first, ties as listed. bucket: [least, greatest] key
-//          cut into N equal buckets, near first, within a bucket as listed. reverse: far first, ties as listed. shuffle: exact,
-//          then a fraction of the triangles, drawn by the seed, moves: each to the next one's place.
+// Rule     Key: the sum of the three clip z, an increasing function of the centroid's eye depth for every projection
+//          whose third row is (0, 0, a, b); NaN counts as 0; negated where the greater z is nearer. exact: by key, near
+//          first, ties as listed. bucket: [least, greatest] key cut into N equal buckets, near first, within a bucket
+//          as listed. reverse: far first, ties as listed. shuffle: exact, then a fraction of the triangles, drawn by
+//          the seed, moves: each to the next one's place.
 // Source   Carr, Mech and Miller 2008, section 9 (bucket sort of centroids); keys-and-counts.md 5.
 // Tests    tests/peeling/sort_test.cpp
 #pragma once

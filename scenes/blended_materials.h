@@ -1,7 +1,7 @@
 // scenes/blended_materials.h - single materials drawn as transparent, as --alpha NAME=A asks.
 //
-// Rule     Each material of that name becomes BLEND, its colours' alpha times A. A material whose alpha is cut (MASK) is refused: blended, it
-//          would show what is cut.
+// Rule     Each material of that name becomes BLEND, its colours' alpha times A. A material whose alpha is cut (MASK)
+//          is refused: blended, it would show what is cut.
 // Tests    tests/scenes/blended_materials_test.cpp
 #pragma once
 #include <span>

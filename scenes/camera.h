@@ -20,21 +20,22 @@ struct LookAt {  // what a camera file of the first form says
 
 [[nodiscard]] pipeline::View look_at(const LookAt& camera, double aspect) noexcept;
 
-// Sees the whole bounding sphere of the box: its near and far planes are 1.4 and 3.6 of the sphere's radii away. |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and
-// below, up is the limit. A box without extent is framed as if its radius were 1, an empty one as if it stood at the
-// origin.
+// Sees the whole bounding sphere of the box: its near and far planes are 1.4 and 3.6 of the sphere's radii away.
+// |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and below, up is the limit. A box without
+// extent is framed as if its radius were 1, an empty one as if it stood at the origin.
 [[nodiscard]] LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevation_degrees);
 [[nodiscard]] pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees,
                                         double aspect);
 
-// What clip-space z means: where the volume ends, and whether near is the greater depth (0 <= z <= w then has near at w).
+// What clip-space z means: where the volume ends, and whether near is the greater depth (0 <= z <= w then has near at
+// w).
 struct ClipConvention {
     rasterizer::ClipDepth clip_depth = rasterizer::ClipDepth::minus_one_to_one;
     rasterizer::DepthOrder depth_order = rasterizer::DepthOrder::less;
     friend bool operator==(const ClipConvention&, const ClipConvention&) = default;
 };
-// The same volume under another convention: z and w are the third and fourth rows of the projection, in binary64. To 0 to 1:
-// z' = (z + w) / 2; from it: z' = 2 z - w; near exchanged with far: z' = w - z, or -z where z runs from -w.
+// The same volume under another convention: z and w are the third and fourth rows of the projection, in binary64. To 0
+// to 1: z' = (z + w) / 2; from it: z' = 2 z - w; near exchanged with far: z' = w - z, or -z where z runs from -w.
 [[nodiscard]] pipeline::View as_seen_under(const pipeline::View& view, const ClipConvention& from,
                                            const ClipConvention& to);
 

@@ -1,7 +1,9 @@
-// scenes/inside_folder.h - a file that another file names: it must lie in a folder, and no name or link may lead out of it.
+// scenes/inside_folder.h - a file that another file names: it must lie in a folder, and no name or link may lead out of
+// it.
 //
-// Rule     A file from someone else may name only what lies beside it or below: a relative path without "..", whose links, all of them
-//          followed, end in the folder. Used for uris of glTF files, arrays of packs, and the command that a picture keeps.
+// Rule     A file from someone else may name only what lies beside it or below: a relative path without "..", whose
+//          links, all of them followed, end in the folder. Used for uris of glTF files, arrays of packs, and the
+//          command that a picture keeps.
 // Tests    tests/scenes/inside_folder_test.cpp
 #pragma once
 #include <filesystem>

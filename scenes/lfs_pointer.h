@@ -1,5 +1,5 @@
-// scenes/lfs_pointer.h - the text that Git LFS leaves where a file has not been fetched: 130 bytes that a reader of numbers would take
-// for numbers.
+// scenes/lfs_pointer.h - the text that Git LFS leaves where a file has not been fetched: 130 bytes that a reader of
+// numbers would take for numbers.
 // Source   Git LFS Specification, "The Pointer": the first line is "version https://git-lfs.github.com/spec/v1"
 // Tests    tests/scenes/files/lfs_pointer_test.cpp
 #pragma once

@@ -39,8 +39,8 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     std::size_t best_distance = 0;
     for (const std::string_view candidate : candidates) {
         const std::size_t distance = edit_distance(name, candidate);
-        // More would be a guess: a third of the candidate's letters may differ, and one of two. Only a smaller distance replaces
-        // the best, so the first of equals stays.
+        // More would be a guess: a third of the candidate's letters may differ, and one of two. Only a smaller distance
+        // replaces the best, so the first of equals stays.
         const std::size_t most = candidate.size() == 2 ? 1 : candidate.size() / 3;
         if (distance > most || candidate.empty() || (!best.empty() && distance >= best_distance)) continue;
         best = candidate;

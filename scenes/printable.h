@@ -1,8 +1,10 @@
-// scenes/printable.h - text from outside as it may stand in a sentence, one line of UTF-8, and in a document of XML or HTML.
+// scenes/printable.h - text from outside as it may stand in a sentence, one line of UTF-8, and in a document of XML or
+// HTML.
 //
-// Rule     A control character below U+0020 and a byte that is no part of a UTF-8 character become \xNN; U+007F to U+009F, which JSON does
-//          not escape and some terminals obey, become \u00NN. A file's name and a word of the
-//          command line may hold any byte but 0. Source   RFC 3629 4. Tests    tests/tools/errors_test.cpp, tests/tools/messages_test.cpp
+// Rule     A control character below U+0020 and a byte that is no part of a UTF-8 character become \xNN; U+007F to
+//          U+009F, which JSON does not escape and some terminals obey, become \u00NN. A file's name and a word of the
+//          command line may hold any byte but 0. Source RFC 3629 4. Tests tests/tools/errors_test.cpp,
+//          tests/tools/messages_test.cpp
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -59,8 +61,8 @@ namespace strata::scenes {
     return std::string(text);
 }
 
-// As content of an element, or as an attribute in quotation marks, of XML and HTML: what either does not allow is as `printable` has it,
-// but for line ends.
+// As content of an element, or as an attribute in quotation marks, of XML and HTML: what either does not allow is as
+// `printable` has it, but for line ends.
 [[nodiscard]] inline std::string markup_text(std::string_view text) {
     std::string safe;
     std::size_t begin = 0;

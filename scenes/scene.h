@@ -1,4 +1,5 @@
-// scenes/scene.h - a scene as it comes from a file or a formula: a draw list, its bounds, its cameras and what was noticed on the way.
+// scenes/scene.h - a scene as it comes from a file or a formula: a draw list, its bounds, its cameras and what was
+// noticed on the way.
 #pragma once
 #include <optional>
 #include <string>
@@ -56,8 +57,10 @@ struct SceneOptions {
     std::vector<MaterialAlpha> alpha{};  // --alpha NAME=A; every material of that name
 };
 
-// `spec` is a path to a .gltf, .glb, .obj, .ply, .stl or .off file or to a pack, "-" for a glTF file from standard input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
-// "random:seed=S,triangles=N", "shadow-demo", "showroom", "hard:case=NAME". Throws InputError for everything that is not one of them or is malformed.
+// `spec` is a path to a .gltf, .glb, .obj, .ply, .stl or .off file or to a pack, "-" for a glTF file from standard
+// input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
+// "random:seed=S,triangles=N", "shadow-demo", "showroom", "hard:case=NAME". Throws InputError for everything that is
+// not one of them or is malformed.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
 // The two halves of load_scene.

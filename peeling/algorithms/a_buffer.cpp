@@ -1,5 +1,5 @@
-// peeling/algorithms/a_buffer.cpp - the oracle: every visible fragment of a pixel, sorted by exact depth, composited in binary64.
-// algorithms.md 17 (Carpenter 1984, the A-buffer).
+// peeling/algorithms/a_buffer.cpp - the oracle: every visible fragment of a pixel, sorted by exact depth, composited in
+// binary64. algorithms.md 17 (Carpenter 1984, the A-buffer).
 //
 // Needs      nothing: no device ran it.
 // Passes     1. Equal depths: the first submitted in front, none lost.

@@ -46,7 +46,8 @@ struct Algorithm {
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;
-    // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some of them twice.
+    // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some
+    // of them twice.
     std::function<void(pipeline::Region&)> body{};
     bool (*resolve_loop)(pipeline::Region&) = nullptr;  // its whole loop from the record, or false; null if it has none
     std::vector<pipeline::Feature> features{};          // what a profile must have
@@ -55,7 +56,8 @@ struct Algorithm {
     std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say
     std::optional<rasterizer::DepthPath> compares{};  // the one that it compares, unless the options say otherwise
 
-    // Whether a tile's fragments are recorded for it: of an algorithm that draws them once that would be work for nothing.
+    // Whether a tile's fragments are recorded for it: of an algorithm that draws them once that would be work for
+    // nothing.
     [[nodiscard]] bool draws_again() const {
         const bool draws_once = geometry_passes != nullptr && geometry_passes(9) == 1;
         const bool is_known = run != nullptr || geometry_passes != nullptr;  // unlike a body of a user's own

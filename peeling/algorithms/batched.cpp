@@ -1,10 +1,11 @@
-// peeling/algorithms/batched.cpp - objects heaped by depth, taken in batches, and each batch's interval of depth peeled by itself.
-// Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 15.
+// peeling/algorithms/batched.cpp - objects heaped by depth, taken in batches, and each batch's interval of depth peeled
+// by itself. Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 15.
 //
 // Needs      a fragment program with discard (clip planes), separate alpha blending, a depth buffer that it can read.
-// Passes     the sum over intervals of L + 1, L the layers in an interval. Equal depths: the first in submission order stays.
-// Invariant  before interval j everything before its lower bound is composited. Intervals are half-open, so that a fragment
-//            at a bound belongs to one of them.
+// Passes     the sum over intervals of L + 1, L the layers in an interval. Equal depths: the first in submission order
+//            stays.
+// Invariant  before interval j everything before its lower bound is composited. Intervals are half-open, so that a
+//            fragment at a bound belongs to one of them.
 #include <algorithm>
 #include <utility>
 

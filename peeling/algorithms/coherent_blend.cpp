@@ -1,10 +1,12 @@
-// peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: blending shifts each nearest depth so far into the colour when a nearer
-// one comes. Carr, Mech and Miller 2008, section 6; algorithms.md 11, erratum E16.
+// peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: blending shifts each nearest depth so far into the
+// colour when a nearer one comes. Carr, Mech and Miller 2008, section 6; algorithms.md 11, erratum E16.
 //
-// Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs can read.
+// Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs
+//            can read.
 // Passes     5 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2).
 //            Equal depths: all, the first submitted in front.
-// Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test stores.
+// Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test
+//            stores.
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 #include "peeling/programs/depth_float.h"
@@ -15,8 +17,8 @@ using namespace pipeline;
 
 namespace {
 
-// rgb = source 1 x destination alpha: the depth before; alpha = the new one. As printed, (ZERO, DST_ALPHA), rgb becomes the
-// product of all depths before: too small from the third update on, and the pixel stalls (E16).
+// rgb = source 1 x destination alpha: the depth before; alpha = the new one. As printed, (ZERO, DST_ALPHA), rgb becomes
+// the product of all depths before: too small from the third update on, and the pixel stalls (E16).
 Blend shift(bool published) {
     using enum BlendFactor;
     const BlendTerm as_printed{BlendEquation::add, zero, dst_alpha}, resolved{BlendEquation::add, dst_alpha, zero};

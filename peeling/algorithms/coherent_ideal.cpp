@@ -1,10 +1,12 @@
-// peeling/algorithms/coherent_ideal.cpp - coherent layer peeling in two passes, on hardware that was never built: the rasterizer reads and
-// writes several depths and a flag at every sample. Carr, Mech and Miller 2008, Algorithm 2; algorithms.md 12, errata E23, E25.
+// peeling/algorithms/coherent_ideal.cpp - coherent layer peeling in two passes, on hardware that was never built: the
+// rasterizer reads and writes several depths and a flag at every sample. Carr, Mech and Miller 2008, Algorithm 2;
+// algorithms.md 12, errata E23, E25.
 //
 // Needs      STRATA_ordered_rmw: targets that a program reads and writes, fragment after fragment.
-// Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, the first in front.
-// Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; what lies exactly
-//            there is composited by that pass.
+// Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, the
+//            first in front.
+// Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; what lies
+//            exactly there is composited by that pass.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
@@ -49,7 +51,8 @@ class IdealPeel {
     }
 
   private:
-    // As published, finished pixels change while others are peeled (E25); under a limit the last run waits for its composite.
+    // As published, finished pixels change while others are peeled (E25); under a limit the last run waits for its
+    // composite.
     [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
 
     [[nodiscard]] float as_float(std::uint32_t code) const noexcept { return depth_as_float(code, format_); }

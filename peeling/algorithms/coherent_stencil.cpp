@@ -1,10 +1,11 @@
-// peeling/algorithms/coherent_stencil.cpp - coherent layer peeling A: runs of fragments in order, found by counting in the stencil buffer.
-// Carr, Mech and Miller 2008, section 5; algorithms.md 10.
+// peeling/algorithms/coherent_stencil.cpp - coherent layer peeling A: runs of fragments in order, found by counting in
+// the stencil buffer. Carr, Mech and Miller 2008, section 5; algorithms.md 10.
 //
 // Needs      8-bit stencil beside a depth buffer that programs can read, separate alpha blending.
-// Passes     6 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2) for n <= 255.
-//            Equal depths: all, the first submitted in front.
-// Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost time (E19).
+// Passes     6 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2) for
+//            n <= 255. Equal depths: all, the first submitted in front.
+// Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost time
+//            (E19).
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 

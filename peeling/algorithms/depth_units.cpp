@@ -1,8 +1,11 @@
-// peeling/algorithms/depth_units.cpp - one layer a pass by two sequential depth units. Everitt 2001, Listing 1; algorithms.md 2.
+// peeling/algorithms/depth_units.cpp - one layer a pass by two sequential depth units. Everitt 2001, Listing 1;
+// algorithms.md 2.
 //
 // Needs      STRATA_depth_units, an emulator extension: no device had sequential depth units.
-// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
-// Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
+// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order
+//            stays.
+// Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has
+//            none.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/layer_quads.h"
 #include "peeling/programs/region_programs.h"

@@ -1,10 +1,11 @@
-// peeling/algorithms/dual.cpp - two layers a pass, the nearest and the farthest, blended on the fly under one shared MAX equation.
-// Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
+// peeling/algorithms/dual.cpp - two layers a pass, the nearest and the farthest, blended on the fly under one shared
+// MAX equation. Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
 //
 // Needs      RG32F and float MAX blending, three render targets.
-// Passes     1 + max(1, ceil(N/2)) with the min-max exit; the paper's exit: floor(N/2) + 2. Ties at a peeled depth merge.
-// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 - transmittance),
-//            back = what lies behind far, over the background.
+// Passes     1 + max(1, ceil(N/2)) with the min-max exit; the paper's exit: floor(N/2) + 2. Ties at a peeled depth
+//            merge.
+// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 -
+//            transmittance), back = what lies behind far, over the background.
 // By default these passes are the definition and do not run: in replay execution, on rgba8 and float targets,
 //            peeling/loops/dual_resolve.cpp finds what they leave from each pixel's sorted fragments.
 //            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and

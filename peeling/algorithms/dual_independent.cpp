@@ -1,10 +1,10 @@
-// peeling/algorithms/dual_independent.cpp - dual peeling with a blend equation a target: UNDER in front, OVER behind, during the peel.
-// Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1); algorithms.md 6.
+// peeling/algorithms/dual_independent.cpp - dual peeling with a blend equation a target: UNDER in front, OVER behind,
+// during the peel. Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1); algorithms.md 6.
 //
 // Needs      ARB_draw_buffers_blend (independent blending), RG32F and float MAX blending, three render targets.
 // Passes     ceil(N/2) + 2: the last peel finds nothing. No layer is lost on ties.
-// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = transmittance),
-//            back = what lies behind far, over the background. Neither is cleared between passes.
+// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha =
+//            transmittance), back = what lies behind far, over the background. Neither is cleared between passes.
 #include <algorithm>
 #include <utility>
 

@@ -1,7 +1,9 @@
-// peeling/algorithms/entry.h - what the entry of an algorithm is written with: each file of this folder ends with its own.
+// peeling/algorithms/entry.h - what the entry of an algorithm is written with: each file of this folder ends with its
+// own.
 //
-// Rule     peeling/algorithms/NAME.cpp is one listing: its head says paper, needs, passes and invariant; namespace listing::NAME holds its
-//          passes and `std::vector<Algorithm> entries()`. The build finds the files; nothing else lists them (listings.cpp.in).
+// Rule     peeling/algorithms/NAME.cpp is one listing: its head says paper, needs, passes and invariant; namespace
+//          listing::NAME holds its passes and `std::vector<Algorithm> entries()`. The build finds the files; nothing
+//          else lists them (listings.cpp.in).
 // Tests    tests/peeling/refusals_test.cpp, passes_test.cpp
 #pragma once
 #include <vector>
@@ -15,7 +17,8 @@ using pipeline::DepthKey;
 using enum pipeline::Feature;
 using rasterizer::DepthPath;
 
-// Geometry passes of a frame of N layers under exact termination: a single one; a pass a layer and one that finds nothing.
+// Geometry passes of a frame of N layers under exact termination: a single one; a pass a layer and one that finds
+// nothing.
 inline int one_pass(int) { return 1; }
 inline int every_layer_and_one(int layers) { return layers + 1; }
 

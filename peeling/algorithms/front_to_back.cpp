@@ -2,7 +2,8 @@
 // Everitt 2001 (the peel), Bavoil and Myers 2008 section "Under Blending"; algorithms.md 4.
 //
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
-// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
+// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order
+//            stays.
 // Invariant  before pass i, `accumulated` = layers 0 .. i-1 composited, alpha = what they let through,
 //            and `peeled` = the depth of layer i-1.
 #include <utility>

@@ -1,9 +1,11 @@
-// peeling/algorithms/k_buffer.cpp - the four nearest fragments so far at every pixel, sorted as they come; the fifth pushes the nearest out.
-// Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 14.
+// peeling/algorithms/k_buffer.cpp - the four nearest fragments so far at every pixel, sorted as they come; the fifth
+// pushes the nearest out. Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 14.
 //
 // Needs      STRATA_ordered_rmw (real devices had read-modify-write hazards here), six float render targets.
-// Passes     1. Right where no fragment has more than four deeper visible ones before it. Equal depths: first submitted in front.
-// Invariant  a pixel's entries are sorted by depth, ties as they came, and behind all that is composited unless a fault says so.
+// Passes     1. Right where no fragment has more than four deeper visible ones before it. Equal depths: first submitted
+//            in front.
+// Invariant  a pixel's entries are sorted by depth, ties as they came, and behind all that is composited unless a fault
+//            says so.
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -62,7 +64,8 @@ class KBuffer {
         }));
     }
 
-    // Sorts the fragment behind all entries up to its depth, and composites the first of the k + 1 if there are so many.
+    // Sorts the fragment behind all entries up to its depth, and composites the first of the k + 1 if there are so
+    // many.
     void insert(const FragmentBatch& in, const Loads& own, Outputs& out, std::size_t i) {
         std::array<Entry, k + 1> entries;
         for (std::size_t e = 0; e < k; ++e) {

@@ -1,9 +1,10 @@
-// peeling/algorithms/object_sorted.cpp - objects ordered front to back by occlusion queries, then composited as they come.
-// Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 16.
+// peeling/algorithms/object_sorted.cpp - objects ordered front to back by occlusion queries, then composited as they
+// come. Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 16.
 //
 // Needs      occlusion queries, separate alpha blending.
-// Passes     1 for each of n objects and 2 for every question: 3 n - 2 where they arrive front to back, n^2 + 2 n - 2 at most.
-//            An object's own fragments stay as they come, and cycles of objects are not cut: diagnosed, not repaired.
+// Passes     1 for each of n objects and 2 for every question: 3 n - 2 where they arrive front to back, n^2 + 2 n - 2
+//            at most. An object's own fragments stay as they come, and cycles of objects are not cut: diagnosed, not
+//            repaired.
 // Invariant  what is composited lies, at every pixel, in front of all objects that remain, unless a fault says so.
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace {
 
 using Objects = std::vector<PrimitiveRange>;
 
-// Whether object `which` lies behind any of the others somewhere: its fragments behind the nearest of theirs are counted.
+// Whether object `which` lies behind any of the others somewhere: its fragments behind the nearest of theirs are
+// counted.
 bool is_occluded(Region& region, const Objects& remaining, std::size_t which, Target nearest) {
     Objects others = remaining;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));

@@ -1,10 +1,12 @@
-// peeling/algorithms/stencil_routed_k_buffer.cpp - eight fragments a pass, each routed by the stencil test into a sample of its own, sorted
-// afterwards. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 13.
+// peeling/algorithms/stencil_routed_k_buffer.cpp - eight fragments a pass, each routed by the stencil test into a
+// sample of its own, sorted afterwards. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2;
+// algorithms.md 13.
 //
 // Needs      8-sample colour, depth and stencil targets, sample masks, a fragment covering all samples.
-// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first submitted in front.
-// Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in submission order; the last sample's stencil is 0
-//            where more have come.
+// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first submitted in
+//            front.
+// Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in submission order; the last sample's stencil
+//            is 0 where more have come.
 #include <vector>
 
 #include "peeling/algorithms/entry.h"
@@ -77,7 +79,8 @@ std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Cap
     return samples;
 }
 
-// One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's statistics.
+// One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's
+// statistics.
 Target resolve(Region& region, const std::vector<Capture>& captures) {
     RegionShortcuts shortcuts{region};
     const Target result = region.make(region.frame().picture_format());

@@ -2,8 +2,8 @@
 // Bavoil and Myers 2008, "Weighted Sum" (after Meshkin 2007); algorithms.md 8.
 //
 // Needs      fp16 additive blending.
-// Passes     1. An approximation: the background's weight 1 - sum a goes negative where alphas add up to more than 1, and the
-//            picture darkens; it is clamped by nothing but the final store.
+// Passes     1. An approximation: the background's weight 1 - sum a goes negative where alphas add up to more than 1,
+//            and the picture darkens; it is clamped by nothing but the final store.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, in submission order and in the target's precision.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"

@@ -1,12 +1,13 @@
-// peeling/audit/audit.h - a frame against the exact A-buffer of the same fragments: what the algorithm did, and what it lost.
+// peeling/audit/audit.h - a frame against the exact A-buffer of the same fragments: what the algorithm did, and what it
+// lost.
 //
-// Rule     Every region is looked at when it ends, while its trace is there (pixel_audit.h says what is compared), with the
-//          fragments of as many pixels at a time as fit into the audit's memory. What does not fit, a trace or a pixel's
-//          fragments, is run again after the frame, in parts that are halved until they fit, with the frame's answers for a
-//          script. So the figures depend neither on the memory nor on tiles, threads and execution.
-// Numbers  A worker has an equal share of the memory, and what does not fit into a share is done alone with all of it. Half
-//          of a share is for the trace, 16 bytes an entry; the rest for lists, 52 bytes a fragment: 28 in its list, 8 in each
-//          of three orders. Beside it a pixel of a region takes 24 bytes while the region is looked at.
+// Rule     Every region is looked at when it ends, while its trace is there (pixel_audit.h says what is compared), with
+//          the fragments of as many pixels at a time as fit into the audit's memory. What does not fit, a trace or a
+//          pixel's fragments, is run again after the frame, in parts that are halved until they fit, with the frame's
+//          answers for a script. So the figures depend neither on the memory nor on tiles, threads and execution.
+// Numbers  A worker has an equal share of the memory, and what does not fit into a share is done alone with all of it.
+//          Half of a share is for the trace, 16 bytes an entry; the rest for lists, 52 bytes a fragment: 28 in its
+//          list, 8 in each of three orders. Beside it a pixel of a region takes 24 bytes while the region is looked at.
 // Source   audit.md 13; what is compared, 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp, tests/peeling/audit/audit_memory_test.cpp
 #pragma once
@@ -34,8 +35,8 @@ struct AuditMemory {
 // One frame's. It must be there while the frame runs.
 class Audit {
   public:
-    // `frame` and `body` are what the executor runs, and must outlive the audit. The frame's own trace_bytes say how long its
-    // regions' traces get. threads: 0: all.
+    // `frame` and `body` are what the executor runs, and must outlive the audit. The frame's own trace_bytes say how
+    // long its regions' traces get. threads: 0: all.
     Audit(const pipeline::Frame& frame, const pipeline::Body& body, const Algorithm& algorithm, std::uint64_t bytes,
           int threads);
     ~Audit();

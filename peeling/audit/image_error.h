@@ -1,9 +1,10 @@
-// peeling/audit/image_error.h - how far a picture is from the true one: largest difference, root mean square, signal to noise.
+// peeling/audit/image_error.h - how far a picture is from the true one: largest difference, root mean square, signal to
+// noise.
 //
-// Rule     Over red, green and blue, in units of 1/255 of the frame's colour values. Sums run in row-major order in binary64.
-//          PSNR = 20 log10(255 / rmse) decibels: none where nothing differs.
-// Numbers  The logarithm is a sum of 24 terms of the series of atanh in a fixed order, so its bits are the same everywhere; its
-//          relative error is below 2^-48.
+// Rule     Over red, green and blue, in units of 1/255 of the frame's colour values. Sums run in row-major order in
+//          binary64. PSNR = 20 log10(255 / rmse) decibels: none where nothing differs.
+// Numbers  The logarithm is a sum of 24 terms of the series of atanh in a fixed order, so its bits are the same
+//          everywhere; its relative error is below 2^-48.
 // Tests    tests/peeling/audit/image_error_test.cpp
 #pragma once
 #include <optional>

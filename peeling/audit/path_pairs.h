@@ -1,9 +1,9 @@
 // peeling/audit/path_pairs.h - the same fragments by two depth paths: how often do their codes differ, and by how much?
 //
 // Rule     A pass that writes depth and a pass that compares with it meet the same fragment, named by its pixel and its
-//          primitive. `stored` is the code that the first leaves in the buffer, `reference` the code that the second computes.
-//          Their difference, reference - stored, is counted in units of the last place: codes of D16 and D24, steps between
-//          neighbouring floats of D32F (its codes are ordered integers).
+//          primitive. `stored` is the code that the first leaves in the buffer, `reference` the code that the second
+//          computes. Their difference, reference - stored, is counted in units of the last place: codes of D16 and D24,
+//          steps between neighbouring floats of D32F (its codes are ordered integers).
 // Source   Everitt 2001, "Depth peeling"; audit.md 8.
 // Numbers  |difference| < 2^32, in 64 bits.
 // Tests    tests/peeling/audit/path_pairs_test.cpp
@@ -31,12 +31,12 @@ struct PairedFragments {
     std::uint64_t unmatched = 0;  // fragments that only one of the two passes has
 };
 
-// How a fragment finds its partner in a pixel: by its triangle, or, where quads are cut along different diagonals, by the triangle
-// of the same number or else by one of its neighbours in submission order.
+// How a fragment finds its partner in a pixel: by its triangle, or, where quads are cut along different diagonals, by
+// the triangle of the same number or else by one of its neighbours in submission order.
 enum class Match : std::uint8_t { triangle, quad };
 
-// Pairs the fragments of two captures of one frame; `first` gives `stored`, `second` gives `reference`, each by its `code`; the
-// primitive is the first one's.
+// Pairs the fragments of two captures of one frame; `first` gives `stored`, `second` gives `reference`, each by its
+// `code`; the primitive is the first one's.
 [[nodiscard]] PairedFragments pair_up(std::span<const pipeline::CapturedFragment> first,
                                       std::span<const pipeline::CapturedFragment> second,
                                       Match match = Match::triangle);

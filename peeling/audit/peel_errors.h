@@ -1,9 +1,9 @@
 // peeling/audit/peel_errors.h - which layers a finished peel composited twice, and which never.
 //
-// Rule     A pixel's true layers are the distinct codes, before the opaque surface, that the writing path stores without any
-//          bias: what the exact A-buffer keeps under the tie policy UNIQUE. What was composited is the run's trace: a depth
-//          there means the first fragment of that depth, and so its layer. Twice or more often is one duplicate; never is one
-//          loss. So a peel that never ends does not count without end.
+// Rule     A pixel's true layers are the distinct codes, before the opaque surface, that the writing path stores
+//          without any bias: what the exact A-buffer keeps under the tie policy UNIQUE. What was composited is the
+//          run's trace: a depth there means the first fragment of that depth, and so its layer. Twice or more often is
+//          one duplicate; never is one loss. So a peel that never ends does not count without end.
 // Source   audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
 // Tests    tests/peeling/audit/peel_errors_test.cpp
 #pragma once

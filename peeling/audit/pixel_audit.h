@@ -1,7 +1,9 @@
-// peeling/audit/pixel_audit.h - one pixel after the other against the exact A-buffer: what an algorithm did with its fragments.
+// peeling/audit/pixel_audit.h - one pixel after the other against the exact A-buffer: what an algorithm did with its
+// fragments.
 //
-// Rule     The sequence that a pixel composited (its trace) is compared, place by place, with its visible fragments in the order
-//          of the algorithm's tie policy; its colour with all of them composited in binary64, sorted by the exact depth.
+// Rule     The sequence that a pixel composited (its trace) is compared, place by place, with its visible fragments in
+//          the order of the algorithm's tie policy; its colour with all of them composited in binary64, sorted by the
+//          exact depth.
 // Source   audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp
 #pragma once
@@ -23,8 +25,8 @@ class PixelTraces {
     // `rect` is the traced region's. A pixel takes 4 bytes, an entry none beside its own.
     PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect);
 
-    // Fills `sequence` with what a pixel shows from near to far: what was composited UNDER in order, then what was composited
-    // OVER, last first. `backs` is room for the latter.
+    // Fills `sequence` with what a pixel shows from near to far: what was composited UNDER in order, then what was
+    // composited OVER, last first. `backs` is room for the latter.
     void near_to_far(int x, int y, std::vector<pipeline::TraceEntry>& sequence,
                      std::vector<pipeline::TraceEntry>& backs) const;
 

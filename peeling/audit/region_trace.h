@@ -1,4 +1,5 @@
-// peeling/audit/region_trace.h - the traces of a whole frame, kept: for measurements that hold all of its fragments anyhow.
+// peeling/audit/region_trace.h - the traces of a whole frame, kept: for measurements that hold all of its fragments
+// anyhow.
 #pragma once
 #include <vector>
 

@@ -73,7 +73,8 @@ SafeRange range_of(std::span<const PathPair> pairs, std::span<const std::uint32_
     return range;
 }
 
-// A fragment's reference against a stored code, as a program compares them. The doubles from 0 to 1 order like their bits.
+// A fragment's reference against a stored code, as a program compares them. The doubles from 0 to 1 order like their
+// bits.
 struct Comparison {
     pipeline::DepthFormat format;
     std::uint32_t reference, stored;

@@ -1,9 +1,10 @@
-// peeling/loops/block_passes.h - the passes of a peel over a block of lists: the scalar references of block_passes_simd.cpp.
+// peeling/loops/block_passes.h - the passes of a peel over a block of lists: the scalar references of
+// block_passes_simd.cpp.
 //
-// Rule     Pass i takes depth i of a list from the front and depth i from its back, until they meet.
-//          Lists do not meet: the scalar reference goes from list to list, the vectors through many side by side. Dual front:
-//          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
-//          the code of the far colour, OVER what is there, where its alpha is not 0.
+// Rule     Pass i takes depth i of a list from the front and depth i from its back, until they meet. Lists do not meet:
+//          the scalar reference goes from list to list, the vectors through many side by side. Dual front: the UNDER of
+//          under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back: the code of
+//          the far colour, OVER what is there, where its alpha is not 0.
 // Ties     Fragments of one depth are one group: MAX over what each of them would leave.
 // Tests    tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
@@ -45,7 +46,8 @@ inline void put_column(const Codes& list, std::size_t lane, BlockCodes& codes) n
     for (std::size_t c = 0; c < 4; ++c) codes[c][lane] = list[c];
 }
 
-// Colours that MAX does not order: on float targets negative ones, -0 and NaN; and those that a half may not have sums of.
+// Colours that MAX does not order: on float targets negative ones, -0 and NaN; and those that a half may not have sums
+// of.
 [[nodiscard]] inline bool is_plain(const Color& color) noexcept {
     const auto is_at_most = [](float value, float most) {
         return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);

@@ -127,8 +127,8 @@ class Lists {
         return color;
     }
 
-    // As the scalar reference's blend_near. A list whose only fragment is the near one has no other to pass the old front through; a
-    // list that has ended keeps it, because 0 members differ from its number of fragments.
+    // As the scalar reference's blend_near. A list whose only fragment is the near one has no other to pass the old
+    // front through; a list that has ended keeps it, because 0 members differ from its number of fragments.
     HWY_INLINE void blend_near(const Color& color, WordMask has, Held (&front)[4]) const {
         const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, target_.value(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
@@ -140,7 +140,8 @@ class Lists {
         }
     }
 
-    // As the scalar reference's; a list without a far fragment takes alpha 0, and keeps its back. Says which lists have changed.
+    // As the scalar reference's; a list without a far fragment takes alpha 0, and keeps its back. Says which lists have
+    // changed.
     HWY_INLINE WordMask blend_far(const Color& color, Held (&back)[4]) const {
         const Held dump = target_.stored(color.channel[3]);
         const WordMask is_there = is_set(dump);

@@ -138,8 +138,8 @@ void peel_until_nothing_is_left(CoherentPeel& peel, const FirstPasses& first) {
     }
 }
 
-// Not the machine's: whether `reached` has moved beyond `farthest` at any pixel. Where it has not, a listing that goes on
-// composites the same fragments for ever.
+// Not the machine's: whether `reached` has moved beyond `farthest` at any pixel. Where it has not, a listing that goes
+// on composites the same fragments for ever.
 Count progress(CoherentPeel& peel, Target farthest) {
     PassState state = find_state(farthest, CompareFunc::greater);
     state.reads[0] = peel.reached;

@@ -1,10 +1,11 @@
-// peeling/loops/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend) share.
-// Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
+// peeling/loops/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend)
+// share. Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
 //
-// Rule     An iteration composites, in submission order, the run of fragments that starts at the nearest one not yet composited
-//          (`nearest`, the paper's D(sn)) and is in order: it ends before the nearest deeper fragment that arrived earlier
-//          (`previous`), and before the nearest one that interrupts the run later (`breaker`). The least of the two and of the
-//          opaque depth is `reached`; what lies exactly there is composited last, and the next iteration starts behind it.
+// Rule     An iteration composites, in submission order, the run of fragments that starts at the nearest one not yet
+//          composited (`nearest`, the paper's D(sn)) and is in order: it ends before the nearest deeper fragment that
+//          arrived earlier (`previous`), and before the nearest one that interrupts the run later (`breaker`). The
+//          least of the two and of the opaque depth is `reached`; what lies exactly there is composited last, and the
+//          next iteration starts behind it.
 // Tests    tests/peeling/sequences_test.cpp, coherent_test.cpp, published_test.cpp
 #pragma once
 #include "peeling/programs/depth_range.h"
@@ -52,7 +53,8 @@ struct FirstPasses {
     void (*find_previous)(CoherentPeel&) = nullptr;
 };
 
-// The range of passes 1 and 2: behind what is composited, before the opaque surface. Reads 0 and 1 are `reached` and that.
+// The range of passes 1 and 2: behind what is composited, before the opaque surface. Reads 0 and 1 are `reached` and
+// that.
 inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::FragmentBatch& in, const pipeline::Loads& own,
                               pipeline::Outputs& out) noexcept {
     if (!peel.from_the_start) keep_behind(in, own.depth(0), out);

@@ -3,10 +3,11 @@
 // definition: it leaves their bits, passes, queries and trace. tests/peeling/execution_test.cpp and
 // sequences_test.cpp compare the two.
 //
-// Declines   where a pixel's fragments alone do not decide how far it is peeled (a ratio, the paper's exit), where passes see another
-//            depth of a fragment, layers are kept, the background's alpha is not 1, the colour format is not one of stored_color.h or not
-//            that of back and picture, or no record can be sorted; and where MAX asks for an order or changes a depth: float targets with other than plain colours (block_passes.h), visible
-//            depths below the cleared -1, denormals that are flushed. Then the passes run.
+// Declines   where a pixel's fragments alone do not decide how far it is peeled (a ratio, the paper's exit), where
+//            passes see another depth of a fragment, layers are kept, the background's alpha is not 1, the colour
+//            format is not one of stored_color.h or not that of back and picture, or no record can be sorted; and where
+//            MAX asks for an order or changes a depth: float targets with other than plain colours (block_passes.h),
+//            visible depths below the cleared -1, denormals that are flushed. Then the passes run.
 // Source     algorithms.md 0.7.
 // Ties       a depth is one group (block_passes.h).
 #include "peeling/loops/dual_resolve.h"
@@ -157,8 +158,8 @@ class FloatCourse {
     ColorCodes codes_;
 };
 
-// Colours first, passes last: as long as colours may still turn out to be ones that MAX orders nothing is booked, and the trace is cut
-// back to where it was.
+// Colours first, passes last: as long as colours may still turn out to be ones that MAX orders nothing is booked, and
+// the trace is cut back to where it was.
 template <class Course>
 bool peel_region(Region& region, const SortedRecord& record) {
     RegionShortcuts shortcuts{region};

@@ -54,7 +54,8 @@ class Peel {
     }
 
   private:
-    // As published, finished pixels change while others are peeled; and under a limit the last layer waits for its composite.
+    // As published, finished pixels change while others are peeled; and under a limit the last layer waits for its
+    // composite.
     [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
 
     // The nearest unordered fragment strictly behind `peeled`, before the opaque surface.

@@ -1,5 +1,5 @@
-// peeling/programs/depth_range.h - what the fragment programs of Carr's algorithms share: discards outside a range of stored codes,
-// composites in submission order, and pixels that a fault concerns.
+// peeling/programs/depth_range.h - what the fragment programs of Carr's algorithms share: discards outside a range of
+// stored codes, composites in submission order, and pixels that a fault concerns.
 #pragma once
 #include <string>
 #include <utility>

@@ -1,7 +1,8 @@
 // peeling/programs/fragment_lists.h - the visible fragments of a region's pixels, pixel by pixel, in submission order.
 //
-// Rule     A fragment is visible if its key lies before the opaque surface's. Lists are made of as many pixels at a time as fit
-//          into a stated memory, in row-major order: coverage says beforehand how many fragments a pixel has at most.
+// Rule     A fragment is visible if its key lies before the opaque surface's. Lists are made of as many pixels at a
+//          time as fit into a stated memory, in row-major order: coverage says beforehand how many fragments a pixel
+//          has at most.
 // Tests    tests/peeling/programs/fragment_lists_test.cpp
 #pragma once
 #include <cstdint>
@@ -37,7 +38,8 @@ struct PixelRange {
 // How many fragments each pixel of the region has, before MASK and before any test.
 [[nodiscard]] std::vector<std::uint32_t> coverage_of(pipeline::Region& region);
 
-// The longest range from pixel `first` on whose pixels have `most` fragments at most all together; one pixel, however many it has.
+// The longest range from pixel `first` on whose pixels have `most` fragments at most all together; one pixel, however
+// many it has.
 [[nodiscard]] PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
                                     std::uint64_t most) noexcept;
 
@@ -54,8 +56,8 @@ struct FragmentLists {
     }
 };
 
-// Fills `fragment_lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted as a pass of the
-// algorithm, where the range is the whole region; or a look of the emulator's own.
+// Fills `fragment_lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted
+// as a pass of the algorithm, where the range is the whole region; or a look of the emulator's own.
 void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
                   pipeline::Counting counting, FragmentLists& fragment_lists);
 

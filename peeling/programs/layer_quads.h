@@ -1,6 +1,6 @@
-// peeling/programs/layer_quads.h - saved layers composited as textured quads, far to near. Everitt 2001, "Putting It All Together".
-// Straight colours, alpha 0 where a pixel has no such layer; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA. A layer's depth says where
-// it has a fragment: elsewhere it is the opaque surface's.
+// peeling/programs/layer_quads.h - saved layers composited as textured quads, far to near. Everitt 2001, "Putting It
+// All Together". Straight colours, alpha 0 where a pixel has no such layer; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA. A
+// layer's depth says where it has a fragment: elsewhere it is the opaque surface's.
 #pragma once
 #include <vector>
 

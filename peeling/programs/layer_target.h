@@ -5,12 +5,14 @@
 
 namespace strata::peeling {
 
-// Full screen: a premultiplied layer UNDER what is accumulated. `depth` differs from the opaque depth where it has a fragment.
+// Full screen: a premultiplied layer UNDER what is accumulated. `depth` differs from the opaque depth where it has a
+// fragment.
 void composite_layer(pipeline::Region& region, pipeline::Target layer, pipeline::Target depth,
                      pipeline::Target accumulated);
 
-// A quad that blends a layer reads the two depths that tell where it is. The trace alone looks at their values: without one they are
-// textures, as good as loads, which no program samples. True with a trace: then a program calls the other of this name.
+// A quad that blends a layer reads the two depths that tell where it is. The trace alone looks at their values: without
+// one they are textures, as good as loads, which no program samples. True with a trace: then a program calls the other
+// of this name.
 [[nodiscard]] inline bool trace_layer(pipeline::PassState& state, const pipeline::Region& region,
                                       pipeline::Target depth) {
     const bool is_traced = region.frame().trace;

@@ -1,5 +1,6 @@
-// peeling/programs/min_max.h - the min-max depth of dual peeling: (-near, far) in two binary32 channels under MAX blending.
-// Bavoil and Myers 2008, "Render Targets"; E9. Cleared to (-1, -1), which is near = 1 > far = -1: a pixel with nothing to peel.
+// peeling/programs/min_max.h - the min-max depth of dual peeling: (-near, far) in two binary32 channels under MAX
+// blending. Bavoil and Myers 2008, "Render Targets"; E9. Cleared to (-1, -1), which is near = 1 > far = -1: a pixel
+// with nothing to peel.
 #pragma once
 #include "peeling/programs/region_programs.h"
 #include "peeling/programs/under.h"
@@ -127,9 +128,10 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     return selection;
 }
 
-// The layers that a dual peel composites on the fly, as images of their own, where the frame keeps layers. After a peel its fragments are
-// drawn again, those at the near and those at the far end by themselves, with the straight colours that came in. Fragments tied at a
-// depth are one layer, MAX of each channel. That is no pass of the machine, and not counted (algorithms.md 5.5).
+// The layers that a dual peel composites on the fly, as images of their own, where the frame keeps layers. After a peel
+// its fragments are drawn again, those at the near and those at the far end by themselves, with the straight colours
+// that came in. Fragments tied at a depth are one layer, MAX of each channel. That is no pass of the machine, and not
+// counted (algorithms.md 5.5).
 class DualLayers {
   public:
     explicit DualLayers(pipeline::Region& region) : region_{region} {

@@ -30,7 +30,8 @@ inline namespace strict {
     return is_reversed ? rasterizer::depth_key(shader_z) : shader_z;
 }
 
-// OVER, straight onto premultiplied: onto an opaque background alpha stays 1 and is not written, else it is 1 - (1 - alpha) (1 - A).
+// OVER, straight onto premultiplied: onto an opaque background alpha stays 1 and is not written, else it is 1 - (1 -
+// alpha) (1 - A).
 [[nodiscard]] inline pipeline::Blend over_background(const pipeline::Frame& frame) noexcept {
     using namespace pipeline;
     Blend over = blend_mode::over;
@@ -41,7 +42,8 @@ inline namespace strict {
     return over;
 }
 
-// Publishes the front over the colour behind it, alpha and all: the last quad of every peel that composites from the front.
+// Publishes the front over the colour behind it, alpha and all: the last quad of every peel that composites from the
+// front.
 inline void publish_over(pipeline::Region& region, pipeline::Target front, FrontAlpha meaning,
                          pipeline::Target behind) {
     using namespace pipeline;

@@ -1,7 +1,7 @@
 // peeling/programs/sample_lists.h - the fragments that samples of many targets hold of a pixel: sorted, and composited.
 //
-// Rule     Samples of one code are empty. The others are composited UNDER in binary32, nearest first, equal codes in the order of
-//          the samples, and what is left of the light falls on the background.
+// Rule     Samples of one code are empty. The others are composited UNDER in binary32, nearest first, equal codes in
+//          the order of the samples, and what is left of the light falls on the background.
 // Numbers  Colours are four channels of 8, 16 or 32 bits, as targets of a frame's colour format have them.
 // Tests    tests/peeling/programs/sample_lists_test.cpp
 #pragma once

@@ -1,5 +1,5 @@
-// peeling/programs/tie_order.h - a pixel's fragments in the order in which a tie policy composites them. keys-and-counts.md 2.2.
-// Tests: tests/peeling/audit/audit_test.cpp
+// peeling/programs/tie_order.h - a pixel's fragments in the order in which a tie policy composites them.
+// keys-and-counts.md 2.2. Tests: tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace strata::peeling {
 
-// A pixel's fragments in an order: each as its depth, above, and its place in submission order, below. Ascending numbers are
-// nearest first, and the first submitted first.
+// A pixel's fragments in an order: each as its depth, above, and its place in submission order, below. Ascending
+// numbers are nearest first, and the first submitted first.
 using FragmentOrder = std::vector<std::uint64_t>;
 [[nodiscard]] constexpr std::uint32_t place_of(std::uint64_t entry) noexcept {
     return static_cast<std::uint32_t>(entry);
@@ -35,7 +35,8 @@ inline void sort_by(std::uint32_t KeyedFragment::*code, std::span<const KeyedFra
 void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                  const FragmentOrder& near_order, FragmentOrder& order);
 
-// Turns the order by key into that in which `policy` composites, nearest first; `unique` and `merged` keep one fragment a key.
+// Turns the order by key into that in which `policy` composites, nearest first; `unique` and `merged` keep one fragment
+// a key.
 void apply(TiePolicy policy, FragmentOrder& by_key);
 
 }  // namespace strata::peeling

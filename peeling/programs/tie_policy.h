@@ -1,4 +1,5 @@
-// peeling/programs/tie_policy.h - which fragments of equal key are composited, and in which order. keys-and-counts.md 2.2.
+// peeling/programs/tie_policy.h - which fragments of equal key are composited, and in which order. keys-and-counts.md
+// 2.2.
 #pragma once
 #include <cstdint>
 #include <string_view>

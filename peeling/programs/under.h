@@ -23,7 +23,8 @@ struct OneFloat {
     return meaning == FrontAlpha::covers ? let_through(OneFloat{}, alpha) : alpha;
 }
 
-// The alpha of a front that lets `through` of what is behind it through: 1 - through (1 - behind), and 1 before what is opaque.
+// The alpha of a front that lets `through` of what is behind it through: 1 - through (1 - behind), and 1 before what is
+// opaque.
 [[nodiscard]] constexpr float alpha_over(float through, float behind) noexcept {
     return behind == 1.0f ? 1.0f : 1.0f - through * (1.0f - behind);
 }

@@ -1,11 +1,11 @@
-// peeling/truth/chain.h - the links between a scene and a stored pixel, each as the machine has it or without any rounding.
+// peeling/truth/chain.h - the links between a scene and a stored pixel, each as the machine has it or without any
+// rounding.
 //
-// Rule     transform   positions by the view's vertex path; exact: matrices and products in binary64
-//          snap        viewport in binary32, positions cut to the device's grid; exact: unsnapped, in binary64
-//          plane       depth by the device's path; exact: the plane through the three corners
-//          conversion  depth as the buffer's code; exact: as it is
-//          color       colours, coordinates, textures by the device's rules; exact: perspective in binary64
-//          blend       a layer a depth, blended over the target from the far end in the target's arithmetic; exact: every
+// Rule     transform positions by the view's vertex path; exact: matrices and products in binary64 snap viewport in
+//          binary32, positions cut to the device's grid; exact: unsnapped, in binary64 plane depth by the device's
+//          path; exact: the plane through the three corners conversion depth as the buffer's code; exact: as it is
+//          color colours, coordinates, textures by the device's rules; exact: perspective in binary64 blend a layer a
+//          depth, blended over the target from the far end in the target's arithmetic; exact: every
 //                      fragment, in binary64
 //          store       opaque surfaces, layers and picture in the colour format; exact: not rounded (blended: binary32)
 //          A chain without an exact link is what depth_units leaves; with all of them exact it is the truth.

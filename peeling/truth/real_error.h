@@ -1,9 +1,10 @@
 // peeling/truth/real_error.h - how far one picture's numbers are from another's.
 //
-// Rule     Over red, green and blue: largest difference and root mean square in units of 1/255, PSNR = 20 log10(255 / rmse)
-//          decibels (none where nothing differs). A pixel differs if any of its numbers does. SSIM: of the mean of the
-//          three channels, in windows of 8 by 8 pixels every 4 pixels that lie in the picture (one of it all where it is
-//          smaller), C1 = 0.01^2, C2 = 0.03^2, and the mean of the windows. Sums run in row-major order in binary64.
+// Rule     Over red, green and blue: largest difference and root mean square in units of 1/255, PSNR = 20 log10(255 /
+//          rmse) decibels (none where nothing differs). A pixel differs if any of its numbers does. SSIM: of the mean
+//          of the three channels, in windows of 8 by 8 pixels every 4 pixels that lie in the picture (one of it all
+//          where it is smaller), C1 = 0.01^2, C2 = 0.03^2, and the mean of the windows. Sums run in row-major order in
+//          binary64.
 // Source   Wang et al. 2004, "Image Quality Assessment: From Error Visibility to Structural Similarity" (the formula;
 //          square windows without weights are ours).
 // Tests    tests/peeling/truth/real_error_test.cpp

@@ -1,8 +1,8 @@
 // peeling/truth/real_geometry.h - a draw list's triangles at unsnapped positions in binary64, clipped, facing decided.
 //
-// Rule     Vertices that the vertex stage left (binary32), or the same positions times matrices in binary64; colours and
-//          coordinates are the vertex stage's. Planes w >= 2^-64, near and far; window = half size times (x / w) plus
-//          the centre; facing and culling by the sign of the unsnapped area.
+// Rule     Vertices that the vertex stage left (binary32), or the same positions times matrices in binary64; colours
+//          and coordinates are the vertex stage's. Planes w >= 2^-64, near and far; window = half size times (x / w)
+//          plus the centre; facing and culling by the sign of the unsnapped area.
 // Tests    tests/peeling/truth/truth_test.cpp
 #pragma once
 #include <vector>

@@ -1,11 +1,12 @@
-// peeling/truth/real_triangle.h - a triangle at positions that no grid holds: which pixel centres it covers, and its values there.
+// peeling/truth/real_triangle.h - a triangle at positions that no grid holds: which pixel centres it covers, and its
+// values there.
 //
-// Rule     A centre is inside as edge.h says, top-left rule, decided by the exact sign of the edge function of the binary64
-//          corners. With b the weights of the corners on the screen: depth is the sum of b z; a value u is the sum of
-//          b u / w over the sum of b / w.
-// Numbers  A side is always evaluated from its lexicographically smaller end, so its two triangles see values that differ
-//          in the sign alone. A value beyond 2^-50 of its two products has the right sign (their errors stay below 4
-//          2^-53 of them); of others the six products of the expanded determinant are summed without rounding.
+// Rule     A centre is inside as edge.h says, top-left rule, decided by the exact sign of the edge function of the
+//          binary64 corners. With b the weights of the corners on the screen: depth is the sum of b z; a value u is the
+//          sum of b u / w over the sum of b / w.
+// Numbers  A side is always evaluated from its lexicographically smaller end, so its two triangles see values that
+//          differ in the sign alone. A value beyond 2^-50 of its two products has the right sign (their errors stay
+//          below 4 2^-53 of them); of others the six products of the expanded determinant are summed without rounding.
 // Tests    tests/peeling/truth/truth_test.cpp
 #pragma once
 #include <array>

@@ -1,4 +1,5 @@
-// pipeline/device/check.h - what a device lacks. State that it cannot run is refused by name, before the first fragment.
+// pipeline/device/check.h - what a device lacks. State that it cannot run is refused by name, before the first
+// fragment.
 //
 // Rule     Every feature has one rule in check.cpp: words, extension, and who has it. A refusal names the profiles
 //          that do. State of the era that no algorithm here needs (fog, colour sum, dither, logic op) is refused on

@@ -1,5 +1,6 @@
 // pipeline/device/compare.h - the eight comparison functions, chosen once and outside the loop. GL 2.1 4.1.4 to 4.1.6.
-// Operands keep their order: `passes<less>(a, b)` is a < b. A NaN passes `notequal` and `always` alone (fragment-stages.md 1.2).
+// Operands keep their order: `passes<less>(a, b)` is a < b. A NaN passes `notequal` and `always` alone
+// (fragment-stages.md 1.2).
 #pragma once
 #include <cstdint>
 #include <type_traits>

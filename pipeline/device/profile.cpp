@@ -1,4 +1,5 @@
-// pipeline/device/profile.cpp - the built-in devices. Each number's source stands in profile_fields.cpp; describe() prints it.
+// pipeline/device/profile.cpp - the built-in devices. Each number's source stands in profile_fields.cpp; describe()
+// prints it.
 #include "pipeline/device/profile.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// pipeline/device/profile.h - what an emulated device can do, and with which numbers. A value: compare it, print it, store it as JSON.
+// pipeline/device/profile.h - what an emulated device can do, and with which numbers. A value: compare it, print it,
+// store it as JSON.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,11 +15,11 @@ namespace strata::pipeline {
 
 // The alpha test compares 8-bit codes always, or on 8-bit targets alone (fragment-stages.md 3).
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
-// How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself; or all in binary32, of a source
-// that is no code (fragment-stages.md 8.2).
+// How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself; or all in binary32, of a
+// source that is no code (fragment-stages.md 8.2).
 enum class BlendRounding : std::uint8_t { nearest, truncate, each_product, unrounded_source };
-// What a blend reads and leaves: the target's codes, or binary32 in a cache of tiles, rounded when a tile leaves it or the pass
-// ends (fragment-stages.md 9.5).
+// What a blend reads and leaves: the target's codes, or binary32 in a cache of tiles, rounded when a tile leaves it or
+// the pass ends (fragment-stages.md 9.5).
 enum class BlendStorage : std::uint8_t { target, cached_tiles };
 // The result of MIN and MAX of one NaN and one number; destination: also of two equal ones (fragment-stages.md 9.3).
 enum class MinMaxNan : std::uint8_t { other_operand, propagate, destination };
@@ -26,12 +27,12 @@ enum class MinMaxNan : std::uint8_t { other_operand, propagate, destination };
 enum class DenormalRule : std::uint8_t { flush, keep };
 // What depth buffers of 24 bits hold: codes of 24 bits, or the binary32 of a D32F buffer (depth.md 2.10).
 enum class Depth24 : std::uint8_t { codes, binary32 };
-// The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by lerps, as codes or in binary32 (texturing.md 3). Nearest
-// lookups and pass-through coordinates go by it, too (devices.md 4).
+// The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by lerps, as codes or in binary32
+// (texturing.md 3). Nearest lookups and pass-through coordinates go by it, too (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, single_lerps };
-// The corner of the picture at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT), lower_left as
-// OpenGL without that call draws into framebuffer objects. All rules hold in memory order (devices.md 3.8); pictures leave the machine
-// with the upper row first.
+// The corner of the picture at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT),
+// lower_left as OpenGL without that call draws into framebuffer objects. All rules hold in memory order (devices.md
+// 3.8); pictures leave the machine with the upper row first.
 enum class Origin : std::uint8_t { upper_left, lower_left };
 
 // A device. Everything that differs between devices is a field here, and no code asks for the name (devices.md 1);
@@ -95,8 +96,8 @@ struct DeviceProfile {
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
 
     [[nodiscard]] ColorRounding color_rounding() const noexcept { return {half_rounding, unorm_rounding}; }
-    // Whether targets follow one of the rules that kernels beside the stages know: 8-bit codes round the exact value once, and
-    // halves have an infinity.
+    // Whether targets follow one of the rules that kernels beside the stages know: 8-bit codes round the exact value
+    // once, and halves have an infinity.
     [[nodiscard]] bool rounds_codes_once() const noexcept {
         return unorm_rounding == UnormRounding::half_up && half_rounding != HalfRounding::no_infinity &&
                (blend_rounding == BlendRounding::nearest || blend_rounding == BlendRounding::truncate) &&
@@ -127,8 +128,8 @@ struct DeviceProfile {
 // geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader; in that order.
 [[nodiscard]] const std::vector<DeviceProfile>& builtin_profiles();
 
-// The same device drawing from another corner: its ties fall on the same sides of the picture, hence on the other of memory unless
-// raster.y_axis is clip.
+// The same device drawing from another corner: its ties fall on the same sides of the picture, hence on the other of
+// memory unless raster.y_axis is clip.
 [[nodiscard]] DeviceProfile with_origin(DeviceProfile profile, Origin origin);
 
 // Null if there is no such name.

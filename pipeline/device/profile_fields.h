@@ -1,5 +1,5 @@
-// pipeline/device/profile_fields.h - the one table of a profile's fields: its JSON key, its range or names, its sources.
-// describe() and the JSON of scenes/files/profile_json.h both walk it, so a new field is one entry.
+// pipeline/device/profile_fields.h - the one table of a profile's fields: its JSON key, its range or names, its
+// sources. describe() and the JSON of scenes/files/profile_json.h both walk it, so a new field is one entry.
 #pragma once
 #include <array>
 #include <optional>
@@ -25,7 +25,8 @@ struct ProfileField {
     // Read and write the field as such a number; the caller of `set` has checked the range.
     int (*value)(const DeviceProfile&) = nullptr;
     void (*set)(DeviceProfile&, int) = nullptr;
-    // One each for geforce3, for geforce8 and geforce8_dx101, for ideal, for Mesa's and for swiftshader; devices.md has the marks.
+    // One each for geforce3, for geforce8 and geforce8_dx101, for ideal, for Mesa's and for swiftshader; devices.md has
+    // the marks.
     std::array<std::string_view, 5> source;
 };
 
@@ -39,8 +40,8 @@ struct FieldConflict {
     std::string_view key;  // "raster.coverage"
     std::string expected, found;
 };
-// The first of a profile's values that do not go together, if there is one (devices.md 3.1): spans in binary32 cover centres that
-// exact edges leave out, where the edge values that the chip's weights are made of are negative.
+// The first of a profile's values that do not go together, if there is one (devices.md 3.1): spans in binary32 cover
+// centres that exact edges leave out, where the edge values that the chip's weights are made of are negative.
 [[nodiscard]] std::optional<FieldConflict> conflict_of(const DeviceProfile& profile);
 
 }  // namespace strata::pipeline

@@ -104,7 +104,8 @@ inline constexpr Blend replace{};
 inline constexpr Blend over{.enabled = true,
                             .color = {BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha},
                             .alpha = {BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha}};
-// glBlendFuncSeparate(DST_ALPHA, ONE, ZERO, ONE_MINUS_SRC_ALPHA): front to back, premultiplied source, alpha = transmittance.
+// glBlendFuncSeparate(DST_ALPHA, ONE, ZERO, ONE_MINUS_SRC_ALPHA): front to back, premultiplied source, alpha =
+// transmittance.
 inline constexpr Blend under{.enabled = true,
                              .color = {BlendEquation::add, BlendFactor::dst_alpha, BlendFactor::one},
                              .alpha = {BlendEquation::add, BlendFactor::zero, BlendFactor::one_minus_src_alpha}};

@@ -1,5 +1,5 @@
-// pipeline/device/vertex_path.h - the ways in which devices and drivers compute a position, as a choice. Two passes that choose
-// differently may differ in the last bits of a vertex: the commonest reason for a ported peel to fail.
+// pipeline/device/vertex_path.h - the ways in which devices and drivers compute a position, as a choice. Two passes
+// that choose differently may differ in the last bits of a vertex: the commonest reason for a ported peel to fail.
 // Rules of each: pipeline/vertices/vertex_transform.h.
 #pragma once
 #include <array>

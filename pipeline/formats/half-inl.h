@@ -3,9 +3,10 @@
 //
 // Rule     half_to_float and to_half<nearest_even> of half.h, to the bit; but a signalling NaN becomes quiet. `Words`
 //          is a tag of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that:
-//          values_of_halves and codes_of_halves go lane by lane on the others, rounded_to_half by integers; without infinity all three
-//          go lane by lane.
-// Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution_test.cpp
+//          values_of_halves and codes_of_halves go lane by lane on the others, rounded_to_half by integers; without
+//          infinity all three go lane by lane.
+// Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/loops/block_passes_test.cpp;
+//          tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/half.h"
 

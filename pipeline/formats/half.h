@@ -5,9 +5,10 @@
 //
 // Rule     to binary32: exact, a NaN keeps its sign and payload. From binary32: nearest even (65520 and above is
 //          infinity) or toward zero (finite values end at 65504); denormals are kept; a NaN keeps its sign and the
-//          upper ten payload bits and becomes quiet. no_infinity: e = 31 is an exponent like the others, 65536 to 131008; nearest
-//          even, what is larger or infinite becomes 131008 and a NaN -131008, the sign that x86 gives to one it makes: arithmetic
-//          defines none; below 2^-14 the significand is cut to 24 bits after the shift and then rounded.
+//          upper ten payload bits and becomes quiet. no_infinity: e = 31 is an exponent like the others, 65536 to
+//          131008; nearest even, what is larger or infinite becomes 131008 and a NaN -131008, the sign that x86 gives
+//          to one it makes: arithmetic defines none; below 2^-14 the significand is cut to 24 bits after the shift and
+//          then rounded.
 // Source   formats.md 3 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
 // Tests    tests/pipeline/formats/half_test.cpp: all 65,536 halves; all 2^32 floats under both roundings
 #pragma once
@@ -21,7 +22,8 @@
 namespace strata::pipeline {
 inline namespace strict {
 
-// How binary32 becomes binary16 on a store: nearest overflows to infinity, toward zero to 65504, and without infinity to 131008.
+// How binary32 becomes binary16 on a store: nearest overflows to infinity, toward zero to 65504, and without infinity
+// to 131008.
 enum class HalfRounding : std::uint8_t { nearest_even, toward_zero, no_infinity };
 
 namespace half_bits {

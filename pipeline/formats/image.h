@@ -1,4 +1,5 @@
-// pipeline/formats/image.h - a finished rectangle of raw target codes: what leaves the machine, is digested, written and compared.
+// pipeline/formats/image.h - a finished rectangle of raw target codes: what leaves the machine, is digested, written
+// and compared.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,8 +11,9 @@ namespace strata::pipeline {
 
 using ImageCodes = UninitializedVector<std::uint32_t>;
 
-// One code a channel, rows top to bottom, pixels left to right, samples, then channels R G B A: UNORM8 and stencil codes and
-// half-float bits zero-extended to 32 bits, binary32 bits as they are, depth codes as they are (D32F: float bits).
+// One code a channel, rows top to bottom, pixels left to right, samples, then channels R G B A: UNORM8 and stencil
+// codes and half-float bits zero-extended to 32 bits, binary32 bits as they are, depth codes as they are (D32F: float
+// bits).
 struct Image {
     Format format = Format::rgba8;
     int width = 0, height = 0, samples = 1;
@@ -46,9 +48,9 @@ struct Image {
     friend bool operator==(const Image&, const Image&) = default;
 };
 
-// XXH3-128 in lower-case hexadecimal (high 64 bits first) of: the format's name in ASCII, a zero byte, u32 width, u32 height,
-// u32 samples, then the codes in the order above: u8 for UNORM8 and stencil, u16 for halves, u32 for binary32 and every depth
-// format; all little endian (formats.md 8).
+// XXH3-128 in lower-case hexadecimal (high 64 bits first) of: the format's name in ASCII, a zero byte, u32 width, u32
+// height, u32 samples, then the codes in the order above: u8 for UNORM8 and stencil, u16 for halves, u32 for binary32
+// and every depth format; all little endian (formats.md 8).
 [[nodiscard]] std::string digest(const Image& image);
 
 }  // namespace strata::pipeline

@@ -1,5 +1,5 @@
-// pipeline/formats/image_texels.h - the words of an rgba8 target on their way into a finished image, past the caches: 16 bytes a pixel that
-// no pass reads before the frame is done.
+// pipeline/formats/image_texels.h - the words of an rgba8 target on their way into a finished image, past the caches:
+// 16 bytes a pixel that no pass reads before the frame is done.
 //
 // Rule     A word becomes four codes, its lowest byte first.
 // Tests    tests/pipeline/formats/image_texels_test.cpp

@@ -1,5 +1,6 @@
-// pipeline/formats/lane_mask.h - yes and no as all ones and zero, and selections without control flow: what vector units want.
-// A conditional expression over floats may become a branch (the unused side could raise a flag), and then no vectors.
+// pipeline/formats/lane_mask.h - yes and no as all ones and zero, and selections without control flow: what vector
+// units want. A conditional expression over floats may become a branch (the unused side could raise a flag), and then
+// no vectors.
 #pragma once
 #include <bit>
 #include <cstdint>

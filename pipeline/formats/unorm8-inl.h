@@ -1,8 +1,9 @@
-// pipeline/formats/unorm8-inl.h - 8-bit codes and their values, a vector at a time. For *_simd.cpp alone: Highway compiles it once a set,
-// wherever foreach_target.h asks.
+// pipeline/formats/unorm8-inl.h - 8-bit codes and their values, a vector at a time. For *_simd.cpp alone: Highway
+// compiles it once a set, wherever foreach_target.h asks.
 //
 // Rule     unorm8_value and to_unorm8 of unorm8.h, to the bit, by either rounding; `Words` is a tag of 32-bit words.
-// Tests    tests/pipeline/formats/unorm8_test.cpp: every code, and values at and beside every boundary; tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/formats/unorm8_test.cpp: every code, and values at and beside every boundary;
+//          tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/unorm8.h"
 

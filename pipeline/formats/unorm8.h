@@ -1,8 +1,8 @@
 // pipeline/formats/unorm8.h - 8-bit normalised colour: the code k means k / 255.
 //
-// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product; UnormRounding::product_even: 255 x
-//          rounded to binary32, and that to the nearest even code; product_even_wide: the same. From UNORM8: k / 255, rounded
-//          once; by the other two as unorm8_product.h says.
+// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product; UnormRounding::product_even:
+//          255 x rounded to binary32, and that to the nearest even code; product_even_wide: the same. From UNORM8: k /
+//          255, rounded once; by the other two as unorm8_product.h says.
 // Source   formats.md 2 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
 // Numbers  255 x has at most 32 significant bits: exact in binary64. Where adding 1/2 rounds, x is far from every
 //          half code.

@@ -69,8 +69,9 @@ void find_nearest(SortedLists& sorted, const KeyIntervals& intervals, const Stor
     });
 }
 
-// A fragment that lies behind has a compared code of at least the raised bound, and so a code of its own that is less by the record's
-// greatest lead at most. A depth that is not quantised may part from its code, which other arithmetic made: each fragment is asked.
+// A fragment that lies behind has a compared code of at least the raised bound, and so a code of its own that is less
+// by the record's greatest lead at most. A depth that is not quantised may part from its code, which other arithmetic
+// made: each fragment is asked.
 void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                          const KeyIntervals& intervals, const std::uint32_t* behind, const StoredCodes& stored,
                          FragmentWaves& waves) {
@@ -120,8 +121,9 @@ SortedLists::Found range_of(SortedLists& sorted, const KeyIntervals& intervals, 
     return {first, last};
 }
 
-// The waves of the ends are those of their indices: nearest, the two next to the ends, farthest; then what is tied with an end, whose own
-// order is that of arrival. Either end has a target of its own, and what lies between writes what MAX takes in any order.
+// The waves of the ends are those of their indices: nearest, the two next to the ends, farthest; then what is tied with
+// an end, whose own order is that of arrival. Either end has a target of its own, and what lies between writes what MAX
+// takes in any order.
 void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves) {
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
         const auto [first, last] = range_of(sorted, intervals, pixel, list);

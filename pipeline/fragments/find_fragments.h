@@ -1,4 +1,5 @@
-// pipeline/fragments/find_fragments.h - which fragments a pass processes: intervals of sorted lists, and what a selection keeps of them.
+// pipeline/fragments/find_fragments.h - which fragments a pass processes: intervals of sorted lists, and what a
+// selection keeps of them.
 //
 // Rule     FragmentSelection's (frame/selection.h), with planes of entries in place of targets: one entry a pixel.
 // Source   execution.md 7.1.
@@ -74,14 +75,15 @@ struct StoredCodes {
 // Each adds to `waves`.
 // The first of every interval, where it lies before what is stored.
 void find_nearest(SortedLists& sorted, const KeyIntervals& intervals, const StoredCodes& stored, FragmentWaves& waves);
-// The nearest by stored codes of those in intervals without a near bound whose compared depth lies behind what `behind` holds.
+// The nearest by stored codes of those in intervals without a near bound whose compared depth lies behind what `behind`
+// holds.
 void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                          const KeyIntervals& intervals, const std::uint32_t* behind, const StoredCodes& stored,
                          FragmentWaves& waves);
 // All of every interval. False, and nothing added, where that is more than half of all: to process all is then quicker.
 [[nodiscard]] bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, FragmentWaves& waves);
-// The fragments of the first and of the last key, and the nearest and the farthest between. `one_outside`: and one from outside, where the
-// first key is all that an interval holds, or it holds nothing.
+// The fragments of the first and of the last key, and the nearest and the farthest between. `one_outside`: and one from
+// outside, where the first key is all that an interval holds, or it holds nothing.
 void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);
 // The same of a range of compared depths.
 void find_ends_compared(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,

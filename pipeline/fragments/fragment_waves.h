@@ -1,7 +1,7 @@
 // pipeline/fragments/fragment_waves.h - the fragments that a pass processes, on their way to the program.
 //
-// Rule     Several fragments of a pixel follow each other, and a batch holds no pixel twice: so the first ones of all pixels go ahead, then
-//          all second ones, wave after wave.
+// Rule     Several fragments of a pixel follow each other, and a batch holds no pixel twice: so the first ones of all
+//          pixels go ahead, then all second ones, wave after wave.
 // Tests    tests/pipeline/fragments/find_fragments_test.cpp
 #pragma once
 #include <algorithm>

@@ -1,7 +1,8 @@
 // pipeline/fragments/record_rows.h - fragments recorded row by row instead of batch by batch.
 //
-// Rule     The record is that of TileFragments::append for the batches of TileRasterizer::draw: the same fragments in the same order with
-//          the same values. Rows have depths, codes and colours by exact planes, and know neither texture nor MASK.
+// Rule     The record is that of TileFragments::append for the batches of TileRasterizer::draw: the same fragments in
+//          the same order with the same values. Rows have depths, codes and colours by exact planes, and know neither
+//          texture nor MASK.
 // Tests    tests/pipeline/fragments/record_rows_test.cpp
 #pragma once
 #include <cstdint>

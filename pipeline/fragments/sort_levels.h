@@ -1,9 +1,10 @@
-// pipeline/fragments/sort_levels.h - sixteen lists of entries sorted side by side: the scalar references of sort_levels_simd.cpp.
+// pipeline/fragments/sort_levels.h - sixteen lists of entries sorted side by side: the scalar references of
+// sort_levels_simd.cpp.
 //
-// Rule     A level is sixteen entries, one a list; levels follow each other. An entry is a key, above, and an index: ~0 stands above a list's
-//          end and sorts last. No two entries of a list are equal but these.
-// Source   Batcher's merge exchange; Knuth, The Art of Computer Programming 3, 5.2.2, Algorithm M: it compares the same levels
-//          whatever they hold, so that sixteen lists go through it together.
+// Rule     A level is sixteen entries, one a list; levels follow each other. An entry is a key, above, and an index: ~0
+//          stands above a list's end and sorts last. No two entries of a list are equal but these.
+// Source   Batcher's merge exchange; Knuth, The Art of Computer Programming 3, 5.2.2, Algorithm M: it compares the same
+//          levels whatever they hold, so that sixteen lists go through it together.
 // Tests    tests/pipeline/fragments/sort_levels_test.cpp
 #pragma once
 #include <algorithm>

@@ -12,7 +12,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// scalar::Levels. Not inline by itself: the loops of sort_levels.h, which belong to no instruction set, come between it and its callers.
+// scalar::Levels. Not inline by itself: the loops of sort_levels.h, which belong to no instruction set, come between it
+// and its callers.
 struct VectorLevels {
     using Wide = hn::CappedTag<std::uint64_t, block_lanes>;
     static constexpr std::size_t step = hn::MaxLanes(Wide{});

@@ -1,10 +1,12 @@
-// pipeline/fragments/sorted_lists.h - the fragments of a tile pixel by pixel, each pixel's near to far: where passes find what they keep.
+// pipeline/fragments/sorted_lists.h - the fragments of a tile pixel by pixel, each pixel's near to far: where passes
+// find what they keep.
 //
-// Rule     A fragment is an entry: its key above, below it its index, which rises with arrival. So one comparison orders entries by (key,
-//          arrival). Fragments that the request's alpha test kills have no entry.
-// Layout   Blocks of sixteen neighbouring pixels. Level k of a block holds the k-th entry of each of them, ~0 above a pixel's last.
-// Numbers  8 bytes an entry, as many for each pixel of a block as the tallest has, and 12 bytes a pixel. No key is a NaN, and no stored
-//          code of a float buffer is negative: else nothing is sorted.
+// Rule     A fragment is an entry: its key above, below it its index, which rises with arrival. So one comparison
+//          orders entries by (key, arrival). Fragments that the request's alpha test kills have no entry.
+// Layout   Blocks of sixteen neighbouring pixels. Level k of a block holds the k-th entry of each of them, ~0 above a
+//          pixel's last.
+// Numbers  8 bytes an entry, as many for each pixel of a block as the tallest has, and 12 bytes a pixel. No key is a
+//          NaN, and no stored code of a float buffer is negative: else nothing is sorted.
 // Source   execution.md 7.1.
 // Tests    tests/pipeline/fragments/sorted_lists_test.cpp
 #pragma once
@@ -40,8 +42,8 @@ struct SortRequest {
 
 class SortedLists {
   public:
-    // Sorts a complete record, within `limit` bytes. False if that cannot be done. `surface`: codes, one a pixel; what does not lie before
-    // them is left out.
+    // Sorts a complete record, within `limit` bytes. False if that cannot be done. `surface`: codes, one a pixel; what
+    // does not lie before them is left out.
     [[nodiscard]] bool sort(const TileFragments& fragments, const SortRequest& request, std::size_t pixels,
                             std::uint64_t limit, const std::uint32_t* surface = nullptr);
     void forget() noexcept { state_ = State::empty; }
@@ -70,8 +72,8 @@ class SortedLists {
         List(const std::uint64_t* first, std::uint32_t size) noexcept : first_{first}, size_{size} {}
         [[nodiscard]] std::uint32_t size() const noexcept { return size_; }
         [[nodiscard]] std::uint64_t operator[](std::uint32_t k) const noexcept { return first_[k * block_lanes]; }
-        // How many keys lie below `key`, which may be 2^32: sought from number `from` on, step by step, for in neighbouring passes
-        // answers are the same or few entries apart.
+        // How many keys lie below `key`, which may be 2^32: sought from number `from` on, step by step, for in
+        // neighbouring passes answers are the same or few entries apart.
         [[nodiscard]] std::uint32_t below(std::uint64_t key, std::uint32_t from) const noexcept {
             while (from > 0 && (*this)[from - 1] >> 32 >= key) --from;
             while (from < size_ && (*this)[from] >> 32 < key) ++from;

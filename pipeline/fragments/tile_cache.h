@@ -1,15 +1,15 @@
-// pipeline/fragments/tile_cache.h - colour targets while a pass blends into them, as BlendStorage::cached_tiles has it: binary32, rounded
-// when a tile is put back.
+// pipeline/fragments/tile_cache.h - colour targets while a pass blends into them, as BlendStorage::cached_tiles has it:
+// binary32, rounded when a tile is put back.
 //
-// Rule     The frame has tiles of 64 x 64 pixels, the cache 50 places; tile (x, y) goes to place (x + 5 y) mod 50. A fragment
-//          that passes its tests fetches its tile; in a pass without tests so does one that a program discards. The tile that
-//          had the place is put back: each channel rounded to the target's format. What is fetched is the value of a code;
-//          what is blended is neither rounded nor, on 8-bit targets, made a code, but clamped to 0..1 before and after the
-//          blend. The end of a pass puts everything back.
+// Rule     The frame has tiles of 64 x 64 pixels, the cache 50 places; tile (x, y) goes to place (x + 5 y) mod 50. A
+//          fragment that passes its tests fetches its tile; in a pass without tests so does one that a program
+//          discards. The tile that had the place is put back: each channel rounded to the target's format. What is
+//          fetched is the value of a code; what is blended is neither rounded nor, on 8-bit targets, made a code, but
+//          clamped to 0..1 before and after the blend. The end of a pass puts everything back.
 // Source   fragment-stages.md 9.5; mesa-rasterizers.md 3.5.
-// Numbers  A value is put back only where a fragment was blended since it was fetched, so that nothing else changes. Tiles
-//          share a place in frames of more than 5 x 10 tiles: there a region that is not the frame throws NeedsFrame at the
-//          first pixel that is blended twice, for what puts its tile back lies elsewhere.
+// Numbers  A value is put back only where a fragment was blended since it was fetched, so that nothing else changes.
+//          Tiles share a place in frames of more than 5 x 10 tiles: there a region that is not the frame throws
+//          NeedsFrame at the first pixel that is blended twice, for what puts its tile back lies elsewhere.
 // Tests    tests/pipeline/fragments/tile_cache_test.cpp
 #pragma once
 #include <array>

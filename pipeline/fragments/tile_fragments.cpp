@@ -15,8 +15,8 @@ namespace {
 // Kernels write whole vectors behind the last fragment.
 constexpr std::size_t spare_places = 16;
 
-// An array that grows leaves its old memory with the allocator, which keeps it (uninitialized.h): so it takes at once what the limit admits, of
-// which only what is written costs memory, up to a number of fragments that few tiles have.
+// An array that grows leaves its old memory with the allocator, which keeps it (uninitialized.h): so it takes at once
+// what the limit admits, of which only what is written costs memory, up to a number of fragments that few tiles have.
 constexpr std::size_t most_at_once = std::size_t{1} << 20;
 
 template <class T>

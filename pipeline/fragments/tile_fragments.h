@@ -1,9 +1,11 @@
-// pipeline/fragments/tile_fragments.h - the fragments of a tile: recorded once, in submission order, and read by every pass of a peel.
+// pipeline/fragments/tile_fragments.h - the fragments of a tile: recorded once, in submission order, and read by every
+// pass of a peel.
 //
-// Rule     A fragment is a place: 0, 1, 2, ... in submission order, after texture and MASK; what MASK kills has none. Its values stand in
-//          arrays by place. A record that would outgrow its limit forgets everything, and its region rasterizes every pass.
-// Layout   One array a value; the channels of a colour together, for passes fetch fragments from here and there. A coverage mask of samples would
-//          be one array more: nothing else here depends on how many depths a pixel has.
+// Rule     A fragment is a place: 0, 1, 2, ... in submission order, after texture and MASK; what MASK kills has none.
+//          Its values stand in arrays by place. A record that would outgrow its limit forgets everything, and its
+//          region rasterizes every pass.
+// Layout   One array a value; the channels of a colour together, for passes fetch fragments from here and there. A
+//          coverage mask of samples would be one array more: nothing else here depends on how many depths a pixel has.
 // Source   execution.md 5.3 and 7.1.
 // Tests    tests/pipeline/fragments/tile_fragments_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
@@ -24,8 +26,9 @@ class TileFragments {
     void start(const rasterizer::FragmentNeeds& needs, std::uint64_t limit);
     // The living fragments of a batch.
     void append(const rasterizer::FragmentBatch& batch, const rasterizer::Lanes<std::uint32_t>& alive);
-    // For kernels that write values by themselves (record_rows.h): arrays with places up to `capacity`, null where a value is not held, and
-    // how many are taken. `more_space` takes what `from` has got, and gives room for at least one more vector.
+    // For kernels that write values by themselves (record_rows.h): arrays with places up to `capacity`, null where a
+    // value is not held, and how many are taken. `more_space` takes what `from` has got, and gives room for at least
+    // one more vector.
     using Color = std::array<float, 4>;
     struct Space {
         std::uint32_t *pixel = nullptr, *primitive = nullptr, *code = nullptr;
@@ -64,15 +67,17 @@ class TileFragments {
     }
     // The most by which a compared code exceeds its fragment's own.
     [[nodiscard]] std::uint32_t reference_lead() const noexcept { return reference_lead_; }
-    // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such values knows no order.
+    // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such values knows no
+    // order.
     [[nodiscard]] bool has_plain_colors();
 
-    // The values that `needs` names of the fragments at `places` to the first lanes of a batch, in this order; pixels and their positions
-    // are the caller's.
+    // The values that `needs` names of the fragments at `places` to the first lanes of a batch, in this order; pixels
+    // and their positions are the caller's.
     void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs,
                rasterizer::FragmentBatch& batch) const noexcept;
 
-    // Takes them in batches, in submission order, no pixel twice in one. `stamp`, one a pixel, are 0 at first and the reader's own.
+    // Takes them in batches, in submission order, no pixel twice in one. `stamp`, one a pixel, are 0 at first and the
+    // reader's own.
     struct Reading {
         std::size_t next = 0;
         std::uint32_t batch = 0;

@@ -34,7 +34,8 @@ bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
     return of.all * replay.bytes_a_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes;
 }
 
-// A triangle has a fragment at most for each pixel of its box, which is seldom asked for: most tiles fit if all had as many as there are triangles.
+// A triangle has a fragment at most for each pixel of its box, which is seldom asked for: most tiles fit if all had as
+// many as there are triangles.
 Depths bounds_of(const Geometry& geometry, std::size_t tile, const Replay& replay) {
     const Rect rect = tile_rect(geometry, tile), viewport = geometry.state.viewport;
     const std::uint64_t triangles = geometry.bin(tile).size();

@@ -1,8 +1,9 @@
-// pipeline/fragments/tile_parts.h - the regions of a frame in replay: its tiles, and of a tile whose fragments take more than a region's memory
-// parts, so that no region falls back on rasterizing every pass.
+// pipeline/fragments/tile_parts.h - the regions of a frame in replay: its tiles, and of a tile whose fragments take
+// more than a region's memory parts, so that no region falls back on rasterizing every pass.
 //
-// Rule     A tile is halved, across its longer side, until each part fits or is a pixel. A part fits by its fragments (Replay::bytes_a_fragment)
-//          and their sorted words. Parts stand where their tile would stand. Memory of less than two chunks of a store cuts nothing.
+// Rule     A tile is halved, across its longer side, until each part fits or is a pixel. A part fits by its fragments
+//          (Replay::bytes_a_fragment) and their sorted words. Parts stand where their tile would stand. Memory of less
+//          than two chunks of a store cuts nothing.
 // Source   execution.md 5.3.
 // Tests    tests/pipeline/fragments/tile_parts_test.cpp, tests/peeling/execution_test.cpp
 #pragma once

@@ -1,8 +1,9 @@
-// pipeline/frame/alteration.h - what a run does otherwise than its algorithm says: a deliberate mistake, for a caller that wants to know
-// what it looks like.
+// pipeline/frame/alteration.h - what a run does otherwise than its algorithm says: a deliberate mistake, for a caller
+// that wants to know what it looks like.
 //
-// Rule     An altered run is literal: one region, one thread, every step in order. Before each step of the algorithm its function is asked,
-//          which may change the step, or answer false to leave it out. The emulator's own work (opaque priming) is never altered.
+// Rule     An altered run is literal: one region, one thread, every step in order. Before each step of the algorithm
+//          its function is asked, which may change the step, or answer false to leave it out. The emulator's own work
+//          (opaque priming) is never altered.
 // Tests    tests/pipeline/region/alteration_test.cpp
 #pragma once
 #include <cstdint>

@@ -9,8 +9,8 @@
 
 namespace strata::pipeline {
 
-// Throws Refused (check.h) for state that the profile lacks, and std::logic_error for a pass that no machine could run: targets
-// of unequal kind, a feedback loop (a target read and written without ordered_rmw), a test without its target.
+// Throws Refused (check.h) for state that the profile lacks, and std::logic_error for a pass that no machine could run:
+// targets of unequal kind, a feedback loop (a target read and written without ordered_rmw), a test without its target.
 void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets);
 
 }  // namespace strata::pipeline

@@ -1,4 +1,5 @@
-// pipeline/frame/diagnostics.h - what the emulated machine got wrong, or was made to do, in one run. Nothing is silently wrong.
+// pipeline/frame/diagnostics.h - what the emulated machine got wrong, or was made to do, in one run. Nothing is
+// silently wrong.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -59,7 +60,8 @@ struct Diagnostic {
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
 
-// Adds to `all` what another region found: counts add up, the earlier first pixel stays. Order of calls does not matter.
+// Adds to `all` what another region found: counts add up, the earlier first pixel stays. Order of calls does not
+// matter.
 void merge(std::vector<Diagnostic>& all, const Diagnostic& one);
 
 }  // namespace strata::pipeline

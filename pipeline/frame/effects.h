@@ -1,10 +1,12 @@
-// pipeline/frame/effects.h - which effects a pass simulates: decided from its state and its materials before the first fragment.
+// pipeline/frame/effects.h - which effects a pass simulates: decided from its state and its materials before the first
+// fragment.
 //
-// Rule     Needed is what the program declares, and what a stage that is switched on looks at. What materials call for is decided by
-//          the tile's own triangles. `all` simulates everything: values that no stage reads, and where a stage is off the stage
-//          with a state that changes nothing (alpha GEQUAL 0, stencil ALWAYS and KEEP, depth ALWAYS without a write, blending ONE
-//          and ZERO); the bits and counters are the same. In a tile without opaque triangles the test against the opaque depth is not made, and no depth
-//          interpolated for it, if every triangle's bound (rasterizer/set_up/depth_bound.h) lies before the cleared 1.
+// Rule     Needed is what the program declares, and what a stage that is switched on looks at. What materials call for
+//          is decided by the tile's own triangles. `all` simulates everything: values that no stage reads, and where a
+//          stage is off the stage with a state that changes nothing (alpha GEQUAL 0, stencil ALWAYS and KEEP, depth
+//          ALWAYS without a write, blending ONE and ZERO); the bits and counters are the same. In a tile without opaque
+//          triangles the test against the opaque depth is not made, and no depth interpolated for it, if every
+//          triangle's bound (rasterizer/set_up/depth_bound.h) lies before the cleared 1.
 // Source   execution.md 6.
 // Tests    tests/peeling/execution_test.cpp, tests/pipeline/frame/effects_test.cpp
 #pragma once

@@ -1,4 +1,5 @@
-// pipeline/frame/frame.h - everything that is the same for all regions of one run: the machine, the lists, the formats, the options.
+// pipeline/frame/frame.h - everything that is the same for all regions of one run: the machine, the lists, the formats,
+// the options.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -57,7 +58,8 @@ struct Frame {
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept;  // of its viewport
 
-    // The list that passes draw again and again, and replay captures: the first one only begins a peel that has a second.
+    // The list that passes draw again and again, and replay captures: the first one only begins a peel that has a
+    // second.
     [[nodiscard]] const PreparedDraw* repeated() const noexcept { return second != nullptr ? second : transparent; }
 
     // How depths that this frame compares are computed and stored.

@@ -1,4 +1,5 @@
-// pipeline/frame/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the instruments asked for.
+// pipeline/frame/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the
+// instruments asked for.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,6 @@
-// pipeline/frame/instruments.h - what a caller may add to a run in order to measure or to check it. No result bit, counter or pass
-// count depends on it, but for an alteration, whose purpose that is; a run without instruments is the usual one.
+// pipeline/frame/instruments.h - what a caller may add to a run in order to measure or to check it. No result bit,
+// counter or pass count depends on it, but for an alteration, whose purpose that is; a run without instruments is the
+// usual one.
 #pragma once
 #include <cstdint>
 

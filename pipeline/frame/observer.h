@@ -1,7 +1,9 @@
-// pipeline/frame/observer.h - what a run shows of itself, step by step and stage by stage, to a caller that explains it.
+// pipeline/frame/observer.h - what a run shows of itself, step by step and stage by stage, to a caller that explains
+// it.
 //
-// Rule     A run with an observer is literal: one region, one thread, every step in order. Steps are shown when they have ended, stages
-//          of a batch when its lanes have passed them. What is the emulator's own work (opaque priming) is shown as uncounted.
+// Rule     A run with an observer is literal: one region, one thread, every step in order. Steps are shown when they
+//          have ended, stages of a batch when its lanes have passed them. What is the emulator's own work (opaque
+//          priming) is shown as uncounted.
 // Tests    tests/tools/oracle/passes_test.cpp, explain_test.cpp
 #pragma once
 #include <functional>
@@ -43,7 +45,8 @@ struct StageEvent {
     bool is_geometry = true, is_counted = true;
 };
 
-// Empty functions are not called. With `traced` the run keeps a trace, and each step of it is shown when it is taken down.
+// Empty functions are not called. With `traced` the run keeps a trace, and each step of it is shown when it is taken
+// down.
 struct Observer {
     std::function<void(Target target, std::string_view name)> named{};
     std::function<void(const Region& region, const StepEvent& event)> step{};

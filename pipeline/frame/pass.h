@@ -14,8 +14,8 @@ namespace strata::pipeline {
 
 inline constexpr int max_color_targets = 8, max_reads = 8, max_depth_units = 4;
 
-// One of Everitt's sequential depth units (Listing 1): a read-only test against a depth target of its own, before the depth
-// test proper. The first that fails discards the fragment. STRATA_depth_units, an emulator extension.
+// One of Everitt's sequential depth units (Listing 1): a read-only test against a depth target of its own, before the
+// depth test proper. The first that fails discards the fragment. STRATA_depth_units, an emulator extension.
 struct DepthUnit {
     Target depth;
     CompareFunc func = CompareFunc::always;
@@ -45,7 +45,8 @@ struct PassState {
 // The values that a program may load: the declared reads, gathered at the fragments' own pixels.
 class Loads {
   public:
-    // Colour target number `read` of PassState::reads as binary32 channels; missing channels are 0, a missing alpha is 1.
+    // Colour target number `read` of PassState::reads as binary32 channels; missing channels are 0, a missing alpha is
+    // 1.
     [[nodiscard]] const ColorLanes& color(int read) const noexcept { return color_[static_cast<std::size_t>(read)]; }
     // Depth target number `read` as codes.
     [[nodiscard]] const Lanes<std::uint32_t>& depth(int read) const noexcept {
@@ -68,13 +69,14 @@ struct Outputs {
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=
     std::uint64_t tally = 0;     // counts whatever the program calls an event
 
-    // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is set.
+    // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is
+    // set.
     Lanes<Side> side;
     Lanes<std::uint32_t> key;
     bool traced = false;
 
-    // The codes that depth units and depth test compare and write instead of the batch's own (a quad has none). Used when
-    // `replaces_depth` is set; a geometry pass says so beforehand in PassState::replaces_depth.
+    // The codes that depth units and depth test compare and write instead of the batch's own (a quad has none). Used
+    // when `replaces_depth` is set; a geometry pass says so beforehand in PassState::replaces_depth.
     Lanes<std::uint32_t> depth;
     bool replaces_depth = false;
 
@@ -87,7 +89,8 @@ concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& o
     p(in, own, out);
 };
 
-// A query's answer in one region. It cannot be read: a tile's number is not the frame's. Region::any turns it into a branch.
+// A query's answer in one region. It cannot be read: a tile's number is not the frame's. Region::any turns it into a
+// branch.
 class Count {
   public:
     Count() = default;

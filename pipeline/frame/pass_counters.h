@@ -1,9 +1,11 @@
-// pipeline/frame/pass_counters.h - what the parts of a pass count, each rule once: for the stages, for rows, and for the resolves
-// that count passes which they do not run.
+// pipeline/frame/pass_counters.h - what the parts of a pass count, each rule once: for the stages, for rows, and for
+// the resolves that count passes which they do not run.
 //
-// Rule     Bytes move as if no cache existed: a load, a test and a blend read the target's pixel for every fragment that arrives, and
-//          what passes is written. `bytes` is a pixel's, of one sample; a full-screen pass has a fragment at every pixel.
-// Tests    tests/peeling/execution_test.cpp: literal execution against the resolves; tests/pipeline/region/region_test.cpp
+// Rule     Bytes move as if no cache existed: a load, a test and a blend read the target's pixel for every fragment
+//          that arrives, and what passes is written. `bytes` is a pixel's, of one sample; a full-screen pass has a
+//          fragment at every pixel.
+// Tests    tests/peeling/execution_test.cpp: literal execution against the resolves;
+//          tests/pipeline/region/region_test.cpp
 #pragma once
 #include "pipeline/frame/counters.h"
 

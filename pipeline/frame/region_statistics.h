@@ -1,4 +1,5 @@
-// pipeline/frame/region_statistics.h - what a region writes down while its body runs: all that the executor needs to put the frame together.
+// pipeline/frame/region_statistics.h - what a region writes down while its body runs: all that the executor needs to
+// put the frame together.
 //
 // Rule     `script` and `passes_before` come from the executor, everything else from the region.
 // Tests    tests/pipeline/region/executor_test.cpp
@@ -35,8 +36,9 @@ struct KeptLayer {
     Side side = Side::front;  // from which end the peel took it
 };
 
-// How a run came by the fragments that its geometry passes look at, from the slowest way on: the frame is one region, and every pass
-// rasterizes; so it does in each tile; passes read what was recorded of the tile; and a whole loop was computed from that, without passes.
+// How a run came by the fragments that its geometry passes look at, from the slowest way on: the frame is one region,
+// and every pass rasterizes; so it does in each tile; passes read what was recorded of the tile; and a whole loop was
+// computed from that, without passes.
 enum class Path : std::uint8_t { literal, tiled, recorded, resolved };
 
 // Of a region, and why it did not go a faster way: sentences, null where nothing was in the way.

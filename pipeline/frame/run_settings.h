@@ -1,4 +1,5 @@
-// pipeline/frame/run_settings.h - the choices that a run takes: how it is executed, when it ends, what it orders by, what it simulates.
+// pipeline/frame/run_settings.h - the choices that a run takes: how it is executed, when it ends, what it orders by,
+// what it simulates.
 #pragma once
 #include <cstdint>
 

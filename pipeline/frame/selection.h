@@ -1,10 +1,11 @@
 // pipeline/frame/selection.h - which fragments a geometry pass looks at, as data: tiles visit those alone.
 //
-// Rule     A selection is a promise about the pass's own state and program. At every pixel the *interval* is a range of keys
-//          (Frame::key) between bounds that targets hold there when the pass begins, and the pass keeps some fragments of the
-//          interval. The others leave every target as it is: those of the interval because the kept ones decide alone, those outside
-//          because they die or write what is there. The program looks at no primitive's number, and tallies nothing outside.
-//          `Instruments::check_selections` visits every fragment, too, and compares.
+// Rule     A selection is a promise about the pass's own state and program. At every pixel the *interval* is a range of
+//          keys (Frame::key) between bounds that targets hold there when the pass begins, and the pass keeps some
+//          fragments of the interval. The others leave every target as it is: those of the interval because the kept
+//          ones decide alone, those outside because they die or write what is there. The program looks at no
+//          primitive's number, and tallies nothing outside. `Instruments::check_selections` visits every fragment, too,
+//          and compares.
 // Source   execution.md 7.1.
 // Tests    tests/peeling/selection_test.cpp, execution_test.cpp
 #pragma once

@@ -1,6 +1,8 @@
-// pipeline/frame/trace.h - what the pixels of a region composited, in the order in which it happened, within a stated memory.
+// pipeline/frame/trace.h - what the pixels of a region composited, in the order in which it happened, within a stated
+// memory.
 //
-// Rule     A trace that would outgrow its memory forgets everything, says so, and takes no more: half a trace tells nothing.
+// Rule     A trace that would outgrow its memory forgets everything, says so, and takes no more: half a trace tells
+//          nothing.
 // Layout   Chunks of 16 KiB, kept from region to region, so that no entry moves and memory is asked for once.
 // Tests    tests/pipeline/region/trace_test.cpp
 #pragma once

@@ -1,11 +1,13 @@
-// pipeline/geforce3/combiner.h - GeForce3's register combiners: up to eight general stages and a final one, on 9-bit signed values.
+// pipeline/geforce3/combiner.h - GeForce3's register combiners: up to eight general stages and a final one, on 9-bit
+// signed values.
 //
-// Rule     A value is an integer in units of 1/255, -255 to 255. A general stage computes A B, C D (products or dot products)
-//          and A B + C D or a choice between the two, then bias (- 128), scale, clamp to [-255, 255]; of the colours and of
-//          alpha apart. The final stage gives A B + (1 - A) C + D of colours and G as alpha, clamped to [0, 255].
+// Rule     A value is an integer in units of 1/255, -255 to 255. A general stage computes A B, C D (products or dot
+//          products) and A B + C D or a choice between the two, then bias (- 128), scale, clamp to [-255, 255]; of the
+//          colours and of alpha apart. The final stage gives A B + (1 - A) C + D of colours and G as alpha, clamped to
+//          [0, 255].
 // Source   NV_register_combiners; combiners.md 1 to 3; chip-fragment.md 9 (bias, scales, inverts, MUX and sums as
-//          measured). Sums of products are exact and rounded once, to nearest: no tie exists for an odd divisor. That rounding
-//          is our assumption wherever two factors are fractions [A].
+//          measured). Sums of products are exact and rounded once, to nearest: no tie exists for an odd divisor. That
+//          rounding is our assumption wherever two factors are fractions [A].
 // Numbers  |A B + C D| <= 2 * 255^2, three times that for dot products: far below 2^31.
 // Tests    tests/pipeline/geforce3/combiner_test.cpp
 #pragma once

@@ -1,5 +1,5 @@
-// pipeline/geforce3/combiner_loops.h - the loops of the register combiners over the fragments of a batch, for combiner.cpp: one
-// source, which compilers vectorise for every instruction set.
+// pipeline/geforce3/combiner_loops.h - the loops of the register combiners over the fragments of a batch, for
+// combiner.cpp: one source, which compilers vectorise for every instruction set.
 //
 // Rule     combiners.md 2 and 3, in units of 1/255. Every loop writes `count` values of `to`.
 // Numbers  Registers hold -255 to 255, the colour sum up to 510: sums of products stay below 2^20.

@@ -1,9 +1,9 @@
 // pipeline/geforce3/texture_environment.h - OpenGL's texture environment, expressed through the register combiners.
 //
 // Rule     One general stage a unit, in order of the units; Cf, Af is the primary colour, then the stage before.
-//          REPLACE Ct; MODULATE Cf Ct; DECAL Cf (1 - At) + Ct At; BLEND Cf (1 - Ct) + Cc Ct; ADD Cf + Ct; alpha At, Af At,
-//          Af, Af At, Af At. COMBINE: REPLACE a; MODULATE a b; ADD a + b; ADD_SIGNED a + b - 1/2; INTERPOLATE a c + b (1 - c);
-//          SUBTRACT a - b; times 1, 2 or 4. Textures are taken as RGBA. GL_NONE passes Cf, Af on.
+//          REPLACE Ct; MODULATE Cf Ct; DECAL Cf (1 - At) + Ct At; BLEND Cf (1 - Ct) + Cc Ct; ADD Cf + Ct; alpha At, Af
+//          At, Af, Af At, Af At. COMBINE: REPLACE a; MODULATE a b; ADD a + b; ADD_SIGNED a + b - 1/2; INTERPOLATE a c +
+//          b (1 - c); SUBTRACT a - b; times 1, 2 or 4. Textures are taken as RGBA. GL_NONE passes Cf, Af on.
 // Source   GL 1.2.1 3.8.9 (table 3.22); ARB_texture_env_add; ARB_texture_env_combine. The arithmetic is combiner.h's.
 // Tests    tests/pipeline/geforce3/texture_environment_test.cpp
 #pragma once
@@ -47,8 +47,8 @@ struct TexEnv {
 // The combiners of up to four units, in order; units with `none` take no stage.
 [[nodiscard]] Combiners texture_environment(std::span<const TexEnv> units);
 
-// The combiner of shadow-map peeling: colour stays, alpha becomes (1 - comparison) times alpha. `unit` holds the comparison
-// as luminance or intensity. combiners.md 4.2: published ports of Everitt's demo.
+// The combiner of shadow-map peeling: colour stays, alpha becomes (1 - comparison) times alpha. `unit` holds the
+// comparison as luminance or intensity. combiners.md 4.2: published ports of Everitt's demo.
 [[nodiscard]] Combiners peel_combiners(std::size_t unit);
 
 }  // namespace strata::pipeline

@@ -1,14 +1,15 @@
-// pipeline/geforce3/texture_shader.h - the four texture shader stages of GeForce3: from interpolated coordinates to texture results,
-// a culled fragment, or another depth.
+// pipeline/geforce3/texture_shader.h - the four texture shader stages of GeForce3: from interpolated coordinates to
+// texture results, a culled fragment, or another depth.
 //
-// Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q clamped to
-//          [0,1]; where the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own fit, every one
-//          of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others]. CULL_FRAGMENT: see CullMode.
-//          DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input, not divided by q; _TEXTURE_2D,
-//          _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot); _DEPTH_REPLACE: the stage's depth is dot of the
-//          stage before / own dot, one divide, floored or rounded like a depth write; outside the depth range, NaN and zero
-//          divisors among it, the fragment dies (with depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI,
-//          LO, sqrt(1 - HI^2 - LO^2)); in colour it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
+// Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q
+//          clamped to [0,1]; where the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our
+//          own fit, every one of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others].
+//          CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input,
+//          not divided by q; _TEXTURE_2D, _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot);
+//          _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one divide, floored or rounded like
+//          a depth write; outside the depth range, NaN and zero divisors among it, the fragment dies (with depth clamp
+//          it is clamped). A HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 - LO^2)); in colour it is 0. A
+//          stage that is not consistent is NONE: (0, 0, 0, 0).
 // Source   NV_texture_shader 3.8.13; texture-shader.md 1 to 7; chip-geometry.md 4. Binary32 in the written order [A].
 // Tests    tests/pipeline/geforce3/texture_shader_test.cpp
 #pragma once
@@ -36,7 +37,8 @@ enum class ShaderOp : std::uint8_t {
     dot_product_depth_replace
 };
 
-// A coordinate's test in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN fails both.
+// A coordinate's test in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN
+// fails both.
 enum class CullMode : std::uint8_t {
     // The default: lives where the coordinate is at least 0.
     gequal,
@@ -51,7 +53,8 @@ enum class DotMapping : std::uint8_t { unsigned_identity, expand_normal };
 // q; the chip's two-dimensional stage compares 0 (texture-shader.md 2).
 enum class CompareReference : std::uint8_t { r_over_q, zero };
 
-// Two 16-bit components a texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Nearest lookups.
+// Two 16-bit components a texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Nearest
+// lookups.
 struct HiloTexture {
     TextureTarget target = TextureTarget::two_d;
     int width = 1, height = 1;
@@ -86,8 +89,8 @@ struct ShaderStage {
 using ShaderStages = std::array<ShaderStage, rasterizer::texture_units>;
 using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 
-// The operations as they take effect: NONE for those that are not consistent (a texture that is missing or of another kind;
-// a previous input that is no earlier stage or holds no texel; a dot product that is not continued after one).
+// The operations as they take effect: NONE for those that are not consistent (a texture that is missing or of another
+// kind; a previous input that is no earlier stage or holds no texel; a dot product that is not continued after one).
 [[nodiscard]] ShaderOps consistent_operations(const ShaderStages& stages);
 // Whether a stage that takes effect gives the fragment another depth.
 [[nodiscard]] bool replaces_depth(const ShaderOps& ops) noexcept;

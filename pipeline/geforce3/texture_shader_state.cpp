@@ -1,4 +1,5 @@
-// pipeline/geforce3/texture_shader_state.cpp - which stages are consistent, and what they look at. NV_texture_shader 3.8.13.2.
+// pipeline/geforce3/texture_shader_state.cpp - which stages are consistent, and what they look at. NV_texture_shader
+// 3.8.13.2.
 #include "pipeline/geforce3/texture_shader.h"
 
 namespace strata::pipeline {

@@ -75,8 +75,8 @@ class FrameRun {
                                                   whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
     }
 
-    // True if no list has a triangle in region `r`, a tile, and the frame promises that its body does not depend on place there
-    // (execution.md 6).
+    // True if no list has a triangle in region `r`, a tile, and the frame promises that its body does not depend on
+    // place there (execution.md 6).
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) {
             return list == nullptr || list->geometry.bin(areas_[r].tile).empty();
@@ -110,7 +110,8 @@ class FrameRun {
         return others;
     }
 
-    // The copy has the equal tile's statistics, for the machine would have worked in both tiles; but it rasterized nothing itself.
+    // The copy has the equal tile's statistics, for the machine would have worked in both tiles; but it rasterized
+    // nothing itself.
     void copy_blank(std::size_t r) {
         regions_[r] = regions_[look_alike_[r]];
         regions_[r].fragments = regions_[r].statistics.fragments_processed = 0;
@@ -120,7 +121,8 @@ class FrameRun {
         if (frame_.nearest_depth) copy(look_alike_[r], r, result_.depth);
     }
 
-    // What a region counts for in the progress: its triangles of every list, and one. All regions together come to the whole.
+    // What a region counts for in the progress: its triangles of every list, and one. All regions together come to the
+    // whole.
     [[nodiscard]] std::size_t weight(std::size_t r) const {
         if (extent_ == Extent::frame) return 1;
         std::size_t triangles = 1;
@@ -174,15 +176,15 @@ class FrameRun {
         parallel_for(which.size(), threads_, [&](std::size_t i) { run_region(which[i], script); });
     }
 
-    // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there, or it
-    // had stopped before, and has promised that further iterations change nothing.
+    // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there,
+    // or it had stopped before, and has promised that further iterations change nothing.
     [[nodiscard]] static bool is_idle(const LoopStatistics& loop, std::size_t d) {
         const std::size_t last = std::min(d, loop.decisions.size() - 1);
         return loop.decisions[last].own == 0 && loop.decisions[last].idle != Idle::no;
     }
 
-    // How many further answers are "yes": those of a region that has gone the frame's way up to decision d, and counted enough
-    // by itself. A hint that saves runs: every answer is settled in its own round.
+    // How many further answers are "yes": those of a region that has gone the frame's way up to decision d, and counted
+    // enough by itself. A hint that saves runs: every answer is settled in its own round.
     [[nodiscard]] std::size_t certain_after(std::size_t loop, std::size_t d, bool answer) const {
         std::size_t longest = 0;
         for (const auto& [r, fragments, runs] : regions_) {
@@ -195,8 +197,9 @@ class FrameRun {
         return longest;
     }
 
-    // A limit counts the passes of all loops. A region that leaves a loop before the others has made fewer, and may go too
-    // far. From loop to loop it follows how many iterations the limit leaves to the frame: a region with more runs again.
+    // A limit counts the passes of all loops. A region that leaves a loop before the others has made fewer, and may go
+    // too far. From loop to loop it follows how many iterations the limit leaves to the frame: a region with more runs
+    // again.
     void limit_loops() {
         std::vector<int> most;  // iterations of each loop
         for (std::size_t loop = 0; loop < regions_[0].statistics.loops.size(); ++loop) {
@@ -215,8 +218,8 @@ class FrameRun {
         result_.work.reruns += again.size();
     }
 
-    // Geometry passes of a loop of so many iterations, or of as many as the frame has made if they are fewer. Every iteration of a loop
-    // makes as many; a loop without any has those that stand before it.
+    // Geometry passes of a loop of so many iterations, or of as many as the frame has made if they are fewer. Every
+    // iteration of a loop makes as many; a loop without any has those that stand before it.
     [[nodiscard]] int passes_of(std::size_t loop, int iterations) const {
         const LoopStatistics& longest = regions_[longest_in(loop)].statistics.loops[loop];
         if (longest.iterations == 0) return longest.passes.geometry;
@@ -229,8 +232,9 @@ class FrameRun {
         return static_cast<std::size_t>(std::ranges::max_element(regions_, {}, iterations) - regions_.begin());
     }
 
-    // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
-    // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
+    // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers
+    // only, so each round settles at least one, and regions that guessed otherwise run again with the answers known so
+    // far.
     void settle() {
         if (extent_ == Extent::frame) {
             for (const LoopStatistics& loop : regions_[0].statistics.loops) {
@@ -268,8 +272,8 @@ class FrameRun {
         }
     }
 
-    // Puts the frame together from the statistics of all regions. Diagnostics merge in any order, so the result does not depend on
-    // threads. Without a query every region ran the same iterations.
+    // Puts the frame together from the statistics of all regions. Diagnostics merge in any order, so the result does
+    // not depend on threads. Without a query every region ran the same iterations.
     void gather() {
         result_.work.regions = regions_.size();
         result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;

@@ -1,10 +1,11 @@
 // pipeline/region/executor.h - runs an algorithm over the frame's regions and puts the frame together.
 //
-// Rule     literal: one region, the frame; every pass rasterizes everything. It is the definition. replay: one region a tile;
-//          a tile guesses the frame's answers from its own counts, and runs again only where the frame decided otherwise and
-//          the tile was not idle. As far as fragment memory reaches, a tile rasterizes its transparent list once
-//          (region_source.cpp); without memory every pass rasterizes. One blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's. A frame that
-//          needs it whole (Frame::needs_frame, or a lookup that leaves its region) runs literally whatever was asked for.
+// Rule     literal: one region, the frame; every pass rasterizes everything. It is the definition. replay: one region a
+//          tile; a tile guesses the frame's answers from its own counts, and runs again only where the frame decided
+//          otherwise and the tile was not idle. As far as fragment memory reaches, a tile rasterizes its transparent
+//          list once (region_source.cpp); without memory every pass rasterizes. One blank tile runs for all of its
+//          size, if the frame says that they are alike. Counters are literal's. A frame that needs it whole
+//          (Frame::needs_frame, or a lookup that leaves its region) runs literally whatever was asked for.
 // Source   execution.md 4, 5 and 8.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once
@@ -23,8 +24,8 @@ class Region;
 
 using Body = std::function<void(Region&)>;  // once a region, never a fragment
 
-// Looks at regions while their targets and traces are there, from any thread. A region that runs again is looked at again, and
-// what was seen before is void; so is all of it if the frame is run again as a whole.
+// Looks at regions while their targets and traces are there, from any thread. A region that runs again is looked at
+// again, and what was seen before is void; so is all of it if the frame is run again as a whole.
 struct Watch {
     // The regions that will run: tiles and parts of tiles, or the frame. Other functions name them by their number.
     std::function<void(std::span<const RegionArea>)> begun{};

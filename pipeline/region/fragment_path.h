@@ -1,4 +1,5 @@
-// pipeline/region/fragment_path.h - GeForce3's fragment path as a fragment program: texture shader, then register combiners.
+// pipeline/region/fragment_path.h - GeForce3's fragment path as a fragment program: texture shader, then register
+// combiners.
 //
 // Rule     The state of a pass is a value; `apply` tells the pass what it needs. Coordinates come with the draw list
 //          (PrepareOptions::units) or with a TriangleSoup of one's own. A replaced depth takes the place of the
@@ -23,7 +24,8 @@ struct FragmentPath {
 
 class FragmentPathProgram {
   public:
-    // Throws Refused where the profile has no NV_texture_shader, std::logic_error for combiner state that no machine runs.
+    // Throws Refused where the profile has no NV_texture_shader, std::logic_error for combiner state that no machine
+    // runs.
     FragmentPathProgram(const Region& region, const FragmentPath& path);
 
     // Adds to `state` what the program looks at, the depth targets that it samples, and whether it replaces depth.

@@ -1,4 +1,5 @@
-// pipeline/region/region.cpp - a region from its parts, and the opaque scene that is there before the body starts (execution.md 1.1).
+// pipeline/region/region.cpp - a region from its parts, and the opaque scene that is there before the body starts
+// (execution.md 1.1).
 #include "pipeline/region/region.h"
 
 #include <algorithm>

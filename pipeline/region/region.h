@@ -1,9 +1,11 @@
-// pipeline/region/region.h - a rectangle of the frame with render targets of its own: what peeling algorithms are written against.
+// pipeline/region/region.h - a rectangle of the frame with render targets of its own: what peeling algorithms are
+// written against.
 //
-// Rule     An algorithm is one function over a region. Literal execution gives it the frame, replay one tile after another;
-//          bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
-//          A region is its targets, stages, source and loop (region_shared.h says who looks at whom); what the executor reads
-//          afterwards stands in RegionStatistics (region_statistics.h); what fast ways need, in RegionShortcuts (region_shortcuts.h).
+// Rule     An algorithm is one function over a region. Literal execution gives it the frame, replay one tile after
+//          another; bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
+//          A region is its targets, stages, source and loop (region_shared.h says who looks at whom); what the executor
+//          reads afterwards stands in RegionStatistics (region_statistics.h); what fast ways need, in RegionShortcuts
+//          (region_shortcuts.h).
 // Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
@@ -40,8 +42,8 @@ class Region {
     [[nodiscard]] Target make(Format format, int samples = 1) { return targets_.make(format, samples); }
     [[nodiscard]] Target make_color() { return make(frame().color_format); }
     [[nodiscard]] Target make_depth() { return targets_.make_depth(); }
-    // The opaque scene, drawn before the algorithm starts: depth in the form of the algorithm's key, and colour over the
-    // background (without opaque geometry: depth 1, the background).
+    // The opaque scene, drawn before the algorithm starts: depth in the form of the algorithm's key, and colour over
+    // the background (without opaque geometry: depth 1, the background).
     [[nodiscard]] Target opaque_depth() const noexcept { return targets_.opaque_depth(); }
     [[nodiscard]] Target opaque_color() const noexcept { return targets_.opaque_color(); }
     // What people call a target, for observers and alterations.
@@ -63,18 +65,19 @@ class Region {
     // One over a list of the frame, or over one that is not: only a frame that is a single region may (surface.h).
     template <FragmentProgram P>
     Drawn draw(const PassState& state, const PreparedDraw& list, P&& program);
-    // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it can.
+    // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it
+    // can.
     Drawn draw_depth(const PassState& state);
-    // One geometry pass whose program leaves (c a, a) of every fragment to color[0], and 1 to each further target: straight into
-    // the targets where `state` adds them, and nothing else is done to them.
+    // One geometry pass whose program leaves (c a, a) of every fragment to color[0], and 1 to each further target:
+    // straight into the targets where `state` adds them, and nothing else is done to them.
     Drawn draw_sums(const PassState& state);
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
 
-    // The frame's answer to "is the count above the limit that --termination sets?".
-    // A promise belongs to the query that ends the loop, the last act of its iteration: a region that keeps it may stop there.
-    // A query for a branch within the iteration asks with Idle::no.
+    // The frame's answer to "is the count above the limit that --termination sets?". A promise belongs to the query
+    // that ends the loop, the last act of its iteration: a region that keeps it may stop there. A query for a branch
+    // within the iteration asks with Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle) { return loop_.any(count, idle); }
     void begin_iteration() { loop_.begin_iteration(); }
     // A further loop begins: promises made so far concern the loops before it, and further ones it alone. Where a limit
@@ -85,7 +88,8 @@ class Region {
     void keep_layer(Target color, Target depth, Side side = Side::front) { loop_.keep_layer(color, depth, side); }
     // After the last one: what this region shows in layers that other regions have more than it.
     void keep_no_layer(Target color, Target depth) { loop_.keep_no_layer(color, depth); }
-    // Hands over the final colour, which is an algorithm's result. Where the picture has another format, a quad copies it.
+    // Hands over the final colour, which is an algorithm's result. Where the picture has another format, a quad copies
+    // it.
     void publish(Target color);
 
     // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.

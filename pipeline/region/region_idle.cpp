@@ -1,9 +1,10 @@
-// pipeline/region/region_idle.cpp - stages that no state needs, simulated with a state that changes nothing: what Effects::all adds.
+// pipeline/region/region_idle.cpp - stages that no state needs, simulated with a state that changes nothing: what
+// Effects::all adds.
 //
-// Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its outcome goes on to the next stage
-//          wherever it is the same by the stage's own rule: every alpha test and depth test that passes all, a stencil that keeps,
-//          and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0 d is not s for -0, infinity and NaN:
-//          there the sum is made and dropped.
+// Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its outcome goes on to
+//          the next stage wherever it is the same by the stage's own rule: every alpha test and depth test that passes
+//          all, a stencil that keeps, and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0 d is
+//          not s for -0, infinity and NaN: there the sum is made and dropped.
 // Tests    tests/peeling/execution_test.cpp: against Effects::needed
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"

@@ -18,7 +18,8 @@ void Loop::begin_iteration() {
     ++shared_.statistics.loops.back().iterations;
 }
 
-// A tile that counts nothing stops; the executor runs it again, with what the frame answered, unless it has promised to be idle.
+// A tile that counts nothing stops; the executor runs it again, with what the frame answered, unless it has promised to
+// be idle.
 bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;

@@ -1,5 +1,6 @@
-// pipeline/region/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the targets, where
-// that leaves the same bits. Literal execution never takes this way: it is what this one is tested against.
+// pipeline/region/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the
+// targets, where that leaves the same bits. Literal execution never takes this way: it is what this one is tested
+// against.
 #include <algorithm>
 
 #include "pipeline/region/region_scratch.h"
@@ -29,8 +30,8 @@ bool Source::may_walk_rows(const PreparedDraw& list) const {
     return may_leave_batches(shared_) && row_walk_suits(list.geometry, shared_.frame.key_request(), shared_.rect());
 }
 
-// Whether nothing stands between the rasterizer and the tests of this pass. What rows of depth can do is more than what other rows
-// can: they ask may_walk_rows, too.
+// Whether nothing stands between the rasterizer and the tests of this pass. What rows of depth can do is more than what
+// other rows can: they ask may_walk_rows, too.
 bool Source::draws_rows(const PassState& state, const PreparedDraw& list) {
     if (!may_leave_batches(shared_) || !depth_rows_suit(list.geometry, shared_.frame.key_request(), shared_.rect()))
         return false;
@@ -58,8 +59,8 @@ rasterizer::DepthDrawn Source::draw_depth_rows(const PassState& state) {
     return rows;
 }
 
-// Rows add halves to nearest, and binary32, of colours by exact planes, without texture or shadow (execution.md 7). All else runs the
-// program.
+// Rows add halves to nearest, and binary32, of colours by exact planes, without texture or shadow (execution.md 7). All
+// else runs the program.
 bool Source::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return targets_.is_one_sample(state.color[k]) && targets_.at(state.color[k]).format() == format &&

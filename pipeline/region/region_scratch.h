@@ -1,5 +1,6 @@
-// pipeline/region/region_scratch.h - what a region borrows while it runs: the arrays that one batch passes through, the rasterizer's own,
-// and the captured fragments. Handed from region to region, so that nothing is allocated per batch and little per tile.
+// pipeline/region/region_scratch.h - what a region borrows while it runs: the arrays that one batch passes through, the
+// rasterizer's own, and the captured fragments. Handed from region to region, so that nothing is allocated per batch
+// and little per tile.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -15,8 +16,8 @@
 
 namespace strata::pipeline {
 
-// Contents last from one stage of a batch to the next, but for the record and what is sorted of it, `trace`, which last as long as the
-// region.
+// Contents last from one stage of a batch to the next, but for the record and what is sorted of it, `trace`, which last
+// as long as the region.
 struct alignas(64) RegionScratch {
     Loads loads;
     Outputs out;

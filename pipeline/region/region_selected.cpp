@@ -1,5 +1,6 @@
-// pipeline/region/region_selected.cpp - geometry passes that visit only what decides: the fragments that a selection keeps go through the
-// stages, and no others (execution.md 7.1). Literal execution never takes this way: it is what this one is tested against.
+// pipeline/region/region_selected.cpp - geometry passes that visit only what decides: the fragments that a selection
+// keeps go through the stages, and no others (execution.md 7.1). Literal execution never takes this way: it is what
+// this one is tested against.
 #include <algorithm>
 
 #include "pipeline/fragments/find_fragments.h"
@@ -179,8 +180,8 @@ void Source::find_submitted(const PassState& state) {
             shared_.scratch.waves.add(k - first, p, sorted.list(p)[k]);
 }
 
-// Those that come before have counted the stencil down by the time that the kept ones come, and met no sample's test. Sample s takes kept
-// arrival s, which fails the tests of the others.
+// Those that come before have counted the stencil down by the time that the kept ones come, and met no sample's test.
+// Sample s takes kept arrival s, which fails the tests of the others.
 void Source::route_submitted(const PassState& state) {
     for (std::size_t s = 0; s < shared_.scratch.waves.waves(); ++s) {
         std::uint32_t* const stored = targets_.at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
@@ -200,8 +201,8 @@ void Source::finish_submitted(const PassState& state) {
     }
 }
 
-// Where the pixels of a batch lie in the interval. A tile has at most 2^14 pixels in rows of up to 2^7, so that the reciprocal's
-// error, below 2^-21 a pixel, is less than one part of a row.
+// Where the pixels of a batch lie in the interval. A tile has at most 2^14 pixels in rows of up to 2^7, so that the
+// reciprocal's error, below 2^-21 a pixel, is less than one part of a row.
 void Source::find_positions(FragmentBatch& batch) const {
     const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
                x0 = static_cast<std::uint32_t>(shared_.rect().x0);

@@ -1,7 +1,9 @@
-// pipeline/region/region_shared.h - what the parts of a region share while it runs: its place, its statistics, and who watches.
+// pipeline/region/region_shared.h - what the parts of a region share while it runs: its place, its statistics, and who
+// watches.
 //
-// Rule     Targets hold render targets, stages take batches through a pass, source says where its fragments come from, loop asks and
-//          stops. Each looks at those before it alone: targets, stages, source; loop beside them. Region (region.h) has them all.
+// Rule     Targets hold render targets, stages take batches through a pass, source says where its fragments come from,
+//          loop asks and stops. Each looks at those before it alone: targets, stages, source; loop beside them. Region
+//          (region.h) has them all.
 // Tests    tests/pipeline/region/region_test.cpp
 #pragma once
 #include <cstddef>
@@ -57,7 +59,8 @@ struct RegionShared {
         instruments.observer->step(region, event);
     }
     void trace(const TraceEntry& entry) const;  // and shows it
-    // Diagnostics name pixels of the window, not of the region: `pixels` of it, the first of them at region index `first_pixel`.
+    // Diagnostics name pixels of the window, not of the region: `pixels` of it, the first of them at region index
+    // `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) const;
 };
 

@@ -1,8 +1,9 @@
-// pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the machine's, in the
-// machine's own statistics. The resolve of dual (peeling/loops), the kernels of rows and whole pixels, and the emulator's own looks.
+// pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the
+// machine's, in the machine's own statistics. The resolve of dual (peeling/loops), the kernels of rows and whole
+// pixels, and the emulator's own looks.
 //
-// Rule     Nothing here is a pass, and nothing is counted unless `count_passes` says so: the caller statistics what the passes that it
-//          replaces would have counted. An algorithm that is written as its paper says needs none of it.
+// Rule     Nothing here is a pass, and nothing is counted unless `count_passes` says so: the caller statistics what the
+//          passes that it replaces would have counted. An algorithm that is written as its paper says needs none of it.
 // Tests    tests/peeling/execution_test.cpp: every fast way against literal execution
 #pragma once
 #include <optional>
@@ -30,11 +31,12 @@ class RegionShortcuts {
 
     // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
-    // program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` counts row by row from
-    // the band's first. Once the program answers false it sees no more, and so does the caller.
+    // program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` counts row
+    // by row from the band's first. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
-    // What the tile draws of the list, with the values that `needs` names; nothing where that is not recorded or has no order.
+    // What the tile draws of the list, with the values that `needs` names; nothing where that is not recorded or has no
+    // order.
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.

@@ -1,4 +1,5 @@
-// pipeline/region/region_source.cpp - where a geometry pass gets its fragments from: the rasterizer, or what is recorded of the tile.
+// pipeline/region/region_source.cpp - where a geometry pass gets its fragments from: the rasterizer, or what is
+// recorded of the tile.
 #include "pipeline/region/region_source.h"
 
 #include <algorithm>
@@ -67,7 +68,8 @@ void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
     }
 }
 
-// Codes beyond the range order as no key does: where one comes, the frame is drawn as its definition has it (execution.md 5.4).
+// Codes beyond the range order as no key does: where one comes, the frame is drawn as its definition has it
+// (execution.md 5.4).
 void Source::require_range(const FragmentBatch& batch) const {
     const rasterizer::DepthFormat format = shared_.frame.key_request().format;
     const auto is_beyond = [&](std::uint32_t code) { return rasterizer::is_beyond_range(code, format); };
@@ -82,7 +84,8 @@ bool Source::may_record(const PreparedDraw& list) const {
            &list == shared_.frame.repeated();
 }
 
-// What all passes look at is recorded before the first of them. False where that does not fit, or is not recorded at all.
+// What all passes look at is recorded before the first of them. False where that does not fit, or is not recorded at
+// all.
 bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     TileFragments& fragments = shared_.scratch.fragments;
     if (fragments.serves(needs)) return true;

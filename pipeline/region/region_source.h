@@ -1,5 +1,5 @@
-// pipeline/region/region_source.h - where a geometry pass gets its fragments from: the rasterizer, what is recorded of the tile, the part
-// of that which decides, or rows that go straight into the targets.
+// pipeline/region/region_source.h - where a geometry pass gets its fragments from: the rasterizer, what is recorded of
+// the tile, the part of that which decides, or rows that go straight into the targets.
 //
 // Rule     Literal execution rasterizes, in every pass: it is what all other ways are tested against.
 // Source   execution.md 5 and 7.
@@ -51,8 +51,8 @@ class Source {
     [[nodiscard]] bool sums_suit_rows(const PassState& state);
     [[nodiscard]] rasterizer::DepthDrawn draw_sum_rows(const PassState& state);
 
-    // The record of the transparent list with the values that `needs` names, in the order of the frame's key. False where that is not
-    // recorded or has no order.
+    // The record of the transparent list with the values that `needs` names, in the order of the frame's key. False
+    // where that is not recorded or has no order.
     [[nodiscard]] bool record_sorted(const rasterizer::FragmentNeeds& needs);
     // Numbers of the triangles that may touch the region, in submission order, and what their materials need.
     [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;

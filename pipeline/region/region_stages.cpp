@@ -1,5 +1,6 @@
-// pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
-// (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. fragment-stages.md 1.
+// pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order:
+// texture and MASK, (the fragment program), alpha test, depth units, stencil test, depth test, query, blending.
+// fragment-stages.md 1.
 #include "pipeline/region/region_stages.h"
 
 #include <algorithm>
@@ -62,8 +63,9 @@ void Stages::show(Stage stage, const PassState& state, const FragmentBatch& batc
                  {stage, state, batch, out, alive, sample, kind_ == PassKind::geometry, shared_.statistics.counts});
 }
 
-// Checks a pass, and statistics all of it that does not depend on its fragments. Fragments bring one code each, so a depth
-// target must have the format of the frame's codes. All targets have one number of samples: check_pass has seen to it.
+// Checks a pass, and statistics all of it that does not depend on its fragments. Fragments bring one code each, so a
+// depth target must have the format of the frame's codes. All targets have one number of samples: check_pass has seen
+// to it.
 void Stages::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;

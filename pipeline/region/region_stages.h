@@ -1,7 +1,8 @@
-// pipeline/region/region_stages.h - one pass over batches: a batch's way from its values to the render targets, in OpenGL's order.
+// pipeline/region/region_stages.h - one pass over batches: a batch's way from its values to the render targets, in
+// OpenGL's order.
 //
-// Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first, close_cache behind the
-//          last.
+// Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first,
+//          close_cache behind the last.
 // Source   fragment-stages.md 1.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once

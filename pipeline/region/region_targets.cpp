@@ -109,7 +109,8 @@ void Targets::clear(Target given, const ClearValue& given_value, std::uint8_t sa
             if (!std::isfinite(value.color[c])) cleared_non_finite_.push_back(target.id);
         storage.fill(color_codes(format, shared_.profile().color_rounding(), value.color), sample_mask);
     } else if (is_depth(format)) {
-        // D32F is cleared as it is on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere (formats.md 5.5).
+        // D32F is cleared as it is on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere
+        // (formats.md 5.5).
         const bool unclamped = format == Format::d32f && shared_.profile().has_unclamped_depth_clear;
         const std::uint32_t code = unclamped ? std::bit_cast<std::uint32_t>(value.depth)
                                              : rasterizer::to_depth_code(value.depth, depth_format(format),

@@ -1,7 +1,8 @@
-// pipeline/region/region_targets.h - a region's render targets: made, cleared, copied, read; among them those of the opaque scene.
+// pipeline/region/region_targets.h - a region's render targets: made, cleared, copied, read; among them those of the
+// opaque scene.
 //
-// Rule     Numbers of targets are the same in every region of a frame: bodies make them in one order. Clears fill the region: scissor and
-//          write masks belong to passes.
+// Rule     Numbers of targets are the same in every region of a frame: bodies make them in one order. Clears fill the
+//          region: scissor and write masks belong to passes.
 // Source   execution.md 1.1; formats.md 5.
 // Tests    tests/pipeline/region/region_test.cpp, region_rarities_test.cpp
 #pragma once
@@ -29,16 +30,17 @@ class Targets {
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
     // 1 everywhere, as before the first opaque triangle.
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
-    // Whether its depths lie within the range, as those do that are sorted: codes beyond it have no order (depth.md 2.9).
+    // Whether its depths lie within the range, as those do that are sorted: codes beyond it have no order (depth.md
+    // 2.9).
     [[nodiscard]] bool has_ordered_surface() const;
     void note_written(Target target) noexcept { opaque_depth_is_cleared_ &= target != opaque_depth_; }
 
     void call(Target target, std::string_view name) const;
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
-    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
-    // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
-    // NeedsFrame where a region would have to look beyond itself.
+    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one
+    // sample each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in
+    // memory. Throws NeedsFrame where a region would have to look beyond itself.
     void copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy);
 
     [[nodiscard]] int count() const noexcept { return static_cast<int>(storages_.size()); }
@@ -55,8 +57,8 @@ class Targets {
     [[nodiscard]] Image image(Target target) const;
     // Row y of the region, from 0 on, as Image orders it.
     void read_row(Target target, int y, std::uint32_t* out) const;
-    // Reports colour targets that hold infinity or NaN and were not cleared to it: all of them where Frame::checks_targets, else what is
-    // published. For the executor, when the body has ended.
+    // Reports colour targets that hold infinity or NaN and were not cleared to it: all of them where
+    // Frame::checks_targets, else what is published. For the executor, when the body has ended.
     void report_non_finite(Target published) const;
     // Throws std::logic_error where a target holds other codes than in `others`, which a selection has left.
     void require_equal(const std::vector<TargetStorage>& others) const;

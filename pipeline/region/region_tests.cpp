@@ -1,4 +1,5 @@
-// pipeline/region/region_tests.cpp - the tests of a batch's fragments at one sample: depth units, stencil, depth. fragment-stages.md 4 to 6.
+// pipeline/region/region_tests.cpp - the tests of a batch's fragments at one sample: depth units, stencil, depth.
+// fragment-stages.md 4 to 6.
 #include <algorithm>
 
 #include "pipeline/frame/pass_counters.h"

@@ -1,4 +1,5 @@
-// pipeline/region/stage_lanes.h - a batch's lanes and a target's words, in the form in which the kernels of the stages take them.
+// pipeline/region/stage_lanes.h - a batch's lanes and a target's words, in the form in which the kernels of the stages
+// take them.
 #pragma once
 #include <cstdint>
 

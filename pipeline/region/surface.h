@@ -1,9 +1,9 @@
-// pipeline/region/surface.h - immediate mode: a colour surface with depth and stencil that draws of any state change, one after
-// the other, as a driver's calls do. For scenes that are no peel: hardware checks, render to texture.
+// pipeline/region/surface.h - immediate mode: a colour surface with depth and stencil that draws of any state change,
+// one after the other, as a driver's calls do. For scenes that are no peel: hardware checks, render to texture.
 //
 // Rule     A draw is set up, rasterized and finished before the next one begins, by the stages of region_stages.cpp. A
-//          surface is one region, the whole of itself. What one surface holds, another one samples: `color` and `depth` are
-//          finished images.
+//          surface is one region, the whole of itself. What one surface holds, another one samples: `color` and `depth`
+//          are finished images.
 // Tests    tests/tools/hardware_check/suites_test.cpp: pictures of silicon
 #pragma once
 #include <cstdint>

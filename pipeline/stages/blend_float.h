@@ -1,13 +1,13 @@
 // pipeline/stages/blend_float.h - blending on fp16 and binary32 targets: binary32 arithmetic, no clamps.
 //
-// Rule     Stored halves are widened exactly. Each product is rounded to nearest even, then their sum or difference;
-//          1 - x is one more rounding. Weight 0 or 1 is a multiplication like any other: NaN, infinity times 0 and
-//          signed zeros propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results
-//          below 2^-126 become zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the
-//          profile), two give 0x7fffffff; max(-0,+0) = +0, min = -0; MinMaxNan::destination: d unless s is less, or greater.
+// Rule     Stored halves are widened exactly. Each product is rounded to nearest even, then their sum or difference; 1
+//          - x is one more rounding. Weight 0 or 1 is a multiplication like any other: NaN, infinity times 0 and signed
+//          zeros propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results below 2^-126
+//          become zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the profile), two give
+//          0x7fffffff; max(-0,+0) = +0, min = -0; MinMaxNan::destination: d unless s is less, or greater.
 //          SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
-// Source   fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is our
-//          assumption.
+// Source   fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is
+//          our assumption.
 // Tests    tests/pipeline/stages/blend_float_test.cpp
 #pragma once
 #include <bit>

@@ -1,5 +1,5 @@
-// pipeline/stages/blend_kernels.h - one blend term over the lanes of one channel, for any arithmetic: Unorm8Arithmetic or
-// FloatArithmetic. The terms that papers name have their factors compiled in. Included by blend_lanes.h alone.
+// pipeline/stages/blend_kernels.h - one blend term over the lanes of one channel, for any arithmetic: Unorm8Arithmetic
+// or FloatArithmetic. The terms that papers name have their factors compiled in. Included by blend_lanes.h alone.
 #pragma once
 #include <type_traits>
 

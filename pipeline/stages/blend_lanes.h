@@ -1,4 +1,5 @@
-// pipeline/stages/blend_lanes.h - the loops of blend.h, compiled once an instruction set. Included by blend_simd.cpp alone.
+// pipeline/stages/blend_lanes.h - the loops of blend.h, compiled once an instruction set. Included by blend_simd.cpp
+// alone.
 #pragma once
 #include <bit>
 
@@ -30,8 +31,8 @@ struct Job {
     }
 };
 
-// How halves become binary32 and are rounded to nearest even. A kernel may bring the machine's own instructions, even if
-// they make a signalling NaN quiet: no NaN leaves a blend but the canonical one.
+// How halves become binary32 and are rounded to nearest even. A kernel may bring the machine's own instructions, even
+// if they make a signalling NaN quiet: no NaN leaves a blend but the canonical one.
 struct PlainHalves {
     static void decode(const std::uint32_t* codes, float* values, std::size_t count) noexcept {
         scalar::decode(ChannelType::half, codes, values, count);
@@ -102,8 +103,8 @@ void blend_unorm8(const Job& job) noexcept {
     });
 }
 
-// BlendRounding::unrounded_source: values in binary32, one rounding an operation, and a code at the end. No operand is NaN or a
-// denormal that could reach a code.
+// BlendRounding::unrounded_source: values in binary32, one rounding an operation, and a code at the end. No operand is
+// NaN or a denormal that could reach a code.
 inline void blend_unrounded(const Job& job, UnormRounding to_code) noexcept {
     alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};

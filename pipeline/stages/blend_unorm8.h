@@ -1,15 +1,16 @@
 // pipeline/stages/blend_unorm8.h - blending on 8-bit normalised targets: integers, one rounding.
 //
-// Rule     The source becomes 8 bits first. With s, d and the factors F, G as codes (1 - x is 255 - x):
-//          t = clamp(s F + d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile. BlendRounding::each_product:
-//          s F and d G by themselves, (t + (t >> 8) + 128) >> 8 each, then their clamped sum. Signed equations:
-//          clamp(d +- s', 0, 255), s' the source code as two's complement. BlendRounding::unrounded_source is no arithmetic of
-//          codes: FloatArithmetic blends the clamped source with the values of codes (blend_lanes.h).
+// Rule     The source becomes 8 bits first. With s, d and the factors F, G as codes (1 - x is 255 - x): t = clamp(s F +
+//          d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile. BlendRounding::each_product: s F and d
+//          G by themselves, (t + (t >> 8) + 128) >> 8 each, then their clamped sum. Signed equations: clamp(d +- s', 0,
+//          255), s' the source code as two's complement. BlendRounding::unrounded_source is no arithmetic of codes:
+//          FloatArithmetic blends the clamped source with the values of codes (blend_lanes.h).
 // Source   fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 pictures (chip-fragment.md 1).
 // Numbers  Products <= 65025, sums within +-130050. The kernels hold these integers as binary32 values, where all of
 //          them and every operation on them are exact: vector units multiply four floats at once, but not four
 //          32-bit integers.
-// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 pictures of silicon
+// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 pictures of
+//          silicon
 #pragma once
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
-// pipeline/stages/color_planes-inl.h - the colours of a triangle, eight pixels at a time, for passes without batches. For
-// *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
+// pipeline/stages/color_planes-inl.h - the colours of a triangle, eight pixels at a time, for passes without batches.
+// For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
 //
 // Rule     The colours of FragmentValues::fill with ColorInterpolation::exact_plane.
 // Tests    tests/peeling/execution_test.cpp: against literal execution
@@ -25,8 +25,9 @@ using rasterizer::DrawnTriangle;
 using rasterizer::FilterPlane;
 using rasterizer::RationalPlane;
 
-// The colour of a triangle: planes before the division by the one of 1 / w, that of a grey once, and constants. Loops over four
-// channels without branches, so that they become vectors: most triangles have few rows to share what is found here.
+// The colour of a triangle: planes before the division by the one of 1 / w, that of a grey once, and constants. Loops
+// over four channels without branches, so that they become vectors: most triangles have few rows to share what is found
+// here.
 class ColorPlanes {
   public:
     HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle)

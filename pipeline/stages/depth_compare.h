@@ -1,8 +1,9 @@
-// pipeline/stages/depth_compare.h - when a fragment lies behind a depth that an earlier pass stored: what peels in a program ask.
+// pipeline/stages/depth_compare.h - when a fragment lies behind a depth that an earlier pass stored: what peels in a
+// program ask.
 //
-// Rule     The fragment's reference depth, quantised like a depth write unless `quantizes` is false, is behind if it is greater
-//          than the stored code raised by `ulps` codes plus `absolute`. Without an epsilon and with a quantised reference that
-//          is a comparison of codes. An unquantised reference is clamped to [0,1] first.
+// Rule     The fragment's reference depth, quantised like a depth write unless `quantizes` is false, is behind if it is
+//          greater than the stored code raised by `ulps` codes plus `absolute`. Without an epsilon and with a quantised
+//          reference that is a comparison of codes. An unquantised reference is clamped to [0,1] first.
 // Source   fragment-stages.md 6.2; keys-and-counts.md 4.2.
 // Tests    tests/pipeline/stages/depth_compare_test.cpp
 #pragma once

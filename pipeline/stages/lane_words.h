@@ -1,11 +1,11 @@
 // pipeline/stages/lane_words.h - what a target stores, at the pixels of a batch: fetched, put back, tested, counted.
 //
 // Rule     A sample is stored in planes of 32-bit words, one word or more a pixel, a channel in each 8, 16 or 32 bits
-//          from the lowest on. gather: codes[c][i] = channel c at pixel[i]. scatter: where a lane lives, the channels in
-//          `mask` are replaced. test_depth: depth_test.h on the stored codes; dead lanes change nothing.
-// Numbers  A plane has spare_words words behind its last pixel that belong to none: kernels load and store whole vectors
-//          there for lanes beyond `count` and for dead ones. Lanes beyond `count` in a batch's own arrays are scratch.
-//          No pixel occurs twice in a batch, so that the order of the lanes does not matter.
+//          from the lowest on. gather: codes[c][i] = channel c at pixel[i]. scatter: where a lane lives, the channels
+//          in `mask` are replaced. test_depth: depth_test.h on the stored codes; dead lanes change nothing.
+// Numbers  A plane has spare_words words behind its last pixel that belong to none: kernels load and store whole
+//          vectors there for lanes beyond `count` and for dead ones. Lanes beyond `count` in a batch's own arrays are
+//          scratch. No pixel occurs twice in a batch, so that the order of the lanes does not matter.
 // Tests    tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <cstddef>
@@ -75,9 +75,9 @@ void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, un
 DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
                        Word* alive) noexcept;
 
-// One walk for what weighted averages and sums do to every fragment: each of the texels' fp16 channels plus `source`, as
-// blend_float.h adds with both factors 1, rounded to nearest even, where a lane lives. False, and nothing done, on sets
-// without half conversion: then it is gathered, blended and scattered, which is the definition.
+// One walk for what weighted averages and sums do to every fragment: each of the texels' fp16 channels plus `source`,
+// as blend_float.h adds with both factors 1, rounded to nearest even, where a lane lives. False, and nothing done, on
+// sets without half conversion: then it is gathered, blended and scattered, which is the definition.
 [[nodiscard]] bool add_halves(const Texels& to, const PixelLanes& at, const Word* alive,
                               const rasterizer::Lanes<float>* source, bool flushes) noexcept;
 

@@ -39,7 +39,8 @@ HWY_INLINE WordMask first_lanes(std::size_t count) {
     return hn::Lt(hn::Iota(d, 0), hn::Set(d, static_cast<Word>(count)));
 }
 
-// One vector of lanes: where they lie in a plane, and whether that is one run of neighbours, or among those of two vectors.
+// One vector of lanes: where they lie in a plane, and whether that is one run of neighbours, or among those of two
+// vectors.
 struct Group {
     WordMask in_batch;
     WordVec pixel, behind_first;
@@ -63,8 +64,8 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<Words>> spare_index(Plane plane, WordMask 
     return hn::BitCast(hn::RebindToSigned<Words>{}, hn::IfThenElse(used, pixel, spare));
 }
 
-// The stored words of a group: one plain load where its pixels are neighbours, as in rows of large triangles; two where few pixels
-// are missing between them, as in a layer of a peel.
+// The stored words of a group: one plain load where its pixels are neighbours, as in rows of large triangles; two where
+// few pixels are missing between them, as in a layer of a peel.
 HWY_INLINE WordVec load(Plane plane, const Group& group) {
     const Words d;
     const Word* const words = plane.words + group.first;
@@ -227,8 +228,8 @@ DepthResult test_plane(const DepthTest& state, DepthFormat format, Plane plane, 
 using Floats = hn::Repartition<float, Words>;
 using FloatVec = hn::Vec<Floats>;
 
-// Source plus destination as blend_float.h adds them. A sum that is denormal in binary32 is a zero of its sign as a half,
-// flushed or not; a denormal source must be flushed, for the sign of its zero shows.
+// Source plus destination as blend_float.h adds them. A sum that is denormal in binary32 is a zero of its sign as a
+// half, flushed or not; a denormal source must be flushed, for the sign of its zero shows.
 template <bool flushes>
 HWY_INLINE WordVec sum_of_halves(FloatVec source, WordVec stored) {
     const Words d;

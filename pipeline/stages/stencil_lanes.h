@@ -1,4 +1,5 @@
-// pipeline/stages/stencil_lanes.h - the loops of stencil.h, compiled once an instruction set. Included by stages_simd.cpp alone.
+// pipeline/stages/stencil_lanes.h - the loops of stencil.h, compiled once an instruction set. Included by
+// stages_simd.cpp alone.
 #pragma once
 #include <algorithm>
 #include <type_traits>

@@ -1,10 +1,10 @@
-// pipeline/stages/stored_color-inl.h - stored_color.h a vector of pixels at a time. For *_simd.cpp alone: Highway compiles it once a set,
-// wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
+// pipeline/stages/stored_color-inl.h - stored_color.h a vector of pixels at a time. For *_simd.cpp alone: Highway
+// compiles it once a set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
 //
 // Rule     Between blends an 8-bit channel is held as its code, a float as what blending makes of its value: without
 //          denormals where the device flushes them.
-// Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so that no product or sum of them is
-//          a denormal of binary32, which flushing would make 0.
+// Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so that no product or sum of them
+//          is a denormal of binary32, which flushing would make 0.
 // Tests    tests/peeling/loops/block_passes_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/half-inl.h"
@@ -68,8 +68,8 @@ class StoredColors<Unorm8Rules<blend, to_code, storage>> {
     HWY_INLINE static FloatVec operand(Held x) { return blends_values ? value(x) : number(x); }
     HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
 
-    // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut to
-    // 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
+    // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut
+    // to 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
     HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
         using enum BlendRounding;
         const Signed di;

@@ -1,11 +1,11 @@
-// pipeline/stages/stored_color.h - how a colour target keeps and blends a channel, for passes that blend no pixel twice: the scalar reference
-// of stored_color-inl.h.
+// pipeline/stages/stored_color.h - how a colour target keeps and blends a channel, for passes that blend no pixel
+// twice: the scalar reference of stored_color-inl.h.
 //
 // Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes
 //          operands, codes of 8 bits as whole numbers and floats without denormals, and rounds its sum once, or each
 //          product, as blend_unorm8.h and blend_float.h say. Of BlendStorage::cached_tiles there remains that codes of
-//          8 bits are blended as the values that they stand for, in binary32; so they are by BlendRounding::unrounded_source, for a
-//          layer that was stored is a code.
+//          8 bits are blended as the values that they stand for, in binary32; so they are by
+//          BlendRounding::unrounded_source, for a layer that was stored is a code.
 // Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
 // Tests    tests/peeling/loops/block_passes_test.cpp
 #pragma once

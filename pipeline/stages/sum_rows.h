@@ -1,10 +1,10 @@
-// pipeline/stages/sum_rows.h - weighted sums of fragments straight into halves or binary32, row by row: what an additive pass of (c
-// a, a) and 1 does through batches, programs and blending. It runs by default in place of the draw of weighted_average
-// and weighted_sum (peeling/algorithms/), on sets that convert halves.
+// pipeline/stages/sum_rows.h - weighted sums of fragments straight into halves or binary32, row by row: what an
+// additive pass of (c a, a) and 1 does through batches, programs and blending. It runs by default in place of the draw
+// of weighted_average and weighted_sum (peeling/algorithms/), on sets that convert halves.
 //
-// Rule     Each fragment of the triangles, in submission order, whose code is LESS than the opaque one adds (c a, a) to the sums
-//          and 1 to the count: halves as add_halves of lane_words.h adds, binary32 as blend_float.h adds with both factors 1.
-//          Colours are those of FragmentValues::fill.
+// Rule     Each fragment of the triangles, in submission order, whose code is LESS than the opaque one adds (c a, a) to
+//          the sums and 1 to the count: halves as add_halves of lane_words.h adds, binary32 as blend_float.h adds with
+//          both factors 1. Colours are those of FragmentValues::fill.
 // Tests    tests/peeling/execution_test.cpp: against literal execution
 #pragma once
 #include <array>
@@ -17,7 +17,8 @@ namespace strata::pipeline {
 
 enum class SumWords : std::uint8_t { halves, binary32 };
 
-// A region's pixels row by row, a word each, with rasterizer::row_padding more behind the last; of two halves the low one is first.
+// A region's pixels row by row, a word each, with rasterizer::row_padding more behind the last; of two halves the low
+// one is first.
 struct SumPlanes {
     SumWords words;
     // Halves: the sums of r a and g a share a word, those of b a and a the next plane's. Binary32: a plane each.

@@ -58,8 +58,8 @@ struct HalfSums {
     }
 
     // Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
-    // lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same half,
-    // whatever they are added to) or a sum is NaN: they are done for rows that have one.
+    // lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same
+    // half, whatever they are added to) or a sum is NaN: they are done for rows that have one.
     static HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
         flush_negative(source, covered, planes);
         VPair low = hn::Add(paired(source[0], source[1]), loaded(planes.sums[0] + pixel));

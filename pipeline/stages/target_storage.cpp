@@ -49,8 +49,8 @@ TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels, Tar
     words_.resize(size);
 }
 
-// Const, because the contents are zeros for any first reader. A region belongs to one thread, so no two reads happen at the same
-// time.
+// Const, because the contents are zeros for any first reader. A region belongs to one thread, so no two reads happen at
+// the same time.
 void TargetStorage::write_zeros() const noexcept {
     std::ranges::fill(words_, 0u);
     has_words_ = true;

@@ -22,7 +22,8 @@ using TargetWords = UninitializedVector<std::uint32_t>;
 
 // Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
 // format. A colour pixel has one word of rgba8, two of rgba16f (r g, b a) and rg32f, four of rgba32f, one of r16f and
-// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes. All codes are 0 at first.
+// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes. All codes are 0 at
+// first.
 class TargetStorage {
   public:
     // `memory`: of a target that is no more, if there is one.
@@ -33,8 +34,8 @@ class TargetStorage {
     [[nodiscard]] int samples() const noexcept { return samples_; }
     [[nodiscard]] std::size_t pixels() const noexcept { return pixels_; }
 
-    // Lanes i < count of the listed pixels, and scratch beyond; scatter touches lanes with alive[i] != 0 and channels in
-    // `mask` only.
+    // Lanes i < count of the listed pixels, and scratch beyond; scatter touches lanes with alive[i] != 0 and channels
+    // in `mask` only.
     void gather(const Lanes<std::uint32_t>& pixel, int count, int sample, ColorCodes& codes) const;
     void scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
                  unsigned mask, const ColorCodes& codes);

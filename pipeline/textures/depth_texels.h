@@ -1,4 +1,5 @@
-// pipeline/textures/depth_texels.h - a depth texture as a lookup sees it: a finished image, or a depth target of the pass's own region.
+// pipeline/textures/depth_texels.h - a depth texture as a lookup sees it: a finished image, or a depth target of the
+// pass's own region.
 //
 // Rule     A region holds its own rectangle of a screen-sized texture. A lookup inside it reads what literal execution
 //          would read; one that leaves it throws NeedsFrame, and the executor runs the frame literally.

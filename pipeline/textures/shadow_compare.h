@@ -1,11 +1,12 @@
-// pipeline/textures/shadow_compare.h - depth textures compared with a coordinate: ARB_shadow, SGIX_shadow, ARB_shadow_ambient.
+// pipeline/textures/shadow_compare.h - depth textures compared with a coordinate: ARB_shadow, SGIX_shadow,
+// ARB_shadow_ambient.
 //
-// Rule     A texel passes if R FUNC D: LEQUAL is R <= D, as ARB_shadow says and all hardware does, though
-//          SGIX_shadow's text has it the other way round. D16, D24, D16F and 8-bit texels: R is clamped to the depth
-//          range and quantised exactly like a depth write (under the hypothesis that it is not: compared as it is); R is in
-//          [0,1], or in buffer units (0..2^n - 1, D16F: 0..511.9375) on devices whose vertex depth is. D32F: floats as they
-//          are, no clamp; NaN passes `notequal` and `always` alone. Linear: each of four texels gives 1 or the fail value,
-//          then the bilinear sum of texel_address.h with 8-bit fractions.
+// Rule     A texel passes if R FUNC D: LEQUAL is R <= D, as ARB_shadow says and all hardware does, though SGIX_shadow's
+//          text has it the other way round. D16, D24, D16F and 8-bit texels: R is clamped to the depth range and
+//          quantised exactly like a depth write (under the hypothesis that it is not: compared as it is); R is in
+//          [0,1], or in buffer units (0..2^n - 1, D16F: 0..511.9375) on devices whose vertex depth is. D32F: floats as
+//          they are, no clamp; NaN passes `notequal` and `always` alone. Linear: each of four texels gives 1 or the
+//          fail value, then the bilinear sum of texel_address.h with 8-bit fractions.
 // Source   texturing.md 4; measured on NV2A (R cut like a depth write, 192 of 192 pictures). The linear filter is an
 //          assumption.
 // Tests    tests/pipeline/textures/shadow_compare_test.cpp

@@ -1,9 +1,9 @@
 // pipeline/textures/shadow_stage.h - ordinary shadow mapping: colours times a comparison with what a light sees.
 //
-// Rule     The light's depth buffer is a texture; unit 3 generates a fragment's place in it: eye-linear planes T(1/2) S(1/2)
-//          P V of the light, specified under the camera's view. A fragment that lies behind the texel at s/q, t/q is in
-//          shadow: its red, green and blue are times the comparison (MODULATE by a LUMINANCE result), which fails with
-//          `ambient`. What lies outside the light's view is compared with the map's border texels.
+// Rule     The light's depth buffer is a texture; unit 3 generates a fragment's place in it: eye-linear planes T(1/2)
+//          S(1/2) P V of the light, specified under the camera's view. A fragment that lies behind the texel at s/q,
+//          t/q is in shadow: its red, green and blue are times the comparison (MODULATE by a LUMINANCE result), which
+//          fails with `ambient`. What lies outside the light's view is compared with the map's border texels.
 // Source   Williams 1978 and Everitt 2001, "Shadow Mapping"; texturing.md 6. The comparison is shadow_compare.h's.
 // Tests    tests/peeling/shadow_light_test.cpp
 #pragma once

@@ -1,4 +1,5 @@
-// pipeline/textures/texel_address.h - from a texture coordinate to texels, one axis at a time; for colour and depth textures.
+// pipeline/textures/texel_address.h - from a texture coordinate to texels, one axis at a time; for colour and depth
+// textures.
 //
 // Rule     u = coordinate * size for 2D textures, the coordinate itself for rectangles, exact. Nearest: texel
 //          floor(u), with u first snapped to 1/256 (nearest even) where the profile says so. Linear: u - 1/2 cut

@@ -1,4 +1,5 @@
-// pipeline/vertices/draw_list.h - what a scene hands to the machine: meshes, materials, textures, instances and a view. Plain values.
+// pipeline/vertices/draw_list.h - what a scene hands to the machine: meshes, materials, textures, instances and a view.
+// Plain values.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -36,7 +37,8 @@ struct Mesh {
 // glTF 2.0, 3.9.4: `mask` cuts at the material's cutoff, `blend` is what makes a surface transparent.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-// encoded: sRGB values are blended as they are, as the hardware did (default). linear: decoded first, encoded when a PNG is written.
+// encoded: sRGB values are blended as they are, as the hardware did (default). linear: decoded first, encoded when a
+// PNG is written.
 enum class ColorSpace : std::uint8_t { encoded, linear };
 
 // Colours are in the frame's colour space.

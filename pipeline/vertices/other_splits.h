@@ -1,11 +1,11 @@
-// pipeline/vertices/other_splits.h - the same surfaces, handed to the machine in another way: what must not change a depth, and does
-// where a device's interpolation depends on it.
+// pipeline/vertices/other_splits.h - the same surfaces, handed to the machine in another way: what must not change a
+// depth, and does where a device's interpolation depends on it.
 //
-// Rule     Rotating: corners (0, 1, 2) of every triangle become (k, k + 1, k + 2) modulo 3. Flipping: two triangles of a mesh,
-//          one after the other, that share a side which they walk in opposite directions and lie in one plane are a quad;
-//          (a, b, c) and (c, d, a) become (b, c, d) and (d, a, b). In one plane: d is off the plane of the first by at most
-//          2^-20 of their longest side, and the quad is convex [A]. Moving: every position in the window moves by whole
-//          pixels, exactly, and the viewport with it.
+// Rule     Rotating: corners (0, 1, 2) of every triangle become (k, k + 1, k + 2) modulo 3. Flipping: two triangles of
+//          a mesh, one after the other, that share a side which they walk in opposite directions and lie in one plane
+//          are a quad; (a, b, c) and (c, d, a) become (b, c, d) and (d, a, b). In one plane: d is off the plane of the
+//          first by at most 2^-20 of their longest side, and the quad is convex [A]. Moving: every position in the
+//          window moves by whole pixels, exactly, and the viewport with it.
 // Tests    tests/pipeline/vertices/other_splits_test.cpp
 #pragma once
 #include <cstdint>

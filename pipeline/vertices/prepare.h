@@ -1,8 +1,9 @@
-// pipeline/vertices/prepare.h - the vertex stage and everything else that is done once a frame: transform, light, clip, set up, bin.
+// pipeline/vertices/prepare.h - the vertex stage and everything else that is done once a frame: transform, light, clip,
+// set up, bin.
 //
-// Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32;
-//          positions go through it by the view's vertex path (vertex_transform.h); nv20 divides by w in its own way, too.
-//          Lighting is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
+// Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32; positions go
+//          through it by the view's vertex path (vertex_transform.h); nv20 divides by w in its own way, too. Lighting
+//          is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
 //          per vertex in binary32, on the frame's colour values.
 // Source   vertices.md 1.2, 5 and 6.
 // Tests    tests/pipeline/vertices/prepare_test.cpp
@@ -73,8 +74,8 @@ struct SubmissionOrder {
 };
 using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>;
 
-// What vertices suffer beside the rules: a deliberate mistake, for a caller that wants to know what it looks like. Empty
-// functions change nothing.
+// What vertices suffer beside the rules: a deliberate mistake, for a caller that wants to know what it looks like.
+// Empty functions change nothing.
 struct VertexAlteration {
     std::function<void(rasterizer::TriangleSoup&)> vertices{};  // in clip space, before they are cut and projected
     std::function<void(rasterizer::Geometry&)> corners{};       // in the window, set up
@@ -107,8 +108,8 @@ struct PrepareOptions {
 // Whether w differs with the distance from the eye: what a w buffer needs.
 [[nodiscard]] bool has_perspective(const View& view) noexcept;
 
-// Inverts nothing it need not: mirrored instances keep their winding and flip their facing. Throws InputError for a list, a view,
-// a state or a profile that no rule covers (check_list.h, rasterizer/set_up/check_input.h).
+// Inverts nothing it need not: mirrored instances keep their winding and flip their facing. Throws InputError for a
+// list, a view, a state or a profile that no rule covers (check_list.h, rasterizer/set_up/check_input.h).
 [[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                                    const DeviceProfile& profile, const PrepareOptions& options);
 

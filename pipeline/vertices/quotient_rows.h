@@ -1,8 +1,10 @@
-// pipeline/vertices/quotient_rows.h - r and q of every vertex: the texture coordinates whose quotient is a fragment's depth.
+// pipeline/vertices/quotient_rows.h - r and q of every vertex: the texture coordinates whose quotient is a fragment's
+// depth.
 //
-// Rule     As Listing 2 sets its texture matrices up: T(0, 0, n0) S(0, 0, s0) P with s0 = (f - n)/2, n0 = (f + n)/2 of the
-//          depth range (z from 0 in clip space: f - n and n), times (view * model), all in binary64; row r then takes the
-//          units of vertex z (2^n - 1 in buffer units), q is the last row. Each vertex by its view's vertex path.
+// Rule     As Listing 2 sets its texture matrices up: T(0, 0, n0) S(0, 0, s0) P with s0 = (f - n)/2, n0 = (f + n)/2 of
+//          the depth range (z from 0 in clip space: f - n and n), times (view * model), all in binary64; row r then
+//          takes the units of vertex z (2^n - 1 in buffer units), q is the last row. Each vertex by its view's vertex
+//          path.
 // Source   Everitt 2001, Listing 2; algorithms.md 3.2; vertices.md 3: rows carry the factor 2^n - 1.
 // Tests    tests/pipeline/vertices/vertex_transform_test.cpp
 #pragma once

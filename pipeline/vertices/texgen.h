@@ -1,10 +1,10 @@
 // pipeline/vertices/texgen.h - texture coordinates of a vertex: generated, given, and taken through a texture matrix.
 //
-// Rule     A generated coordinate is plane . position, in object or eye space; an eye plane is multiplied by the inverse
-//          of the modelview in force when it is specified. What is not generated is the vertex's own: s and t of its
-//          mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix. Planes, texture matrix and modelview are
-//          multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through them by the view's
-//          vertex path, as they do on their way to clip space (vertex_transform.h).
+// Rule     A generated coordinate is plane . position, in object or eye space; an eye plane is multiplied by the
+//          inverse of the modelview in force when it is specified. What is not generated is the vertex's own: s and t
+//          of its mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix. Planes, texture matrix and
+//          modelview are multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through
+//          them by the view's vertex path, as they do on their way to clip space (vertex_transform.h).
 // Source   GL 1.2.1 2.10.2 and 2.10.4; vertices.md 4.
 // Tests    tests/pipeline/vertices/texgen_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
@@ -41,8 +41,8 @@ struct CoordinateUnit {
     bool enabled = false;
     std::array<TexGen, 4> gen{};
     Matrix matrix = identity;
-    // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in the
-    // units of a depth buffer. OpenGL has none of it: its driver scales the rows of a GeForce3, and so do we.
+    // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in
+    // the units of a depth buffer. OpenGL has none of it: its driver scales the rows of a GeForce3, and so do we.
     Vec3d depth_units{1, 1, 1};
     friend bool operator==(const CoordinateUnit&, const CoordinateUnit&) = default;
 };

@@ -1,4 +1,5 @@
-// pipeline/vertices/vertex_lanes.h - positions and light of vertices, sixteen at a time; the meaning is vertex_stage.h's.
+// pipeline/vertices/vertex_lanes.h - positions and light of vertices, sixteen at a time; the meaning is
+// vertex_stage.h's.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -9,8 +9,8 @@
 namespace strata::pipeline {
 namespace {
 
-// Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
-// models, a sign that |N.L| does not see.
+// Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for
+// mirrored models, a sign that |N.L| does not see.
 std::array<float, 9> normal_matrix(const Matrix& m) {
     const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     std::array<float, 9> n{};

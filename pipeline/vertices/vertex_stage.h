@@ -1,8 +1,9 @@
 // pipeline/vertices/vertex_stage.h - a mesh's vertices in clip space, lit.
 //
-// Rule     As prepare.h says. World normal = cofactors of the upper 3x3 times the normal; |N| = sqrt((x x + y y) + z z); where it is not
-//          above 0 the factor is 0.25. Colour: (material * vertex colour) * factor; alpha: (material * vertex) * scale of the draw. All
-//          in binary32, sums from the left, every operation rounded; eight or sixteen vertices at a time, with the same bits.
+// Rule     As prepare.h says. World normal = cofactors of the upper 3x3 times the normal; |N| = sqrt((x x + y y) + z
+//          z); where it is not above 0 the factor is 0.25. Colour: (material * vertex colour) * factor; alpha:
+//          (material * vertex) * scale of the draw. All in binary32, sums from the left, every operation rounded; eight
+//          or sixteen vertices at a time, with the same bits.
 // Tests    tests/pipeline/vertices/prepare_test.cpp
 #pragma once
 #include <array>

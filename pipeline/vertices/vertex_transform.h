@@ -1,12 +1,11 @@
 // pipeline/vertices/vertex_transform.h - a matrix times a position, by one of the vertex paths.
 //
-// Rule     Matrices are multiplied in binary64 and rounded once to binary32, m the whole. With x, y, z in binary32, row r is
-//          separate      ((m0 x + m1 y) + m2 z) + m3, every operation rounded
-//          fused         fma(m2, z, fma(m1, y, m0 x)) + m3
-//          reassociated  e = inner * p, then outer * e; rows (m0 x + m1 y) + (m2 z + m3), last factor e.w in the second
-//          double        as separate in binary64 with matrices never rounded; the result rounded once
-//          toward_zero   as separate, every product and sum cut toward zero
-//          nv20          one sum of three products and m3 by rasterizer/base/nv20_arithmetic.h
+// Rule     Matrices are multiplied in binary64 and rounded once to binary32, m the whole. With x, y, z in binary32, row
+//          r is separate ((m0 x + m1 y) + m2 z) + m3, every operation rounded fused fma(m2, z, fma(m1, y, m0 x)) + m3
+//          reassociated e = inner * p, then outer * e; rows (m0 x + m1 y) + (m2 z + m3), last factor e.w in the second
+//          double as separate in binary64 with matrices never rounded; the result rounded once toward_zero as separate,
+//          every product and sum cut toward zero nv20 one sum of three products and m3 by
+//          rasterizer/base/nv20_arithmetic.h
 // Source   vertices.md 2 (separate); numbers.md 4 (nv20); the others are ours: what compilers and drivers do [A].
 // Tests    tests/pipeline/vertices/vertex_transform_test.cpp
 #pragma once

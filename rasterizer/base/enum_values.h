@@ -1,8 +1,9 @@
-// rasterizer/base/enum_values.h - the values of an enum and their names, as the compiler knows them: lists that nobody can forget to
-// lengthen.
+// rasterizer/base/enum_values.h - the values of an enum and their names, as the compiler knows them: lists that nobody
+// can forget to lengthen.
 //
-// Rule     An enum of this project numbers its values 0, 1, 2 ... The compiler spells a constant by its name where the enum
-//          has one for that number, else as a cast; the first cast ends the list. A value's name is its identifier.
+// Rule     An enum of this project numbers its values 0, 1, 2 ... The compiler spells a constant by its name where the
+//          enum has one for that number, else as a cast; the first cast ends the list. A value's name is its
+//          identifier.
 // Source   __PRETTY_FUNCTION__ of GCC and Clang names template arguments.
 // Tests    tests/rasterizer/base/enum_values_test.cpp, tests/pipeline/device/enum_lists_test.cpp
 #pragma once
@@ -26,7 +27,8 @@ template <auto value>
     std::string_view text = spelling<value>();
     text.remove_prefix(text.find(start) + start.size());
     text = text.substr(0, text.find_first_of(";]"));
-    // A cast ends in its number, as in "(strata::Snap)7". A bracket alone does not tell: Clang writes "(anonymous namespace)::".
+    // A cast ends in its number, as in "(strata::Snap)7". A bracket alone does not tell: Clang writes "(anonymous
+    // namespace)::".
     const bool is_cast =
         text.back() >= '0' && text.back() <= '9' && text.find_last_not_of("0123456789") == text.rfind(')');
     return is_cast ? std::string_view{} : text.substr(text.rfind(':') + 1);

@@ -1,9 +1,11 @@
-// rasterizer/base/exact_sum.h - sums of products of binary64 numbers without any rounding, for the rare fragment that needs it.
+// rasterizer/base/exact_sum.h - sums of products of binary64 numbers without any rounding, for the rare fragment that
+// needs it.
 //
-// Rule     An expansion: terms that do not overlap, smallest first; its sign is the sign of the last term that is not zero.
+// Rule     An expansion: terms that do not overlap, smallest first; its sign is the sign of the last term that is not
+//          zero.
 // Source   Shewchuk 1997, "Adaptive precision floating-point arithmetic", 2.2-2.4.
-// Numbers  Exact while no product overflows (|a b| < 2^996) and every product is a multiple of 2^-1074: one factor is an
-//          integer.
+// Numbers  Exact while no product overflows (|a b| < 2^996) and every product is a multiple of 2^-1074: one factor is
+//          an integer.
 // Tests    tests/rasterizer/base/exact_sum_test.cpp
 #pragma once
 #include <array>

@@ -1,8 +1,9 @@
 // rasterizer/base/fused.h - a multiply-add that rounds once, exact on machines that have none.
 //
-// Rule     The product of two binary32 is exact in binary64; the sum is rounded to odd there, so that the second rounding is the
-//          only one.
-// Source   numbers.md 3.4. Tests    tests/rasterizer/set_up/window_test.cpp; tests/rasterizer/values/float_planes_test.cpp: std::fma
+// Rule     The product of two binary32 is exact in binary64; the sum is rounded to odd there, so that the second
+//          rounding is the only one.
+// Source   numbers.md 3.4. Tests tests/rasterizer/set_up/window_test.cpp;
+//          tests/rasterizer/values/float_planes_test.cpp: std::fma
 #pragma once
 #include <bit>
 #include <cstdint>

@@ -1,18 +1,20 @@
-// rasterizer/base/no_arithmetic.h - deletes GLM's operators and functions for the types of vector.h, so that a call of one does not
-// compile. Part of vector.h, and of Strata's own build alone.
+// rasterizer/base/no_arithmetic.h - deletes GLM's operators and functions for the types of vector.h, so that a call of
+// one does not compile. Part of vector.h, and of Strata's own build alone.
 //
-// Rule     An overload that is no template wins over GLM's templates, and over its member templates, wherever both fit. Operators: a
-//          vector with a vector or a number, a matrix with a matrix, a number or a column. Functions: those that the header of the
-//          matrix brings along, for the arguments that GLM takes. Only == and != are left: they compare value by value.
-// Source   ISO C++ [over.match.best]: a function that is not a template beats a specialisation of one. GLSL 4.60 chapter 8 (the names).
+// Rule     An overload that is no template wins over GLM's templates, and over its member templates, wherever both fit.
+//          Operators: a vector with a vector or a number, a matrix with a matrix, a number or a column. Functions:
+//          those that the header of the matrix brings along, for the arguments that GLM takes. Only == and != are left:
+//          they compare value by value.
+// Source   ISO C++ [over.match.best]: a function that is not a template beats a specialisation of one. GLSL 4.60
+//          chapter 8 (the names).
 // Tests    tests/rasterizer/base/vector_test.cpp; tests/lint/glm.py: no function of GLM's headers is missing here.
 #pragma once
 #ifndef STRATA_GLM_IS_STORAGE
 #error "include rasterizer/base/vector.h"
 #endif
 
-// Macros, because no template can beat GLM's: the operators must be spelled for every type. `v += 2` finds the template and GLM's
-// member equally good, which does not compile, either.
+// Macros, because no template can beat GLM's: the operators must be spelled for every type. `v += 2` finds the template
+// and GLM's member equally good, which does not compile, either.
 #define STRATA_NO_OPERATOR(op, V, Number)          \
     void operator op(const V&, const V&) = delete; \
     void operator op(const V&, Number) = delete;   \

@@ -26,9 +26,9 @@ namespace strata {
 #ifdef STRATA_HAS_TBB
 namespace {
 
-// oneTBB starts its threads when a loop needs them, and cannot live with one that it does not get: the process aborts, or
-// hangs at its end. So threads are asked of the system first. What it refused once is not asked for again, and oneTBB is
-// kept at what there was.
+// oneTBB starts its threads when a loop needs them, and cannot live with one that it does not get: the process aborts,
+// or hangs at its end. So threads are asked of the system first. What it refused once is not asked for again, and
+// oneTBB is kept at what there was.
 class Supply {
   public:
     // At most `threads`, the caller included; at least 1.
@@ -69,7 +69,8 @@ Supply& supply() {
 
 int threads_of(int threads) { return supply().threads(threads); }
 
-// Kept by every thread that asks: when an arena goes, its workers fall asleep, and one takes 50 microseconds to come back.
+// Kept by every thread that asks: when an arena goes, its workers fall asleep, and one takes 50 microseconds to come
+// back.
 tbb::task_arena& arena_of(int threads) {
     thread_local std::map<int, tbb::task_arena> arenas;
     return arenas.try_emplace(threads, threads).first->second;

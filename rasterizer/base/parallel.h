@@ -7,8 +7,8 @@
 namespace strata {
 
 // Calls body(i) for every i in [0, count), on up to `threads` threads (0: all that the machine has), each call in our
-// own FloatEnvironment and with the caller's instruction set (simd.h). Bodies must write to places of their own: no result may depend on which thread runs which index
-// or when. An exception from a body is rethrown here.
+// own FloatEnvironment and with the caller's instruction set (simd.h). Bodies must write to places of their own: no
+// result may depend on which thread runs which index or when. An exception from a body is rethrown here.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
 // How many threads `threads` stands for.

@@ -1,6 +1,8 @@
-// rasterizer/base/require.h - what the doors of the library ask of the values that come in: fields, named as a program writes them.
+// rasterizer/base/require.h - what the doors of the library ask of the values that come in: fields, named as a program
+// writes them.
 //
-// Rule     A door throws InputError{thing, field, expected, found} before anything is read by a number that it has not checked.
+// Rule     A door throws InputError{thing, field, expected, found} before anything is read by a number that it has not
+//          checked.
 #pragma once
 #include <bit>
 #include <concepts>

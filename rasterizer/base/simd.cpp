@@ -18,7 +18,8 @@ namespace {
     return __get_cpuid(leaf, &a, &b, &c, &d) != 0 && (c >> bit & 1) != 0;
 }
 
-// What Highway's code for a set takes for granted of the processor and of the system's saving of registers (hwy/targets.cc).
+// What Highway's code for a set takes for granted of the processor and of the system's saving of registers
+// (hwy/targets.cc).
 [[nodiscard]] std::int64_t supported_targets() noexcept {
     __builtin_cpu_init();
     const bool sse4 =

@@ -1,12 +1,13 @@
-// rasterizer/base/simd.h - which instruction set the kernels use. A matter of speed alone: every choice gives the same bits.
+// rasterizer/base/simd.h - which instruction set the kernels use. A matter of speed alone: every choice gives the same
+// bits.
 //
-// Rule     A kernel lives in a *_simd.cpp that Highway compiles once an instruction set; its meaning is a plain loop in a
-//          header, its scalar reference. `scalar` runs the scalar reference. Only operations that are exact or correctly rounded on every
-//          set: no fused multiply-add, no approximate reciprocal, no horizontal float sum; NaN and -0 go by the rules of
-//          the scalar reference, not by a machine's MIN and MAX.
-//          The choice belongs to a call, not to the process: a public entry opens a SimdScope, as it opens a
-//          FloatEnvironment, and parallel_for hands it to its workers. What Highway chooses for the host program is not
-//          changed, and no change of it is looked at.
+// Rule     A kernel lives in a *_simd.cpp that Highway compiles once an instruction set; its meaning is a plain loop in
+//          a header, its scalar reference. `scalar` runs the scalar reference. Only operations that are exact or
+//          correctly rounded on every set: no fused multiply-add, no approximate reciprocal, no horizontal float sum;
+//          NaN and -0 go by the rules of the scalar reference, not by a machine's MIN and MAX. The choice belongs to a
+//          call, not to the process: a public entry opens a SimdScope, as it opens a FloatEnvironment, and parallel_for
+//          hands it to its workers. What Highway chooses for the host program is not changed, and no change of it is
+//          looked at.
 // Source   Highway's run-time dispatch; fragment-stages.md 9.3 (MIN and MAX).
 // Tests    tests/rasterizer/base/simd_test.cpp, tests/peeling/simd_test.cpp
 #pragma once

@@ -56,9 +56,8 @@ void thread_loop(std::size_t count, int threads, const std::function<void(std::s
     std::vector<std::thread> others;
     try {
         for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i) others.emplace_back(work);
-    } catch (
-        const std::
-            exception&) {  // no more threads are to be had, or no memory for one: those that run would end the program
+    } catch (const std::exception&) {  // no more threads are to be had, or no memory for one: those that run would end
+                                       // the program
     }
     work();
     for (std::thread& other : others) other.join();

@@ -1,6 +1,7 @@
 // rasterizer/base/thread_loop.h - threads of the system itself: how many there are to be had, and a loop on them.
 //
-// Rule     A thread that the system refuses is no failure: the loop runs on those that there are, at last on the caller.
+// Rule     A thread that the system refuses is no failure: the loop runs on those that there are, at last on the
+//          caller.
 // Tests    tests/rasterizer/base/parallel_test.cpp, tests/tools/system_faults_test.cpp
 #pragma once
 #include <cstddef>

@@ -11,8 +11,8 @@ namespace strata {
 #ifdef STRATA_HAS_TBB
 namespace {
 
-// Blocks of this size and more stay with the allocator for the next frame, as long as its heap is no larger than that: of a
-// million triangles, new pages were a third of a frame's time. For all of a process that uses oneTBB's allocator.
+// Blocks of this size and more stay with the allocator for the next frame, as long as its heap is no larger than that:
+// of a million triangles, new pages were a third of a frame's time. For all of a process that uses oneTBB's allocator.
 constexpr std::intptr_t kept_size = std::intptr_t{1} << 20, most_kept = std::intptr_t{1} << 28;
 
 [[nodiscard]] bool keep_large_blocks() noexcept {

@@ -1,5 +1,6 @@
-// rasterizer/base/uninitialized.h - vectors whose new elements have no value yet: for many threads that write them all, each
-// its part. Their memory is kept for the next frame when one is done with it: new pages take as long as to fill them.
+// rasterizer/base/uninitialized.h - vectors whose new elements have no value yet: for many threads that write them all,
+// each its part. Their memory is kept for the next frame when one is done with it: new pages take as long as to fill
+// them.
 #pragma once
 #include <cstddef>
 #include <new>

@@ -1,11 +1,13 @@
-// rasterizer/base/vector.h - the types in which vectors, colours and matrices are stored and passed: GLM's, and nothing else of GLM.
+// rasterizer/base/vector.h - the types in which vectors, colours and matrices are stored and passed: GLM's, and nothing
+// else of GLM.
 //
-// Rule     GLM is storage here. Its operators and functions leave the order of operations to its version and its build, so no bit may
-//          come from them: arithmetic is our own (vector_arithmetic.h, pipeline/vertices/matrix.h, each stage's loops). This header
-//          alone includes GLM or names its namespace. While Strata itself is built, no_arithmetic.h deletes the operators for the
-//          types below; programs that use Strata keep them.
-// Numbers  A matrix is stored by columns, as OpenGL writes it: m[column][row]. Without a value a vector is zero and a matrix the
-//          identity (GLM_FORCE_CTOR_INIT); a matrix of zeros is Matrix(0.0). One value in braces fills every component.
+// Rule     GLM is storage here. Its operators and functions leave the order of operations to its version and its build,
+//          so no bit may come from them: arithmetic is our own (vector_arithmetic.h, pipeline/vertices/matrix.h, each
+//          stage's loops). This header alone includes GLM or names its namespace. While Strata itself is built,
+//          no_arithmetic.h deletes the operators for the types below; programs that use Strata keep them.
+// Numbers  A matrix is stored by columns, as OpenGL writes it: m[column][row]. Without a value a vector is zero and a
+//          matrix the identity (GLM_FORCE_CTOR_INIT); a matrix of zeros is Matrix(0.0). One value in braces fills every
+//          component.
 // Tests    tests/rasterizer/base/vector_test.cpp, tests/lint/glm.py
 #pragma once
 #include <array>

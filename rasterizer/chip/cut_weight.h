@@ -1,13 +1,13 @@
 // rasterizer/chip/cut_weight.h - the weights of NV2A's interpolator: edge values times a reciprocal, both cut.
 //
-// Rule     WeightRule::cut_edges: e' = e cut to 24 significant bits; S = (e'0 + e'1) + e'2; r = 1 / S where S is a power of
-//          two, else (1 / S)(1 - d 2^-32) cut to m bits; b = e' r cut to 24 bits. WeightRule::area: r = 1 / A cut to m
-//          bits, A the exact area; b = e r cut to 24 bits. Any unit of e that is a power of two.
+// Rule     WeightRule::cut_edges: e' = e cut to 24 significant bits; S = (e'0 + e'1) + e'2; r = 1 / S where S is a
+//          power of two, else (1 / S)(1 - d 2^-32) cut to m bits; b = e' r cut to 24 bits. WeightRule::area: r = 1 / A
+//          cut to m bits, A the exact area; b = e r cut to 24 bits. Any unit of e that is a power of two.
 // Source   depth.md 4.4; chip-float-depth.md 1; the last bit of r is open (chip-depth.md 4).
-// Numbers  cut_edges in binary64: e' is exact, e' r has 24 + 30 bits at most and is exact to 29 bits of r; S, 1 / S and its
-//          product with 1 - d 2^-32 are rounded there (S is exact while its addends' exponents are within 29). area:
-//          e <= A < 2^58, r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits 64 bits below 2^34, above
-//          it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.
+// Numbers  cut_edges in binary64: e' is exact, e' r has 24 + 30 bits at most and is exact to 29 bits of r; S, 1 / S and
+//          its product with 1 - d 2^-32 are rounded there (S is exact while its addends' exponents are within 29).
+//          area: e <= A < 2^58, r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits 64 bits below 2^34,
+//          above it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.
 // Tests    tests/rasterizer/chip/window_z_test.cpp
 #pragma once
 #include <array>
@@ -58,8 +58,8 @@ struct CutWeight {
     return cut_bits(exact * (1.0 - hypothesis.reciprocal_deficit * 0x1p-32), hypothesis.reciprocal_bits);
 }
 
-// The vertex whose weight is 1 - (the two others) for colours and texture coordinates: that of the largest exponent; ties
-// {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all -> v2. attributes.md 2.3.
+// The vertex whose weight is 1 - (the two others) for colours and texture coordinates: that of the largest exponent;
+// ties {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all -> v2. attributes.md 2.3.
 [[nodiscard]] constexpr std::size_t remainder_vertex(const std::array<double, 3>& b) noexcept {
     const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
     const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);

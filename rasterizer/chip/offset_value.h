@@ -1,8 +1,8 @@
 // rasterizer/chip/offset_value.h - polygon offset as NV2A (GeForce3 class) adds it to a fragment's value.
 //
-// Rule     v = cut(value, 24); with offset v = cut(v + o, 24), o = cut(cut(slope * factor, 24) + bias, 24), slope cut to 24
-//          bits, everything toward zero and in the buffer's own units. The slope of a z buffer is the larger of |dz/dx|
-//          and |dz/dy| of the triangle, per pixel.
+// Rule     v = cut(value, 24); with offset v = cut(v + o, 24), o = cut(cut(slope * factor, 24) + bias, 24), slope cut
+//          to 24 bits, everything toward zero and in the buffer's own units. The slope of a z buffer is the larger of
+//          |dz/dx| and |dz/dy| of the triangle, per pixel.
 // Source   coverage.md 9.3, chip-float-depth.md 2.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once

@@ -1,12 +1,13 @@
-// rasterizer/chip/perspective_weights.h - the weights of NV2A's interpolator where w differs: colours, coordinates, w buffer.
+// rasterizer/chip/perspective_weights.h - the weights of NV2A's interpolator where w differs: colours, coordinates, w
+// buffer.
 //
-// Rule     q_i = |1 / w_i| cut to 24 bits; e' cut like a weight's; S = the sum of the whole products |e'_i| q_i, each cut to a
-//          multiple of 2^(ex - 28), ex the largest exponent of them; r of S as in cut_weight.h; p_i = |e'_i| q_i cut to 25 bits;
-//          b_i = p_i r cut to 24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
+// Rule     q_i = |1 / w_i| cut to 24 bits; e' cut like a weight's; S = the sum of the whole products |e'_i| q_i, each
+//          cut to a multiple of 2^(ex - 28), ex the largest exponent of them; r of S as in cut_weight.h; p_i = |e'_i|
+//          q_i cut to 25 bits; b_i = p_i r cut to 24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
 // Source   chip-float-depth.md 4.1 and 7; the last bits of p, q or r are open (4.4 there).
-// Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded there. A corner's edge value and its
-//          w have one sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes do. |1 / w| is at least 2^-126
-//          and at most 2^126 (signs of w) and |e'| below 2^58: nothing overflows.
+// Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded there. A corner's
+//          edge value and its w have one sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes do. |1 /
+//          w| is at least 2^-126 and at most 2^126 (signs of w) and |e'| below 2^58: nothing overflows.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp, perspective_colors_test.cpp
 #pragma once
 #include <algorithm>

@@ -1,9 +1,9 @@
 // rasterizer/chip/w_buffer.h - the depth of NV2A's w buffer: w itself, interpolated by perspective weights.
 //
-// Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product cut toward zero to
-//          2^(ex - 28), ex the largest exponent of w1 and the products; the sum cut to 24 bits, offset added
-//          (offset_value.h). w_i are binary32, times the pass's scale rounded once. The slope of the offset is |w(P) - w(Q)|
-//          of two neighbouring pixels along the steeper axis, one number a triangle (WSlope).
+// Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product cut toward zero
+//          to 2^(ex - 28), ex the largest exponent of w1 and the products; the sum cut to 24 bits, offset added
+//          (offset_value.h). w_i are binary32, times the pass's scale rounded once. The slope of the offset is |w(P) -
+//          w(Q)| of two neighbouring pixels along the steeper axis, one number a triangle (WSlope).
 // Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the place of P and Q are open there.
 // Numbers  Differences and products in binary64: exact but for the remainder's product, which is rounded there.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp

@@ -1,13 +1,13 @@
 // rasterizer/chip/window_z.h - window depth as NV2A (GeForce3 class) computes it, for every depth format.
 //
-// Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the
-//          reference; the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of
-//          the three terms; the sum cut to 24 bits, offset added (offset_value.h). z are binary32 in buffer units; z and
+// Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the reference;
+//          the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of the three
+//          terms; the sum cut to 24 bits, offset added (offset_value.h). z are binary32 in buffer units; z and
 //          differences below 2^-126 are 0.
 // Source   measured on silicon: chip-depth.md 1, chip-float-depth.md 1 to 3.
 // Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other acts as any z below 2^-24 of it does;
-//          times 24 bits of weight 109 bits. Nearly all differences have 29 bits or fewer, and their products are exact in
-//          binary64.
+//          times 24 bits of weight 109 bits. Nearly all differences have 29 bits or fewer, and their products are exact
+//          in binary64.
 // Tests    tests/rasterizer/chip/window_z_test.cpp
 #pragma once
 #include <algorithm>
@@ -130,8 +130,8 @@ class WindowZ24 {
         [[nodiscard]] constexpr int leading_exponent() const noexcept {
             return magnitude == 0 ? none : bit_width(magnitude) - 1 + exponent;
         }
-        // In units of 2^unit, toward zero; below 2^29 because the unit is 28 places under the largest term. The exponent of
-        // a zero means nothing: two corners at depth 0 put it any number of places above the unit.
+        // In units of 2^unit, toward zero; below 2^29 because the unit is 28 places under the largest term. The
+        // exponent of a zero means nothing: two corners at depth 0 put it any number of places above the unit.
         [[nodiscard]] constexpr std::int64_t cut(int unit) const noexcept {
             if (magnitude == 0) return 0;
             const int right = unit - exponent;

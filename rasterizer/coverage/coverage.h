@@ -26,9 +26,9 @@ class TriangleEdges {
   public:
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), 0) {}
-    // Of a triangle with negative w at the corners of `negative_w` (bit i): their edges are turned over, so that the covered
-    // pixels are again those where no edge value is negative, and a pixel on such a side is inside where it would be
-    // outside (coverage.md 5.8). For coverage alone: `at` has no such values.
+    // Of a triangle with negative w at the corners of `negative_w` (bit i): their edges are turned over, so that the
+    // covered pixels are again those where no edge value is negative, and a pixel on such a side is inside where it
+    // would be outside (coverage.md 5.8). For coverage alone: `at` has no such values.
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::uint8_t negative_w) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), negative_w) {}
 

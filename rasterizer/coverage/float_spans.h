@@ -1,10 +1,10 @@
-// rasterizer/coverage/float_spans.h - the pixels that a triangle covers by spans between its sides, stepped in binary32 from
-// positions that are not snapped.
+// rasterizer/coverage/float_spans.h - the pixels that a triangle covers by spans between its sides, stepped in binary32
+// from positions that are not snapped.
 //
-// Rule     CoverageRule::float_spans: corners by y, half a pixel right and up; each side runs over whole rows from ceil(y);
-//          row k of a part reaches from int(left + k slope) up to, not including, int(right + k slope). First the rows
-//          from the least to the middle corner, then those to the greatest. Nothing is drawn where 1 / area is not finite.
-//          int cuts toward zero; every operation is rounded to binary32.
+// Rule     CoverageRule::float_spans: corners by y, half a pixel right and up; each side runs over whole rows from
+//          ceil(y); row k of a part reaches from int(left + k slope) up to, not including, int(right + k slope). First
+//          the rows from the least to the middle corner, then those to the greatest. Nothing is drawn where 1 / area is
+//          not finite. int cuts toward zero; every operation is rounded to binary32.
 // Source   mesa-rasterizers.md 3.1 and 3.2.
 // Numbers  Positions lie within the guard band of +-2^15 pixels, but slopes do not: x is clamped to the box before it
 //          becomes an integer.
@@ -53,7 +53,8 @@ class FloatSpans {
     // Calls visit(y, x0, x1) for every row of `box` that has covered pixels [x0, x1) there.
     template <class Visit>
     void visit(const Rect& box, const Visit& visit) const {
-        // A box without columns, of a triangle beside the region, has its bounds the other way round: std::clamp takes no such.
+        // A box without columns, of a triangle beside the region, has its bounds the other way round: std::clamp takes
+        // no such.
         if (!is_drawn_ || box.x0 >= box.x1) return;
         Side bottom = bottom_, longest = longest_, top = top_;
         const int rows = bottom.rows, rest = top.rows;
@@ -120,7 +121,8 @@ class FloatSpans {
     return {static_cast<int>(x0) - 2, static_cast<int>(y0) - 2, static_cast<int>(x1) + 3, static_cast<int>(y1) + 3};
 }
 
-// Boxes of at most this many pixels either way are drawn when triangles are set up, to see what is covered (coverage.md 7.1).
+// Boxes of at most this many pixels either way are drawn when triangles are set up, to see what is covered (coverage.md
+// 7.1).
 inline constexpr int seen_size = 12;
 // The covered pixels' box, of those in `box`; empty if there are none.
 [[nodiscard]] inline Rect covered_box(const FloatSpans& spans, const Rect& box) {

@@ -1,7 +1,7 @@
 // rasterizer/coverage/pixel_claims.h - which pixels of a region the present batch already holds.
 //
-// Rule     A word stands for 32 pixels of a row: a bit a pixel, and above them the number of the batch that the bits are
-//          of. So a new batch forgets them all by taking the next number.
+// Rule     A word stands for 32 pixels of a row: a bit a pixel, and above them the number of the batch that the bits
+//          are of. So a new batch forgets them all by taking the next number.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp (no pixel twice in a batch)
 #pragma once
 #include <algorithm>
@@ -24,8 +24,8 @@ class PixelClaims {
         batch_ = 1;
     }
 
-    // Claims `count` pixels of a row of the region from `column` on; false, and some of them claimed, if the batch holds
-    // one of them already: then it must end.
+    // Claims `count` pixels of a row of the region from `column` on; false, and some of them claimed, if the batch
+    // holds one of them already: then it must end.
     [[nodiscard]] bool claim(std::size_t row, unsigned column, unsigned count) noexcept {
         std::uint64_t* word = &word_[row * words_a_row_ + column / 32];
         for (column %= 32; count > 0; ++word, column = 0) {
@@ -42,8 +42,8 @@ class PixelClaims {
     struct Origin {
         std::size_t row, column;
     };
-    // Claims what `bits_of(row)` names, bit 0 at the column of `from`, in `rows` rows of at most 16 pixels; false as above.
-    // Up to `spare_rows` of them may lie below the region, with no bits.
+    // Claims what `bits_of(row)` names, bit 0 at the column of `from`, in `rows` rows of at most 16 pixels; false as
+    // above. Up to `spare_rows` of them may lie below the region, with no bits.
     template <class BitsOf>
     [[nodiscard, gnu::always_inline]] bool claim_rows(Origin from, unsigned width, unsigned rows,
                                                       const BitsOf& bits_of) noexcept {

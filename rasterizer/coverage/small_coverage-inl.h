@@ -1,6 +1,6 @@
-// rasterizer/coverage/small_coverage-inl.h - what of a small triangle is covered, as bits: four rows of 4 pixels, two of 8 or one of
-// 16 side by side. For *_simd.cpp alone, as weights-inl.h. Its meaning is scalar::emit_small of small_triangles.h.
-// Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
+// rasterizer/coverage/small_coverage-inl.h - what of a small triangle is covered, as bits: four rows of 4 pixels, two
+// of 8 or one of 16 side by side. For *_simd.cpp alone, as weights-inl.h. Its meaning is scalar::emit_small of
+// small_triangles.h. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
 #include <bit>
 
 #include "hwy/highway.h"

@@ -1,9 +1,10 @@
-// rasterizer/coverage/small_triangles.h - triangles of few pixels: edge functions of 32 bits, a group of triangles at a time, and
-// all rows of a triangle as one bit mask.
+// rasterizer/coverage/small_triangles.h - triangles of few pixels: edge functions of 32 bits, a group of triangles at a
+// time, and all rows of a triangle as one bit mask.
 //
 // Rule     Coverage is that of coverage.h. A batch takes a small triangle whole or not at all.
 // Numbers  Corners of at most 2^14 subpixels either way and boxes within theirs: |E| <= 2^14 2^14 2 = 2^29. Arithmetic
-//          is modulo 2^32, because pixels beyond the box and triangles that are not small may wrap: nothing looks there.
+//          is modulo 2^32, because pixels beyond the box and triangles that are not small may wrap: nothing looks
+//          there.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp
 #pragma once
 #include <algorithm>

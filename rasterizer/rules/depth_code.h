@@ -6,8 +6,8 @@
 //          field of 0 flushed to 0, whatever the rule. D24F: depth 1 is 1e30; binary32 without its sign, its mantissa
 //          cut to 16 bits, what is below 2^-126 flushed to 0. The text of it all is depth_text-inl.h's. Under
 //          DepthLimits::wrap nothing is clamped (depth.md 2.9).
-// Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F and D24F:
-//          chip-float-depth.md 3.
+// Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F and
+//          D24F: chip-float-depth.md 3.
 // Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
 // Tests    tests/rasterizer/rules/depth_code_test.cpp, tests/rasterizer/values/d16f_paths_test.cpp
 #pragma once
@@ -23,8 +23,8 @@ namespace strata::rasterizer {
 // d24f: 8 bits of exponent, 16 of mantissa, no sign.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f, d24f };
 // How a value becomes a fixed-point code: cut; to nearest with a half going up; scaled in binary32, and that product to
-// nearest with a half going to the even code; or 16 bits scaled in binary32 and cut, 24 bits as by floor. The float formats do
-// not look at it.
+// nearest with a half going to the even code; or 16 bits scaled in binary32 and cut, 24 bits as by floor. The float
+// formats do not look at it.
 enum class DepthRounding : std::uint8_t { floor, nearest, product_even, product_floor };
 
 [[nodiscard]] constexpr bool cuts(DepthRounding rounding) noexcept {
@@ -34,7 +34,8 @@ enum class DepthRounding : std::uint8_t { floor, nearest, product_even, product_
 // The ways in which formats make a code of a value.
 enum class CodeKind : std::uint8_t { fixed, fixed_product, fixed_cut_product, binary32, d16f, d24f };
 
-// How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds exactly.
+// How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds
+// exactly.
 template <class Limit>
 struct DepthConversion {
     CodeKind kind;
@@ -168,8 +169,9 @@ template <class Value>
     return 0;  // unreachable: the enum is closed
 }
 
-// The code under DepthLimits::wrap of a value, where depth 1 is 1: D32F keeps it; in fixed point it is scaled, rounded as ever, cut toward
-// zero to an integer with a sign, and that integer's lowest 32 bits are compared, of which the target keeps its own (depth.md 2.9).
+// The code under DepthLimits::wrap of a value, where depth 1 is 1: D32F keeps it; in fixed point it is scaled, rounded
+// as ever, cut toward zero to an integer with a sign, and that integer's lowest 32 bits are compared, of which the
+// target keeps its own (depth.md 2.9).
 [[nodiscard]] constexpr std::uint32_t to_wrapped_code(float z, const DepthConversion<float>& to) noexcept {
     constexpr double most = 0x1p62;  // its lowest 32 bits are 0
     if (to.kind == CodeKind::binary32) return std::bit_cast<std::uint32_t>(z);

@@ -1,11 +1,14 @@
-// rasterizer/rules/depth_key.h - the number by which fragments are ordered under reversed depth: less is nearer, as everywhere.
+// rasterizer/rules/depth_key.h - the number by which fragments are ordered under reversed depth: less is nearer, as
+// everywhere.
 //
-// Rule     Under DepthOrder::greater every depth leaves the rasterizer as its key, an involution that turns the order round: 0 and 1 change
-//          places, other normal numbers z in [0,1] become the number with the bits 3fffffff - bits(z). Denormal depths count as 0. Beyond
-//          the range, z > 1 becomes a negative key and z < 0 one above 1, in order.
-// Source   depth.md 11: a machine whose tests are GREATER, whose clears are 0 and whose MIN is MAX does on depths what one with LESS, 1
-//          and MIN does on keys.
-// Numbers  bits(0.5) = 3f000000. No key is denormal, so that blending into float targets, which may flush, leaves keys alone.
+// Rule     Under DepthOrder::greater every depth leaves the rasterizer as its key, an involution that turns the order
+//          round: 0 and 1 change places, other normal numbers z in [0,1] become the number with the bits 3fffffff -
+//          bits(z). Denormal depths count as 0. Beyond the range, z > 1 becomes a negative key and z < 0 one above 1,
+//          in order.
+// Source   depth.md 11: a machine whose tests are GREATER, whose clears are 0 and whose MIN is MAX does on depths what
+//          one with LESS, 1 and MIN does on keys.
+// Numbers  bits(0.5) = 3f000000. No key is denormal, so that blending into float targets, which may flush, leaves keys
+//          alone.
 // Tests    tests/rasterizer/rules/depth_key_test.cpp
 #pragma once
 #include <bit>

@@ -1,7 +1,8 @@
-// rasterizer/rules/hypotheses.h - every constant of the rules that is not known for certain, with its other values, by name.
+// rasterizer/rules/hypotheses.h - every constant of the rules that is not known for certain, with its other values, by
+// name.
 //
-// Rule     A list holds the given rules first ("as given"), then the rules with each other value of one constant after the
-//          other. The subject is what the constant can change at all.
+// Rule     A list holds the given rules first ("as given"), then the rules with each other value of one constant after
+//          the other. The subject is what the constant can change at all.
 // Source   depth_hypothesis.h, interpolation_hypothesis.h.
 // Tests    tests/rasterizer/rules/hypotheses_test.cpp
 #pragma once

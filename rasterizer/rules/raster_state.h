@@ -25,8 +25,8 @@ struct Rect {
 
 // The view volume in z: -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D).
 enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };
-// The depth test that keeps the nearer of two fragments. `greater`: reversed depth, nearer depths are greater; passes then compare
-// keys (depth_key.h).
+// The depth test that keeps the nearer of two fragments. `greater`: reversed depth, nearer depths are greater; passes
+// then compare keys (depth_key.h).
 enum class DepthOrder : std::uint8_t { less, greater };
 // Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
 // window.
@@ -70,8 +70,8 @@ struct RasterState {
     std::array<ClipPlane, 6> clip_planes{};
     // The first so many planes count, 0 to 6.
     int clip_plane_count = 0;
-    // Vertices carry window x, y (pixels) and z (rules.window_z units) beside their w, as a vertex program of NV2A leaves
-    // them: no clip volume, no division, no viewport.
+    // Vertices carry window x, y (pixels) and z (rules.window_z units) beside their w, as a vertex program of NV2A
+    // leaves them: no clip volume, no division, no viewport.
     bool window_positions = false;
     // Vertex z in buffer units and the unit of polygon offset depend on it.
     DepthFormat depth_format = DepthFormat::d32f;

@@ -1,7 +1,7 @@
 // rasterizer/set_up/check_input.h - what `set_up` asks of the state and the soup that a caller hands in.
 //
-// Rule     InputError names the field ("triangle soup: indices[7]: expected less than 24, found 31"). Vertices may hold any
-//          bits: those that are not finite are dropped and counted (setup.h).
+// Rule     InputError names the field ("triangle soup: indices[7]: expected less than 24, found 31"). Vertices may hold
+//          any bits: those that are not finite are dropped and counted (setup.h).
 // Numbers  A viewport lies within [0, 32768]: pixels have 16 bits, edge functions are exact within +-2^15 pixels.
 // Tests    tests/rasterizer/set_up/check_input_test.cpp
 #pragma once

@@ -4,9 +4,10 @@
 //          in x and y; the user's planes. A side that crosses a plane gets one new corner, computed from its inside end
 //          I to its outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64,
 //          each component rounded once to binary32. So two triangles that share a side share its new corners to the
-//          bit, and equal values stay equal. ClipVolume::view_volume: the planes x = w, -x = w, y = w, -y = w, near, far
-//          and the user's in binary32; the new corner starts from the end that is nearer to the plane. view_volume_depth_first: near,
-//          far, -x = w, x = w, y = w, -y = w and the user's; corner = (dO I - dI O) (1 / (dO - dI)), each operation rounded.
+//          bit, and equal values stay equal. ClipVolume::view_volume: the planes x = w, -x = w, y = w, -y = w, near,
+//          far and the user's in binary32; the new corner starts from the end that is nearer to the plane.
+//          view_volume_depth_first: near, far, -x = w, x = w, y = w, -y = w and the user's; corner = (dO I - dI O) (1 /
+//          (dO - dI)), each operation rounded.
 // Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The w bound is ours [A]: 1 / w and u / w stay
 //          finite. Tests    tests/rasterizer/set_up/clip_test.cpp
 #pragma once

@@ -21,9 +21,10 @@ namespace {
     return (std::fabs(d1 * y2 - d2 * y1) + std::fabs(d2 * x1 - d1 * x2)) / std::fabs(area);
 }
 
-// A bound of what rounding each step to binary32 does to a depth (float_planes.h), to first order with room: the rounded
-// area may be off by 4 units of its two products, each slope by as much and 4 roundings, which counts over the
-// triangle's extent; the start at pixel (0, 0) and the steps from there round values of the size of slope times position.
+// A bound of what rounding each step to binary32 does to a depth (float_planes.h), to first order with room: the
+// rounded area may be off by 4 units of its two products, each slope by as much and 4 roundings, which counts over the
+// triangle's extent; the start at pixel (0, 0) and the steps from there round values of the size of slope times
+// position.
 [[nodiscard]] double step_error(const Geometry& geometry, const TriangleRecord& triangle,
                                 const std::array<double, 3>& z) {
     const auto at = geometry.positions(triangle);

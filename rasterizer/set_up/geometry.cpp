@@ -49,7 +49,8 @@ class Listing {
         return {{first + index[0], first + index[1], first + index[2]}, number, primitive, &soup_.runs[run]};
     }
 
-    // How many triangles of run `run` stand side by side from `primitive` on, in submission order, and where their indices do.
+    // How many triangles of run `run` stand side by side from `primitive` on, in submission order, and where their
+    // indices do.
     [[nodiscard]] std::size_t side_by_side(std::size_t primitive, std::size_t run) const {
         return soup_.order.empty() && primitive >= start_[run] && primitive < start_[run + 1]
                    ? start_[run + 1] - primitive

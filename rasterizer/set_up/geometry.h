@@ -1,5 +1,5 @@
-// rasterizer/set_up/geometry.h - what comes in (clip-space vertices) and what is made of it once a frame (set-up triangles,
-// binned).
+// rasterizer/set_up/geometry.h - what comes in (clip-space vertices) and what is made of it once a frame (set-up
+// triangles, binned).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -46,12 +46,14 @@ struct TriangleRun {
     std::uint32_t object = 0;  // whose triangles these are: the caller's number
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
-    // Where its indices stand if not in the soup: lent by a caller that has checked them, and counted from `first_vertex`.
+    // Where its indices stand if not in the soup: lent by a caller that has checked them, and counted from
+    // `first_vertex`.
     const std::uint32_t* lent = nullptr;
     std::uint32_t first_vertex = 0;
 };
 
-// The input of one draw. Runs cover triples of `indices`, or lent ones; triangles are numbered through the runs, in their order.
+// The input of one draw. Runs cover triples of `indices`, or lent ones; triangles are numbered through the runs, in
+// their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
     UninitializedVector<std::uint32_t> indices;
@@ -68,8 +70,8 @@ struct TriangleRecord {
     std::uint32_t material = 0;
     PixelBox box;  // the pixels of the viewport whose centres lie in its bounding box: there are some
     bool front_facing : 1 = true;
-    // The box has at most tiny_size pixels either way, the corners lie at most TriangleGroup::max_extent apart, and `covered` says
-    // which pixels of the box are covered: row by row, tiny_size bits a row. Some are.
+    // The box has at most tiny_size pixels either way, the corners lie at most TriangleGroup::max_extent apart, and
+    // `covered` says which pixels of the box are covered: row by row, tiny_size bits a row. Some are.
     bool is_tiny : 1 = false;
     std::uint8_t negative_w = 0;  // bit i: w of corner i is negative (WSigns::by_corner)
     std::uint16_t covered = 0;
@@ -90,8 +92,8 @@ struct SetupTriangle {
     bool front_facing = true;
 };
 
-// Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle.
-// A source triangle is in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped`
+// Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle. A source
+// triangle is in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped`
 // counts those that were cut and not found outside (coverage.md 7.1).
 struct SetupCounters {
     std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, uncovered = 0, non_finite = 0;
@@ -108,7 +110,8 @@ struct Geometry {
     VertexExtras extras;                            // of the same vertices
     UninitializedVector<TriangleRecord> triangles;  // in submission order
     std::vector<std::array<double, 3>> offset_z;    // of every triangle; empty without polygon offset
-    // Of every triangle: the vertices of the one that was given, of which this may be a piece; empty but for PlaneCorners::given.
+    // Of every triangle: the vertices of the one that was given, of which this may be a piece; empty but for
+    // PlaneCorners::given.
     std::vector<std::array<std::uint32_t, 3>> given;
     SetupCounters counters;
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
@@ -143,9 +146,9 @@ struct Geometry {
 // Writes a soup's vertices from number `begin` on.
 using VertexSource = std::function<void(std::size_t begin, std::span<ClipVertex> vertices)>;
 
-// Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`.
-// The vertices become the geometry's: who moves the soup in saves their copy. With a source they have no values yet, and get them from
-// it, some at a time, just before they are set up. Throws InputError (check_input.h).
+// Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`. The
+// vertices become the geometry's: who moves the soup in saves their copy. With a source they have no values yet, and
+// get them from it, some at a time, just before they are set up. Throws InputError (check_input.h).
 [[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads,
                               const VertexSource& source = {});
 

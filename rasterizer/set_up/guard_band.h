@@ -2,7 +2,8 @@
 //
 // Rule     x and y within +-`raster.guard_band_px` pixels, and within +-2^27 subpixels.
 // Source   coverage.md 1.3; of geforce3 [M] chip-geometry.md 5.3.
-// Numbers  2^27 subpixels are what edge functions are exact for (edge.h): 32768 pixels at 12 bits, 524288 at 8, more at 4.
+// Numbers  2^27 subpixels are what edge functions are exact for (edge.h): 32768 pixels at 12 bits, 524288 at 8, more at
+//          4.
 // Tests    tests/rasterizer/set_up/window_test.cpp
 #pragma once
 #include <algorithm>

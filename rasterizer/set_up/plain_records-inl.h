@@ -1,6 +1,6 @@
-// rasterizer/set_up/plain_records-inl.h - what the kernels of plain_triangles.h have in common: triangles side by side, their corners, and
-// their records. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
-// Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
+// rasterizer/set_up/plain_records-inl.h - what the kernels of plain_triangles.h have in common: triangles side by side,
+// their corners, and their records. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h
+// asks. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -47,8 +47,8 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
 static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0 &&
               offsetof(WindowCorner, unsnapped) == sizeof(std::uint64_t));
 using Words = hn::Repartition<std::uint64_t, U>;
-// Two words from `corners` on of some corners, of every second triangle from the one of `index` on: a load each, where a gather takes
-// as long as three.
+// Two words from `corners` on of some corners, of every second triangle from the one of `index` on: a load each, where
+// a gather takes as long as three.
 template <class D>
 HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::uint32_t* index) {
     if constexpr (hn::MaxLanes(D{}) == 2) {
@@ -111,8 +111,8 @@ HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& 
         pair(hn::Or(facing, tiny), hn::IfThenElseZero(s.is_tiny, s.covered)), U{}, records.second[first].data());
 }
 
-// SetUpPlainTriangles. `find(rules, indices, corners, first, shapes)`: the shapes of `lanes` triangles, from number `first` of the
-// group on; false if one of them is not plain.
+// SetUpPlainTriangles. `find(rules, indices, corners, first, shapes)`: the shapes of `lanes` triangles, from number
+// `first` of the group on; false if one of them is not plain.
 template <auto find>
 bool set_up_plain_group(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
                         std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out,

@@ -1,8 +1,10 @@
-// rasterizer/set_up/plain_spans_simd.cpp - plain_triangles.h where pixels are covered by float spans, for every instruction set.
+// rasterizer/set_up/plain_spans_simd.cpp - plain_triangles.h where pixels are covered by float spans, for every
+// instruction set.
 //
-// Rule     FloatSpans and covered_box of float_spans.h, a triangle a lane: the same operations of binary32 in the same order.
-// Numbers  Positions are finite, and so are x and slopes of the lanes that count (find_shapes): MIN and MAX meet no NaN, and 0 of either
-//          sign becomes the same integer.
+// Rule     FloatSpans and covered_box of float_spans.h, a triangle a lane: the same operations of binary32 in the same
+//          order.
+// Numbers  Positions are finite, and so are x and slopes of the lanes that count (find_shapes): MIN and MAX meet no
+//          NaN, and 0 of either sign becomes the same integer.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_spans_simd.cpp"

@@ -1,8 +1,9 @@
-// rasterizer/set_up/plain_triangles.h - triangles set up sixteen at a time, where there is nothing unusual about them; and which
-// pixels a tiny triangle covers.
+// rasterizer/set_up/plain_triangles.h - triangles set up sixteen at a time, where there is nothing unusual about them;
+// and which pixels a tiny triangle covers.
 //
-// Rule     The records, their order and the fates are those of TriangleSetup::add, one triangle after the other. A triangle is plain
-//          if its vertices have no marks and it is small (TriangleGroup), or its sides' slopes are below 2^64 (float spans).
+// Rule     The records, their order and the fates are those of TriangleSetup::add, one triangle after the other. A
+//          triangle is plain if its vertices have no marks and it is small (TriangleGroup), or its sides' slopes are
+//          below 2^64 (float spans).
 // Tests    tests/rasterizer/set_up/plain_triangles_test.cpp
 #pragma once
 #include <cstdint>
@@ -28,9 +29,9 @@ struct PlainFates {
     std::uint32_t kept = 0, culled = 0, outside = 0, degenerate = 0, uncovered = 0;
 };
 
-// Sixteen triangles, three of `indices` each, submitted from number `primitive` on. False if one of them is not plain: then nothing
-// is said. `marks` are those of the vertices, null if none has any. Else what is left of them stands at `out`, which has room for sixteen,
-// and `fates` have grown by theirs.
+// Sixteen triangles, three of `indices` each, submitted from number `primitive` on. False if one of them is not plain:
+// then nothing is said. `marks` are those of the vertices, null if none has any. Else what is left of them stands at
+// `out`, which has room for sixteen, and `fates` have grown by theirs.
 using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std::uint32_t* indices,
                                      std::uint32_t primitive, std::span<const WindowCorner> corners,
                                      const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates);
@@ -40,7 +41,8 @@ using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std:
 // The same for CoverageRule::float_spans.
 [[nodiscard]] SetUpPlainTriangles set_up_plain_spans() noexcept;
 
-// Makes a record tiny if its box, pixels of the surface, and its corners are. False if it is, and covers none of its pixels.
+// Makes a record tiny if its box, pixels of the surface, and its corners are. False if it is, and covers none of its
+// pixels.
 [[nodiscard]] bool find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
                              TriangleRecord& record) noexcept;
 

@@ -1,8 +1,9 @@
 // rasterizer/set_up/plain_vertices.h - vertices set up sixteen at a time, where there is nothing unusual about them.
 //
-// Rule     A vertex is plain if all of it is finite, it lies in the view volume, and its window position, 1 / w and attributes over
-//          w are finite, too; and those of its neighbours are. Beside the view volume it may lie where it is surely inside the guard band.
-//          The corners of plain vertices have the bits of window.h; of the others nothing is said.
+// Rule     A vertex is plain if all of it is finite, it lies in the view volume, and its window position, 1 / w and
+//          attributes over w are finite, too; and those of its neighbours are. Beside the view volume it may lie where
+//          it is surely inside the guard band. The corners of plain vertices have the bits of window.h; of the others
+//          nothing is said.
 // Tests    tests/rasterizer/set_up/setup_test.cpp
 #pragma once
 #include <array>
@@ -27,7 +28,8 @@ struct PlainVertexRules {
 // Bit i of the answer: vertex i of the sixteen is plain, and its corner is written.
 using SetUpPlain = std::uint32_t (*)(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners);
 
-// The kernel of the chosen instruction set; null for scalar, which has none, and where corners are not words of little endian. A draw asks once.
+// The kernel of the chosen instruction set; null for scalar, which has none, and where corners are not words of little
+// endian. A draw asks once.
 [[nodiscard]] SetUpPlain set_up_plain() noexcept;
 
 }  // namespace strata::rasterizer

@@ -39,8 +39,8 @@ class Magnitude {
     hn::Vec<I> greatest_;
 };
 
-// Whether the attributes of `lanes` vertices are surely finite, and what they are over w: if the greatest number of all vertices is, over the
-// least w. They nearly always are.
+// Whether the attributes of `lanes` vertices are surely finite, and what they are over w: if the greatest number of all
+// vertices is, over the least w. They nearly always are.
 HWY_INLINE bool attributes_are_finite(const float* vertices, VF inverse_w) {
     Magnitude values, factors, products;
     for (std::size_t i = 0; i < lanes * components; i += lanes) values.add(hn::LoadU(F{}, vertices + i));

@@ -1,12 +1,11 @@
 // rasterizer/set_up/polygon_offset.h - what glPolygonOffset adds to the window z of a triangle's corners.
 //
 // Rule     o = m * factor + r * units, m = max(|dz/dx|, |dz/dy|) per pixel of the snapped triangle; no slope term if
-//          factor is 0 (0 * infinity). r: one code of a fixed-point format (OffsetUnit::two_codes: two), or 2^(e - 23) with e
-//          the exponent of the largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units
-//          (OffsetUnit::buffer). OffsetUnit::differences: for D16 1.01 / 65535, else 2^(e - 23) with e that of the largest of |z0|,
-//          |z1 - z0 + n| and |z2 - z0 + n|, n being where the depth range maps 0. The chip's
-//          own sum is offset_value.h. z and o are in vertex z units; |o| <= 2^64,
-//          further out nothing changes.
+//          factor is 0 (0 * infinity). r: one code of a fixed-point format (OffsetUnit::two_codes: two), or 2^(e - 23)
+//          with e the exponent of the largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units
+//          (OffsetUnit::buffer). OffsetUnit::differences: for D16 1.01 / 65535, else 2^(e - 23) with e that of the
+//          largest of |z0|, |z1 - z0 + n| and |z2 - z0 + n|, n being where the depth range maps 0. The chip's own sum
+//          is offset_value.h. z and o are in vertex z units; |o| <= 2^64, further out nothing changes.
 // Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
 // Numbers  binary64, each operation rounded; a difference of coordinates is exact, so m is within 2^-49 of the true
 //          slope. Tests    tests/rasterizer/set_up/polygon_offset_test.cpp

@@ -35,7 +35,8 @@ template <std::size_t n>
 
 constexpr std::uint8_t all_corners = 7;
 
-// The sign of a piece's area, 0 if it covers nothing, a box of the pixels that it may cover, and whether it is known to cover none there.
+// The sign of a piece's area, 0 if it covers nothing, a box of the pixels that it may cover, and whether it is known to
+// cover none there.
 struct PieceShape {
     std::int64_t area_sign;
     Rect box;
@@ -158,7 +159,8 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if (shape.area_sign == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
     const std::uint8_t negative = negative_w(piece.corner);
-    // A triangle that reaches through infinity may cover any pixel of the window; behind the eye with all of itself, none.
+    // A triangle that reaches through infinity may cover any pixel of the window; behind the eye with all of itself,
+    // none.
     const Rect box = intersection(negative == 0 ? shape.box : state_.viewport, state_.viewport);
     if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
     if (shape.is_uncovered && negative == 0) return Fate::uncovered;
@@ -178,7 +180,8 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     return Fate::kept;
 }
 
-// The sign of the area of the given corners, as binary32 finds it, in memory's rows; odd numbers of negative w turn it round.
+// The sign of the area of the given corners, as binary32 finds it, in memory's rows; odd numbers of negative w turn it
+// round.
 int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
     std::array<float, 3> x{}, y{};
     bool is_negative = window_.is_turned();
@@ -195,7 +198,8 @@ int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
     return is_negative ? -turn : turn;
 }
 
-// Window z of the corners and polygon offset: an exact sum, or the roundings of planes that are stepped (coverage.md 9.4).
+// Window z of the corners and polygon offset: an exact sum, or the roundings of planes that are stepped (coverage.md
+// 9.4).
 std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept {
     const auto& [a, b, c] = corner;
     const std::array p{a->p, b->p, c->p};
@@ -317,8 +321,8 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     count(fate, triangle, out.counters);
 }
 
-// Boxes and areas are found for a whole group at once. Marked triangles, those with an offset, and those of window positions
-// (whose w may be negative) go the general way.
+// Boxes and areas are found for a whole group at once. Marked triangles, those with an offset, and those of window
+// positions (whose w may be negative) go the general way.
 void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
     TriangleGroup group;
     load_corners(

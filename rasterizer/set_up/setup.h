@@ -70,8 +70,8 @@ class TriangleSetup {
     // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
-    // Adds up to `groups` times TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, a
-    // group at once; returns how many groups, up to the first one with a triangle that is not plain.
+    // Adds up to `groups` times TriangleGroup::size triangles of a run, three of `indices` each, submitted from number
+    // `primitive` on, a group at once; returns how many groups, up to the first one with a triangle that is not plain.
     [[nodiscard]] std::size_t add_plain(const std::uint32_t* indices, std::uint32_t primitive, std::size_t groups,
                                         const TriangleRun& run, SetupChunk& out) const;
 

@@ -1,10 +1,10 @@
-// rasterizer/set_up/stepped_offset.h - polygon offset by rasterizers whose planes are stepped in binary32 (RasterRules::plane_rule): each
-// operation rounded, from the unsnapped positions.
+// rasterizer/set_up/stepped_offset.h - polygon offset by rasterizers whose planes are stepped in binary32
+// (RasterRules::plane_rule): each operation rounded, from the unsnapped positions.
 //
-// Rule     o = max(|dz/dx|, |dz/dy|) * factor + r units; the slopes are components of the cross product of two sides, times
-//          1 / area. least_corner: the sides p0 - p2 and p1 - p2; o is added to z of each corner, which is then limited to the range of z.
-//          Else: p0 - p1 and p2 - p0, corners 0 and 1 having changed places if the snapped triangle is clockwise in memory
-//          order; o is added to the plane's value at each fragment.
+// Rule     o = max(|dz/dx|, |dz/dy|) * factor + r units; the slopes are components of the cross product of two sides,
+//          times 1 / area. least_corner: the sides p0 - p2 and p1 - p2; o is added to z of each corner, which is then
+//          limited to the range of z. Else: p0 - p1 and p2 - p0, corners 0 and 1 having changed places if the snapped
+//          triangle is clockwise in memory order; o is added to the plane's value at each fragment.
 // Source   coverage.md 9.4; mesa-rasterizers.md 1.3.
 // Tests    tests/rasterizer/set_up/polygon_offset_test.cpp
 #pragma once

@@ -24,7 +24,8 @@ struct RowSpan {
     return rules;
 }
 
-// Sets up `triangles` (indices into geometry.triangles), of which there are some and no more than a group has, in `group`.
+// Sets up `triangles` (indices into geometry.triangles), of which there are some and no more than a group has, in
+// `group`.
 inline void set_up_group(const Geometry& geometry, const GroupRules& rules, const SmallKernels& kernels,
                          std::span<const std::uint32_t> triangles, TriangleGroup& group) {
     const auto vertices = [&](std::size_t k) -> const auto& { return geometry.triangles[triangles[k]].vertex; };
@@ -32,8 +33,8 @@ inline void set_up_group(const Geometry& geometry, const GroupRules& rules, cons
     kernels.set_up(rules, group);
 }
 
-// Calls visit(part) for `triangles` group after group. Triangles and corners of the groups to come are prefetched meanwhile, and the
-// colours of the corners if they `have_colors`.
+// Calls visit(part) for `triangles` group after group. Triangles and corners of the groups to come are prefetched
+// meanwhile, and the colours of the corners if they `have_colors`.
 template <class Visit>
 void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> triangles, const Visit& visit,
                     bool have_colors = false) {

@@ -1,10 +1,11 @@
 // rasterizer/set_up/window.h - from clip space to the window: divide by w, viewport, snapping.
 //
 // Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
-//          once (rules.viewport, which may ask whether clipping made the vertex); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
-//          of the y scale; YAxis::clip with y up: y is measured upwards from the viewport's lower side, and turned round when it is
-//          snapped. half_pixel_first: offsets are half a pixel less, which snapped positions have again. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
-//          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
+//          once (rules.viewport, which may ask whether clipping made the vertex); all in binary32, for WDivide::nv20 by
+//          nv20_arithmetic.h. y up turns the sign of the y scale; YAxis::clip with y up: y is measured upwards from the
+//          viewport's lower side, and turned round when it is snapped. half_pixel_first: offsets are half a pixel less,
+//          which snapped positions have again. z goes to n..f, or to n..f times 2^n - 1 with scale and offset
+//          pre-multiplied (buffer units; a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
 // Source   GL 2.1 2.11.1; coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
 // Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
 //          rounding is the only one. Tests    tests/rasterizer/set_up/window_test.cpp
@@ -36,8 +37,8 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return rules.window_z == WindowZ::buffer_units ? buffer_units(state.depth_format) : 1.0;
 }
 
-// A w of any sign, zero and infinity acting as 2^-64 and 2^64: 1 / w and its products stay finite. NaN stays. The chip's
-// reciprocal has these limits (chip-float-depth.md 8).
+// A w of any sign, zero and infinity acting as 2^-64 and 2^64: 1 / w and its products stay finite. NaN stays. The
+// chip's reciprocal has these limits (chip-float-depth.md 8).
 [[nodiscard]] constexpr float settled_w(float w) noexcept {
     const bool is_negative = std::bit_cast<std::uint32_t>(w) >> 31 != 0;
     float size = is_negative ? -w : w;
@@ -106,8 +107,8 @@ class WindowTransform {
         return {v.x + less, is_turned_ ? static_cast<float>(rows_) - y : y};
     }
 
-    // A vertex that may lie anywhere, snapped, in subpixels from the centre of the first pixel, rows counted as rules.y_axis says:
-    // what is too large for 32 bits becomes the least number, and a w of 0 counts as 1.
+    // A vertex that may lie anywhere, snapped, in subpixels from the centre of the first pixel, rows counted as
+    // rules.y_axis says: what is too large for 32 bits becomes the least number, and a w of 0 counts as 1.
     [[nodiscard]] constexpr SubpixelPoint from_first_centre(const ClipVertex& v) const noexcept {
         const float inverse_w = v.w == 0.0f ? 1.0f : 1.0f / v.w;
         const auto place = [&](const Axis& axis, float c) {

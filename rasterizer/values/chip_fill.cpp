@@ -1,5 +1,5 @@
-// rasterizer/values/chip_fill.cpp - what of a batch the kernels of the chip's interpolators fill (chip_lanes.h), and where the definitions
-// do it instead (fragment_values.h).
+// rasterizer/values/chip_fill.cpp - what of a batch the kernels of the chip's interpolators fill (chip_lanes.h), and
+// where the definitions do it instead (fragment_values.h).
 #include <utility>
 
 #include "rasterizer/chip/color_weights.h"

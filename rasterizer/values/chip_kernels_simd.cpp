@@ -1,5 +1,5 @@
-// rasterizer/values/chip_kernels_simd.cpp - the kernels of chip_lanes.h for every instruction set: the fragments of a batch.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
+// rasterizer/values/chip_kernels_simd.cpp - the kernels of chip_lanes.h for every instruction set: the fragments of a
+// batch. How kernels are written: kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/chip_kernels_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once a target

@@ -1,8 +1,9 @@
-// rasterizer/values/chip_lanes-inl.h - NV2A's weights, window depth and its codes, a vector of binary64 at a time. For *_simd.cpp
-// alone, as weights-inl.h.
+// rasterizer/values/chip_lanes-inl.h - NV2A's weights, window depth and its codes, a vector of binary64 at a time. For
+// *_simd.cpp alone, as weights-inl.h.
 //
-// Rule     The operations and their order are those of CutWeights, PerspectiveWeights and WindowZ24. Exponents are compared as the
-//          powers of two that a mask leaves of a number; a cut is a mask, or a truncation of an exactly scaled number.
+// Rule     The operations and their order are those of CutWeights, PerspectiveWeights and WindowZ24. Exponents are
+//          compared as the powers of two that a mask leaves of a number; a cut is a mask, or a truncation of an exactly
+//          scaled number.
 // Numbers  chip_lanes.h. Lanes that are not covered may hold anything, and are looked at by no one.
 // Tests    tests/rasterizer/values/chip_lanes_test.cpp
 #include "hwy/highway.h"

@@ -1,7 +1,9 @@
-// rasterizer/values/chip_lanes.h - what the kernels of NV2A's interpolators take of a triangle: numbers of binary64 alone.
+// rasterizer/values/chip_lanes.h - what the kernels of NV2A's interpolators take of a triangle: numbers of binary64
+// alone.
 //
-// Rule     window_z.h, color_weights.h and cut_coordinates.h are the definitions. The kernels know WeightRule::cut_edges, edge
-//          values that binary64 adds up exactly, and corners whose differences are narrow; all else goes by the definitions.
+// Rule     window_z.h, color_weights.h and cut_coordinates.h are the definitions. The kernels know
+//          WeightRule::cut_edges, edge values that binary64 adds up exactly, and corners whose differences are narrow;
+//          all else goes by the definitions.
 // Numbers  Area at most 2^52: where the triangle covers a pixel its edge values lie in 0..area, and so does every
 //          partial sum of them.
 // Tests    tests/rasterizer/values/chip_lanes_test.cpp, tests/rasterizer/walk/window_z_rows_test.cpp

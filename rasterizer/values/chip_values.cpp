@@ -1,5 +1,5 @@
-// rasterizer/values/chip_values.cpp - depths that the chip computes itself, window_z and w_buffer, and the depth range that looks at
-// them (fragment_values.h).
+// rasterizer/values/chip_values.cpp - depths that the chip computes itself, window_z and w_buffer, and the depth range
+// that looks at them (fragment_values.h).
 #include <algorithm>
 
 #include "rasterizer/chip/w_buffer.h"
@@ -41,8 +41,8 @@ bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcep
     return chip_.may_leave_range(t.z);
 }
 
-// ZClip::per_fragment compares the chip's value with the range, where the chip makes one (depth.md 5.2): the w buffer's, else that of
-// window z, whichever path is stored. Elsewhere shader_z [A]: what rounds to n or f is inside.
+// ZClip::per_fragment compares the chip's value with the range, where the chip makes one (depth.md 5.2): the w
+// buffer's, else that of window z, whichever path is stored. Elsewhere shader_z [A]: what rounds to n or f is inside.
 void FragmentValues::drop_outside_depth_range(const SetupTriangle& t, const TriangleLanes& lanes, int first,
                                               FragmentBatch& batch, WeightLanes& weights) const noexcept {
     Lanes<double> value;

@@ -1,8 +1,9 @@
-// rasterizer/values/depth_quotient.h - the arithmetic of R = r/q, which a shadow comparison compares and depth replace stores.
+// rasterizer/values/depth_quotient.h - the arithmetic of R = r/q, which a shadow comparison compares and depth replace
+// stores.
 //
 // Rule     Comparison (4): R = ((r/w) / (1/w)) / ((q/w) / (1/w)). Each of the three planes is rounded to the
-//          interpolants' bits, each of the three divides is a rounded operation by DivideRule. Depth replace stores, and
-//          a comparison compares, what these functions give: so the two paths agree in every bit.
+//          interpolants' bits, each of the three divides is a rounded operation by DivideRule. Depth replace stores,
+//          and a comparison compares, what these functions give: so the two paths agree in every bit.
 // Source   Everitt 2001, (4); depth.md 4.5, 4.6 and 6.
 // Numbers  1/d cut: the product of two binary32 is exact in binary64, so it tells on which side of 1/d rounding led.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp

@@ -1,13 +1,15 @@
-// rasterizer/values/float_planes.h - planes of depth, 1 / w and attributes by rasterizers that round every step to binary32.
+// rasterizer/values/float_planes.h - planes of depth, 1 / w and attributes by rasterizers that round every step to
+// binary32.
 //
 // Rule     reciprocal_area: corners 0 and 1 change places if the snapped triangle is clockwise in memory order; each
-//          difference of positions is multiplied by 1 / area before the slopes are made of it; the value at pixel (i, j)
-//          is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in the order of
-//          their y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from there + dx,
-//          then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0) dy), made by
-//          ordered_planes.h.
+//          difference of positions is multiplied by 1 / area before the slopes are made of it; the value at pixel (i,
+//          j) is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in the
+//          order of their y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from
+//          there + dx, then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0)
+//          dy), made by ordered_planes.h.
 // Source   mesa-rasterizers.md 2.4 and 3.3.
-// Numbers  Pixels are below 2^16, so they are exact. An area that rounds to 0 leaves no finite slope: NaN and infinities.
+// Numbers  Pixels are below 2^16, so they are exact. An area that rounds to 0 leaves no finite slope: NaN and
+//          infinities.
 // Tests    tests/rasterizer/values/float_planes_test.cpp
 #pragma once
 #include <array>
@@ -135,8 +137,8 @@ class FloatPlanes {
     std::array<std::size_t, 3> order_{0, 1, 2};
     // The first corner, less half a pixel.
     float x_ = 0.0f, y_ = 0.0f;
-    // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal; least_corner: from corner 0 to corners
-    // 1 and 2.
+    // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal; least_corner: from corner 0 to
+    // corners 1 and 2.
     Difference first_{}, second_{};
     float reciprocal_ = 0.0f;
 };

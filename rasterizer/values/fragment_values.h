@@ -56,8 +56,8 @@ class FragmentValues {
   public:
     FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
 
-    // Fragments [first, batch.count) are those of `triangle`, with pixel, x, y and primitive written. Fills what else the
-    // needs name; with ZClip::per_fragment it removes the fragments outside the depth range. Returns the number of
+    // Fragments [first, batch.count) are those of `triangle`, with pixel, x, y and primitive written. Fills what else
+    // the needs name; with ZClip::per_fragment it removes the fragments outside the depth range. Returns the number of
     // exact fallbacks.
     [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
 
@@ -76,7 +76,8 @@ class FragmentValues {
     // The same for window_z by the chip's kernel, and its codes alone.
     [[nodiscard]] bool fill_chip_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                        WeightLanes& weights, int& fallbacks) const noexcept;
-    // The compared depth of DepthPath::perspective_rq or depth_replace, in the buffer's own units. Returns exact fallbacks.
+    // The compared depth of DepthPath::perspective_rq or depth_replace, in the buffer's own units. Returns exact
+    // fallbacks.
     [[nodiscard]] int fill_quotient_reference(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                               const WeightLanes& weights) const noexcept;
     [[nodiscard]] bool fill_chip_codes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
@@ -112,7 +113,8 @@ class FragmentValues {
     [[nodiscard]] int fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                      FragmentBatch& batch, const WeightLanes& weights) const;
     [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
-    // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp): all that a pass asks for where is_float_plain_.
+    // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp): all that a pass asks for where
+    // is_float_plain_.
     [[nodiscard]] int fill_float_values(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                         WeightLanes& weights) const;
     void fill_float_z(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;

@@ -1,7 +1,9 @@
-// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table, one for each set, and their scalar reference.
+// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table, one for each set, and their scalar
+// reference.
 //
-// Rule     The scalar reference below is the definition; every set gives the same bits (simd.h). `depth` has no scalar reference of its own:
-//          its meaning is FragmentValues::fill, and where it is null, or cannot decide, that runs.
+// Rule     The scalar reference below is the definition; every set gives the same bits (simd.h). `depth` has no scalar
+//          reference of its own: its meaning is FragmentValues::fill, and where it is null, or cannot decide, that
+//          runs.
 // Numbers  Loops run over whole blocks of lanes and may write up to 15 lanes beyond the count: usable_capacity.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp runs every available set against the scalar reference.
 #pragma once
@@ -61,7 +63,8 @@ struct AttributeLanes {
     void add(float value, float* lanes) noexcept { constant[constant_count++] = {value, lanes}; }
 };
 
-// Attributes by planes stepped in binary32 (float_planes.h), divided by the plane of 1 / w or multiplied by its reciprocal.
+// Attributes by planes stepped in binary32 (float_planes.h), divided by the plane of 1 / w or multiplied by its
+// reciprocal.
 struct FloatAttributeLanes {
     PlaneRule rule;
     PerspectiveDivide perspective;
@@ -77,14 +80,14 @@ struct FloatAttributeLanes {
 };
 
 struct LaneKernels {
-    // Appends the pixels of the spans until the rows are done (true), or the batch is full or holds the next one already
-    // (false).
+    // Appends the pixels of the spans until the rows are done (true), or the batch is full or holds the next one
+    // already (false).
     bool (*emit)(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept;
     // b1 and b2 at `count` pixels; not for Kind::snapped_wide.
     void (*weights)(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
                     double* b2) noexcept;
-    // Every plane rounded to binary32, divided by the rounded plane of 1 / w, and the constants; true if some lane is not
-    // certain.
+    // Every plane rounded to binary32, divided by the rounded plane of 1 / w, and the constants; true if some lane is
+    // not certain.
     bool (*attributes)(const AttributeLanes& attributes, const TriangleLanes& lanes) noexcept;
     // Weights, the rounded plane and its codes in one; true if some lane is not certain.
     bool (*depth)(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y,

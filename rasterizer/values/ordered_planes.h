@@ -1,11 +1,12 @@
-// rasterizer/values/ordered_planes.h - planes in binary32 that begin at the corner of the greatest w (PlaneRule::greatest_w).
+// rasterizer/values/ordered_planes.h - planes in binary32 that begin at the corner of the greatest w
+// (PlaneRule::greatest_w).
 //
-// Rule     Corners p2, p0, p1 are turned round so that the least y along the rows comes first, then so that the greatest w does; each
-//          step looks at the order before it, at its second corner and then at its third. Positions are snapped, in pixels from
-//          the centre of the first pixel (window.h). Depth: D = r / (x1 y2 - x2 y1), dx = (y2 (z1 - z0) - y1 (z2 - z0)) D, dy = (x1 (z2 -
-//          z0) - x2 (z1 - z0)) D, C = z0 r + n, z_k = z (1 / w), r and n of the depth range. Others: sides times w, plane = (u0 M0 +
-//          u1 M1) + u2 M2. Value at pixel (i, j): (i - x0) dx + (C + (j - y0) dy). Each operation is rounded; operands and results
-//          below 2^-126 are zeros.
+// Rule     Corners p2, p0, p1 are turned round so that the least y along the rows comes first, then so that the
+//          greatest w does; each step looks at the order before it, at its second corner and then at its third.
+//          Positions are snapped, in pixels from the centre of the first pixel (window.h). Depth: D = r / (x1 y2 - x2
+//          y1), dx = (y2 (z1 - z0) - y1 (z2 - z0)) D, dy = (x1 (z2 - z0) - x2 (z1 - z0)) D, C = z0 r + n, z_k = z (1 /
+//          w), r and n of the depth range. Others: sides times w, plane = (u0 M0 + u1 M1) + u2 M2. Value at pixel (i,
+//          j): (i - x0) dx + (C + (j - y0) dy). Each operation is rounded; operands and results below 2^-126 are zeros.
 // Source   swiftshader-rasterizer.md 2.
 // Numbers  Pixels are below 2^16, so they are exact. Sides without an area leave slopes of 0.
 // Tests    tests/rasterizer/values/ordered_planes_test.cpp

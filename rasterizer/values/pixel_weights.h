@@ -1,4 +1,5 @@
-// rasterizer/values/pixel_weights.h - the weights b1 and b2 of a triangle's corners 1 and 2 as functions of the pixel alone.
+// rasterizer/values/pixel_weights.h - the weights b1 and b2 of a triangle's corners 1 and 2 as functions of the pixel
+// alone.
 //
 // Rule     Snapped planes: b_i = e_i r with r = 1/A, rounded; the filter of plane.h allows for it. Unsnapped planes
 //          (PlaneOrigin::unsnapped) start at the unsnapped corners: the binary64 value below is the weight itself.

@@ -93,8 +93,8 @@ struct FilterPlane {
     [[nodiscard]] double at(double b1, double b2) const noexcept { return w0 + (b1 * d1 + b2 * d2); }
 };
 
-// Filter, round: both ends of the interval in which a plane's value lies, rounded alike, as words. Where they are equal they are the
-// value's own rounding; where they differ the exact sum must decide.
+// Filter, round: both ends of the interval in which a plane's value lies, rounded alike, as words. Where they are equal
+// they are the value's own rounding; where they differ the exact sum must decide.
 struct RoundedEnds {
     std::uint32_t low, high;
     [[nodiscard]] constexpr std::uint32_t difference() const noexcept { return low ^ high; }

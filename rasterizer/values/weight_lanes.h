@@ -1,5 +1,5 @@
-// rasterizer/values/weight_lanes.h - the weights of a batch's fragments as arrays (pixel_weights.h says which), and how a fragment takes
-// another one's place when some between them are dropped.
+// rasterizer/values/weight_lanes.h - the weights of a batch's fragments as arrays (pixel_weights.h says which), and how
+// a fragment takes another one's place when some between them are dropped.
 #pragma once
 #include <array>
 

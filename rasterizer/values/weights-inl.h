@@ -1,8 +1,8 @@
-// rasterizer/values/weights-inl.h - weights, planes and codes of neighbouring or scattered pixels, a vector of binary64 at a
-// time. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
+// rasterizer/values/weights-inl.h - weights, planes and codes of neighbouring or scattered pixels, a vector of binary64
+// at a time. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
 //
-// Rule     The operations and their order are those of PixelWeights, FilterPlane and depth_text-inl.h: every set gives the bits
-//          of the scalar reference in lane_kernels.h.
+// Rule     The operations and their order are those of PixelWeights, FilterPlane and depth_text-inl.h: every set gives
+//          the bits of the scalar reference in lane_kernels.h.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/values/lane_kernels.h"

@@ -1,14 +1,15 @@
-// rasterizer/walk/row_walk-inl.h - triangles as short rows of neighbouring pixels, for passes that need no batch: they take each
-// triangle whole, in submission order, and so may read, change and write a pixel where it is stored. For *_simd.cpp alone,
-// as weights-inl.h.
+// rasterizer/walk/row_walk-inl.h - triangles as short rows of neighbouring pixels, for passes that need no batch: they
+// take each triangle whole, in submission order, and so may read, change and write a pixel where it is stored. For
+// *_simd.cpp alone, as weights-inl.h.
 //
-// Rule     A pixel is visited as often, in the same order and with the same weights as TileRasterizer makes fragments of it.
-//          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
-//          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
-//          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
-//          One that `takes_edges` is given edge values of the snapped corners in the place of weights, whatever z is counted in.
-// Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
-//          constants of an edge are below 2^50 there (row_walk_suits).
+// Rule     A pixel is visited as often, in the same order and with the same weights as TileRasterizer makes fragments
+//          of it. `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row,
+//          weights) for every row that has a covered pixel, at last finish(how many were covered). One that takes
+//          (pixels, weights), too, is given those of a small triangle side by side, and rows of large triangles alone,
+//          covered from their first lane on. One that `takes_edges` is given edge values of the snapped corners in the
+//          place of weights, whatever z is counted in.
+// Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits:
+//          the constants of an edge are below 2^50 there (row_walk_suits).
 // Tests    tests/rasterizer/walk/rows_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/coverage/small_coverage-inl.h"
@@ -83,8 +84,8 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
-// A plane at each pixel, rounded once: the filter gives the rounding of nearly every lane, the exact sum decides the others. Planes
-// from unsnapped corners have no exact value to fall back on: binary64 is the definition there.
+// A plane at each pixel, rounded once: the filter gives the rounding of nearly every lane, the exact sum decides the
+// others. Planes from unsnapped corners have no exact value to fall back on: binary64 is the definition there.
 template <bool unsnapped, class Where>
 HWY_INLINE V32 rounded_plane(const FilterPlane& filter, const Weights& b, const RationalPlane& plane,
                              const Geometry& geometry, std::uint32_t index, const Where& where) {

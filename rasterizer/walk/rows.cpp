@@ -8,7 +8,8 @@ namespace strata::rasterizer {
 
 namespace {
 
-// What any walk over rows needs. Of the sets, those from AVX2 on have row_walk_lanes; row tables hold max_row_pixels columns.
+// What any walk over rows needs. Of the sets, those from AVX2 on have row_walk_lanes; row tables hold max_row_pixels
+// columns.
 [[nodiscard]] bool can_walk(const Geometry& geometry, const Rect& region) noexcept {
     return chosen_simd() >= Simd::avx2 && geometry.state.depth_order == DepthOrder::less &&
            !geometry.state.window_positions && geometry.rules.plane_rule == PlaneRule::exact &&

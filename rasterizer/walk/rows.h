@@ -1,5 +1,5 @@
-// rasterizer/walk/rows.h - passes that draw triangles straight into what is stored, row by row and without batches: when they are
-// possible, and the one that the rasterizer has itself, a pass of depth alone.
+// rasterizer/walk/rows.h - passes that draw triangles straight into what is stored, row by row and without batches:
+// when they are possible, and the one that the rasterizer has itself, a pass of depth alone.
 //
 // Rule     What is left at a pixel, and how many fragments there were and passed, is what batches would leave that are
 //          tested one after the other: TileRasterizer::draw is the definition.
@@ -28,8 +28,9 @@ inline constexpr std::size_t row_walk_lanes = 4;
 // The same for a pass of depth alone: draw_depth_rows knows the chip's window z, too.
 [[nodiscard]] bool depth_rows_suit(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
 
-// Every fragment of `triangles` (as TileRasterizer::draw takes them) whose code is LESS than the stored one replaces it, in
-// submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where depth_rows_suit.
+// Every fragment of `triangles` (as TileRasterizer::draw takes them) whose code is LESS than the stored one replaces
+// it, in submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where
+// depth_rows_suit.
 DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
 

@@ -63,7 +63,8 @@ class TileRasterizer::Pass {
         batch_.material = material;
     }
 
-    // Rows that follow one another go together. Where the two parts of a triangle meet in one, it begins a run of its own.
+    // Rows that follow one another go together. Where the two parts of a triangle meet in one, it begins a run of its
+    // own.
     void draw_float_spans(std::uint32_t index) {
         const FloatSpans spans{geometry_.positions(geometry_.triangles[index])};
         if (!spans.is_drawn()) return;

@@ -1,7 +1,8 @@
-// rasterizer/walk/window_z_rows_simd.cpp - draw_depth_rows of rows.h where the chip interpolates window z, for every instruction set.
+// rasterizer/walk/window_z_rows_simd.cpp - draw_depth_rows of rows.h where the chip interpolates window z, for every
+// instruction set.
 //
-// Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops what lies outside of the depth range, of triangles that
-//          have a corner there (chip_values.cpp). Corners that are not narrow go lane by lane.
+// Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops what lies outside of the depth range, of
+//          triangles that have a corner there (chip_values.cpp). Corners that are not narrow go lane by lane.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/walk/window_z_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/window_z_rows_simd.cpp"

@@ -8,8 +8,8 @@
 
 namespace strata::scenes::exr {
 
-// The library ends the process where it is refused a thread (found by limiting them, OpenEXR 3.1): so they are asked for
-// before.
+// The library ends the process where it is refused a thread (found by limiting them, OpenEXR 3.1): so they are asked
+// for before.
 int start_threads() {
     static const int started = [] {
         constexpr std::size_t usual_stack = std::size_t{8} << 20;

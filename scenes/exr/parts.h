@@ -1,9 +1,10 @@
 // scenes/exr/parts.h - the parts of an EXR file as bytes in their own types, read and written by OpenEXR.
 //
-// Rule     OpenEXR copies each channel in its own type, so no bit changes. What would depend on the time, the host or the
-//          library's defaults is set here or left out. Colours say what they are in three ways, for viewers take an EXR's
-//          colours for linear light where nothing says otherwise: `oiio:ColorSpace` (OpenImageIO), `colorInteropID`
-//          (OpenEXR 3.4 and later) and `chromaticities` (those of BT.709 and its white in both spaces).
+// Rule     OpenEXR copies each channel in its own type, so no bit changes. What would depend on the time, the host or
+//          the library's defaults is set here or left out. Colours say what they are in three ways, for viewers take an
+//          EXR's colours for linear light where nothing says otherwise: `oiio:ColorSpace` (OpenImageIO),
+//          `colorInteropID` (OpenEXR 3.4 and later) and `chromaticities` (those of BT.709 and its white in both
+//          spaces).
 // Tests    tests/scenes/files/exr_test.cpp, exr_foreign_test.cpp, deep_exr_test.cpp; tests/tools/system_faults_test.cpp
 #pragma once
 #include <cstddef>
@@ -46,9 +47,9 @@ struct PartHeader {
     return bytes;
 }
 
-// `rows(first, last)` gives the bytes of the rows from `first` to `last` - 1: pixel by pixel (deep: sample by sample), the
-// channels one after the other, each in its own type. They stay until the next call, of another part, too. The writer asks for
-// every row once, from the top, part after part.
+// `rows(first, last)` gives the bytes of the rows from `first` to `last` - 1: pixel by pixel (deep: sample by sample),
+// the channels one after the other, each in its own type. They stay until the next call, of another part, too. The
+// writer asks for every row once, from the top, part after part.
 struct PartSource {
     PartHeader header;
     std::function<const std::byte*(int first, int last)> rows;
@@ -65,16 +66,16 @@ struct StoredPart {
 
 namespace exr {
 
-// OpenEXR packs and unpacks on threads of its own, one a processor. The first call starts them, reading and writing at the
-// latest: call it before loops of ours take what the system has. Where the system refuses them the caller works by itself.
-// Answers how many there are.
+// OpenEXR packs and unpacks on threads of its own, one a processor. The first call starts them, reading and writing at
+// the latest: call it before loops of ours take what the system has. Where the system refuses them the caller works by
+// itself. Answers how many there are.
 int start_threads();
 
 // Answers "", or OpenEXR's words for what failed. A failure of the sink is its owner's to report.
 [[nodiscard]] std::string write_parts(const ByteSink& sink, std::span<const PartSource> parts);
 
-// Calls `take` with part after part, the channels in the order of their names. InputError if `path` is no EXR file, or one
-// with a part that is larger than 16384 x 16384 or has channels of fewer samples than pixels; all parts are looked
+// Calls `take` with part after part, the channels in the order of their names. InputError if `path` is no EXR file, or
+// one with a part that is larger than 16384 x 16384 or has channels of fewer samples than pixels; all parts are looked
 // at before the first is read.
 void read_parts(const std::string& path, const std::function<void(StoredPart&&)>& take);
 

@@ -1,4 +1,5 @@
-// scenes/exr/read_parts.cpp - the parts of an EXR file, in scan lines or tiles, flat or deep, as bytes in their own types.
+// scenes/exr/read_parts.cpp - the parts of an EXR file, in scan lines or tiles, flat or deep, as bytes in their own
+// types.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepScanLineInputPart.h>
 #include <OpenEXR/ImfDeepTiledInputPart.h>
@@ -112,8 +113,8 @@ StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
     return part;
 }
 
-// What OpenEXR's second parser found, which holds the sizes of attributes against the file's: the classes below ask for the memory
-// first, 2 GiB for a text that is not there (OpenEXR 3.1).
+// What OpenEXR's second parser found, which holds the sizes of attributes against the file's: the classes below ask for
+// the memory first, 2 GiB for a text that is not there (OpenEXR 3.1).
 struct WrongSize {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     std::string sentence{};

@@ -90,8 +90,9 @@ void write_deep(Imf::MultiPartOutputFile& file, int number, const PartSource& pa
     }
 }
 
-// Every part has two blocks of 16 rows in work for each thread, about three times (their packed form and the packer's own), from the
-// file's first byte to its last. So a picture has them all, and many layers what adds little to the layers themselves.
+// Every part has two blocks of 16 rows in work for each thread, about three times (their packed form and the packer's
+// own), from the file's first byte to its last. So a picture has them all, and many layers what adds little to the
+// layers themselves.
 int threads_for(std::span<const PartSource> parts) {
     const int all = start_threads();
     return parts.size() == 1 ? all : std::min(all, parts.front().header.height / 1024);
@@ -99,8 +100,9 @@ int threads_for(std::span<const PartSource> parts) {
 
 }  // namespace
 
-// A block that could not be packed (zlib had no memory) is left out without a word, and what follows it too: OpenEXR 3.1 returns from
-// OutputFile::writePixels before it asks its tasks for failures. The tables of blocks, written when the file closes, then hold a 0.
+// A block that could not be packed (zlib had no memory) is left out without a word, and what follows it too: OpenEXR
+// 3.1 returns from OutputFile::writePixels before it asks its tasks for failures. The tables of blocks, written when
+// the file closes, then hold a 0.
 std::string write_parts(const ByteSink& sink, std::span<const PartSource> parts) try {
     std::vector<Imf::Header> headers;
     for (const PartSource& part : parts) headers.push_back(header_of(part.header));

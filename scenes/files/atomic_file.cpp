@@ -72,8 +72,9 @@ AtomicFile::AtomicFile(const std::string& path)
     throw SystemError(path, "write", reason(error));
 }
 
-// O_EXCL: a file of that name belongs to another process. A killed process of the same number may have left one (the first process
-// of a container has the number 1 each time): the next name is tried. Mode 0666 leaves the permissions to the umask.
+// O_EXCL: a file of that name belongs to another process. A killed process of the same number may have left one (the
+// first process of a container has the number 1 each time): the next name is tried. Mode 0666 leaves the permissions to
+// the umask.
 void AtomicFile::open_temporary() {
     constexpr int most_tries = 10000;
     for (int i = 0; i < most_tries; ++i) {

@@ -1,10 +1,10 @@
 // scenes/files/atomic_file.h - a file that appears under its name only when it is complete.
 //
-// Rule     Written beside its place under ".NAME.PROCESS-NUMBER.tmp", with a long NAME cut so that the whole has 255 bytes.
-//          commit() puts the bytes on the disk (fsync), renames, and puts the new name on the disk (fsync of the folder).
-//          What was not committed is removed: by the destructor, or by unfinished_files.h when the process is interrupted.
-//          A symbolic link is replaced, not followed, unless it leads to a pipe or a device: commit() writes the finished
-//          bytes to these. The path "-" is the process's own standard output, whatever that is.
+// Rule     Written beside its place under ".NAME.PROCESS-NUMBER.tmp", with a long NAME cut so that the whole has 255
+//          bytes. commit() puts the bytes on the disk (fsync), renames, and puts the new name on the disk (fsync of the
+//          folder). What was not committed is removed: by the destructor, or by unfinished_files.h when the process is
+//          interrupted. A symbolic link is replaced, not followed, unless it leads to a pipe or a device: commit()
+//          writes the finished bytes to these. The path "-" is the process's own standard output, whatever that is.
 // Tests    tests/scenes/files/atomic_file_test.cpp
 #pragma once
 #include <cstdint>
@@ -68,8 +68,8 @@ void write_file(const std::string& path, std::string_view bytes);
 // cannot is passed over. Answers errno, 0 if it is done.
 [[nodiscard]] int sync_folder(const std::string& folder) noexcept;
 
-// Whether `name`, without folder, is a temporary of AtomicFile; then the name that it was to get (the beginning of a long
-// one), else "".
+// Whether `name`, without folder, is a temporary of AtomicFile; then the name that it was to get (the beginning of a
+// long one), else "".
 [[nodiscard]] std::string target_of_temporary(std::string_view name);
 
 }  // namespace strata::scenes

@@ -137,8 +137,8 @@ LookAt parse_look_at(const Place& camera) {
     return result;
 }
 
-// Whether the matrix maps all of space to less than space. Elimination in binary64: a matrix that is singular but for its
-// roundings passes.
+// Whether the matrix maps all of space to less than space. Elimination in binary64: a matrix that is singular but for
+// its roundings passes.
 bool is_singular(std::array<double, 16> rows) {
     const auto at = [&](std::size_t row, std::size_t column) -> double& { return rows[4 * row + column]; };
     for (std::size_t k = 0; k < 4; ++k) {

@@ -31,10 +31,11 @@ struct ImageHeader {
 // width * height * 4 codes, top row first. `header` is what read_image_header said of the same bytes.
 [[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place);
 
-// OpenImageIO's reader for what a file's name ends in: .png, .jpg, .jpeg, .ppm, .pgm, .pbm, .pnm, .tga, .bmp, .hdr, .tif or .tiff, in
-// either case. Null for other endings.
+// OpenImageIO's reader for what a file's name ends in: .png, .jpg, .jpeg, .ppm, .pgm, .pbm, .pnm, .tga, .bmp, .hdr,
+// .tif or .tiff, in either case. Null for other endings.
 [[nodiscard]] const char* reader_of(const std::string& path);
-// A picture's own channels and bits, for programs that compare codes; `path` is read whole. InputError for what that reader cannot read.
+// A picture's own channels and bits, for programs that compare codes; `path` is read whole. InputError for what that
+// reader cannot read.
 [[nodiscard]] StoredCodes read_codes(const std::string& path, const char* reader);
 
 }  // namespace strata::scenes

@@ -35,8 +35,8 @@ enum class ImageFile : std::uint8_t { png, exr };
 // By the name's ending; InputError if it is neither .png nor .exr. Call it before rendering.
 [[nodiscard]] ImageFile image_file(const std::string& path);
 
-// One target, with its depths in an EXR; a PNG leaves depths out. The second one is for a path whose ending says nothing, such as "-",
-// standard output.
+// One target, with its depths in an EXR; a PNG leaves depths out. The second one is for a path whose ending says
+// nothing, such as "-", standard output.
 void write_image(const std::string& path, const OutputColor& image);
 void write_image(const std::string& path, const OutputColor& image, ImageFile kind);
 

@@ -1,5 +1,5 @@
-// scenes/files/load_module.cpp - finds the shared library of a module and takes its function; of the image module, once there is room for what it
-// brings along.
+// scenes/files/load_module.cpp - finds the shared library of a module and takes its function; of the image module, once
+// there is room for what it brings along.
 #include "scenes/files/load_module.h"
 
 #include <dlfcn.h>
@@ -22,8 +22,8 @@ std::string last_reason() {
     return reason != nullptr ? reason : "no reason given";
 }
 
-// Of the shared library that this code is a part of; empty if that is not known. A program is known by the name that it was called
-// by, which may be relative to another folder: only whole paths count.
+// Of the shared library that this code is a part of; empty if that is not known. A program is known by the name that it
+// was called by, which may be relative to another folder: only whole paths count.
 std::filesystem::path folder_of_this_code() {
     Dl_info info{};
     if (::dladdr(reinterpret_cast<const void*>(&last_reason), &info) == 0 || info.dli_fname == nullptr) return {};
@@ -79,9 +79,9 @@ bool has_address_space(std::size_t bytes) {
     return place != MAP_FAILED && ::munmap(place, bytes) == 0;
 }
 
-// OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four of
-// its log library (found by counting them, OpenImageIO 2.4 of Debian 12). It ends by a signal, too, where the address
-// space runs out behind the libraries' own 400 MiB (found by limiting it, megabyte by megabyte).
+// OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four
+// of its log library (found by counting them, OpenImageIO 2.4 of Debian 12). It ends by a signal, too, where the
+// address space runs out behind the libraries' own 400 MiB (found by limiting it, megabyte by megabyte).
 void require_room() {
     constexpr int wanted = 4;
     constexpr std::size_t usual_stack = std::size_t{8} << 20, libraries = std::size_t{400} << 20;

@@ -1,9 +1,11 @@
-// scenes/files/load_module.h - shared libraries that are loaded when they are first needed, for what they bring along is large.
+// scenes/files/load_module.h - shared libraries that are loaded when they are first needed, for what they bring along
+// is large.
 //
-// Rule     A program that is linked with a module has it. Else its file is looked for beside the program (the build tree), then in the folder
-//          ../lib/strata from there (an installed one), then beside the shared library that this code is in, and in the folder strata
-//          there. SystemError if it is in none of them, or is another version's; of the image module, too, where the system has no threads
-//          or no address space for what it brings along.
+// Rule     A program that is linked with a module has it. Else its file is looked for beside the program (the build
+//          tree), then in the folder ../lib/strata from there (an installed one), then beside the shared library that
+//          this code is in, and in the folder strata there. SystemError if it is in none of them, or is another
+//          version's; of the image module, too, where the system has no threads or no address space for what it brings
+//          along.
 // Tests    tests/tools/image_module_test.cpp
 #pragma once
 #include <string>

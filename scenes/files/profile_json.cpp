@@ -34,9 +34,9 @@ constexpr std::string_view raster_prefix = "raster.";
 // In bytes. Names stand in tables and error lines, descriptions in the list of profiles.
 constexpr std::size_t longest_name = 64, longest_description = 1000;
 
-// Fields that came after the first packs were written. A file without one of them, and without a base, means the machine as it was
-// before: the value of DeviceProfile itself. All other fields are required there, so that no default of the program slips into
-// a user's profile.
+// Fields that came after the first packs were written. A file without one of them, and without a base, means the
+// machine as it was before: the value of DeviceProfile itself. All other fields are required there, so that no default
+// of the program slips into a user's profile.
 constexpr std::string_view later_fields[] = {"blend_storage",
                                              "depth24",
                                              "has_d24f",

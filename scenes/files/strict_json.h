@@ -1,7 +1,8 @@
 // scenes/files/strict_json.h - JSON that people write: each key of an object once.
 //
-// Rule     JSON leaves it open what a repeated key means, and parsers let the last one win: a line that an author forgot to
-//          delete would then be passed over in silence. Here it is an error, as is nesting of more than 64 levels.
+// Rule     JSON leaves it open what a repeated key means, and parsers let the last one win: a line that an author
+//          forgot to delete would then be passed over in silence. Here it is an error, as is nesting of more than 64
+//          levels.
 // Tests    tests/scenes/files/strict_json_test.cpp
 #pragma once
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,5 @@
-// scenes/files/system_error.h - the system did not do its part: disk full, no permission, no such folder. Exit status 3.
+// scenes/files/system_error.h - the system did not do its part: disk full, no permission, no such folder. Exit status
+// 3.
 #pragma once
 #include <stdexcept>
 #include <string>

@@ -31,8 +31,9 @@ static_assert(std::atomic<int>::is_always_lock_free);
 std::atomic<int> group{0};           // a process group of ours, 0: none
 std::atomic<bool> is_ending{false};  // a handler removes files: other threads must not make new ones
 
-// Without the C library's directory streams, which allocate. What other processes put there meanwhile is seen in a further round.
-// The deepest folder of ours is scene/ in a pack in a suite; what a command of the user's leaves there may be deeper.
+// Without the C library's directory streams, which allocate. What other processes put there meanwhile is seen in a
+// further round. The deepest folder of ours is scene/ in a pack in a suite; what a command of the user's leaves there
+// may be deeper.
 void remove_tree(int parent, const char* name, int levels) noexcept {
     if (::unlinkat(parent, name, 0) == 0 || levels == 0) return;
     const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -87,8 +88,8 @@ void say_interrupted() noexcept {
     put("\n", 1);
 }
 
-// Async-signal-safe calls alone: kill, write, unlinkat, openat, the system's getdents64 and _exit. 128 + the signal is what a shell reports for a process that
-// a signal ended.
+// Async-signal-safe calls alone: kill, write, unlinkat, openat, the system's getdents64 and _exit. 128 + the signal is
+// what a shell reports for a process that a signal ended.
 extern "C" void on_interrupt(int signal) {
     remove_unfinished_files();
     if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) say_interrupted();

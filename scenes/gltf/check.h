@@ -19,8 +19,8 @@ namespace strata::scenes {
 
 inline constexpr std::uint64_t max_bytes = 0x7fffffff;  // of a buffer: also the bound of counts and offsets
 
-// Throws InputErrors with every fault that it finds: one an element (an accessor, a material, a primitive) at most, and none of meshes
-// whose accessors or materials are wrong themselves.
+// Throws InputErrors with every fault that it finds: one an element (an accessor, a material, a primitive) at most, and
+// none of meshes whose accessors or materials are wrong themselves.
 void check_document(const JsonAt& root, Warnings& warnings);
 
 // The parts, in the order in which they rely on each other; `root` is the document.

@@ -1,4 +1,5 @@
-// scenes/gltf/gltf.h - glTF 2.0 from memory; from a path it is load_gltf of scene.h. What is supported: tools/docs/files.md.
+// scenes/gltf/gltf.h - glTF 2.0 from memory; from a path it is load_gltf of scene.h. What is supported:
+// tools/docs/files.md.
 #pragma once
 #include <cstddef>
 #include <cstdint>

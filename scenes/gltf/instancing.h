@@ -1,7 +1,8 @@
 // scenes/gltf/instancing.h - EXT_mesh_gpu_instancing: a node's mesh at many places.
 //
-// Rule     Instance i has the transform of its node times TRANSLATION_i ROTATION_i SCALE_i; what an attribute leaves out is the identity's.
-//          Attributes of the application's own (_NAME) are passed over. A camera and children of the node are not repeated.
+// Rule     Instance i has the transform of its node times TRANSLATION_i ROTATION_i SCALE_i; what an attribute leaves
+//          out is the identity's. Attributes of the application's own (_NAME) are passed over. A camera and children of
+//          the node are not repeated.
 // Source   glTF, EXT_mesh_gpu_instancing.
 // Tests    tests/scenes/gltf/gltf_instancing_test.cpp
 #pragma once

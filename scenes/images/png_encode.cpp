@@ -13,8 +13,8 @@
 namespace strata::scenes {
 namespace {
 
-// What libpng's functions find behind their pointer. libpng jumps out of an error, so nothing that needs a destructor lives in a
-// function that it may jump over, and no exception passes through it.
+// What libpng's functions find behind their pointer. libpng jumps out of an error, so nothing that needs a destructor
+// lives in a function that it may jump over, and no exception passes through it.
 struct Writing {
     const PngPicture& picture;
     const std::function<bool(const void*, std::size_t)>& put;

@@ -1,4 +1,5 @@
-// scenes/models/assimp_load.cpp - an OBJ, PLY, STL or OFF file by Assimp: triangles and materials, without a change to a number.
+// scenes/models/assimp_load.cpp - an OBJ, PLY, STL or OFF file by Assimp: triangles and materials, without a change to
+// a number.
 #include "scenes/models/assimp_load.h"
 
 #include <assimp/config.h>

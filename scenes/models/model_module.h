@@ -1,7 +1,8 @@
 // scenes/models/model_module.h - the border to Assimp: what the rest of the project asks of it, and what it answers.
 //
-// Rule     Assimp stands in a shared library of its own that is loaded when the first OBJ, PLY, STL or OFF file is read. Standard types alone
-//          cross the border. Nothing is opened but files in the model's folder, and those through `read`.
+// Rule     Assimp stands in a shared library of its own that is loaded when the first OBJ, PLY, STL or OFF file is
+//          read. Standard types alone cross the border. Nothing is opened but files in the model's folder, and those
+//          through `read`.
 // Tests    tests/scenes/models/models_test.cpp
 #pragma once
 #include <array>

@@ -1,7 +1,7 @@
 // scenes/numbers/double_double.h - an unevaluated sum of two binary64 numbers, about 106 bits, for elementary.cpp.
 //
-// Rule     high is the sum rounded to nearest; add, mul and div err by a few 2^-104 relative (add: relative to the larger
-//          operand).
+// Rule     high is the sum rounded to nearest; add, mul and div err by a few 2^-104 relative (add: relative to the
+//          larger operand).
 // Source   rasterizer/base/two_terms.h for the exact sums and products underneath.
 #pragma once
 #include "rasterizer/base/two_terms.h"

@@ -1,8 +1,9 @@
 // scenes/packs/json_fields.h - an object of a manifest, field by field: one text says what is written and what is read.
 //
-// Rule     A function template `x_fields(io, x)` names every field once, for JsonWriter and for JsonReader. Floating-point numbers stand as
-//          {"decimal": [...], "bits": ["..."]}; where the two disagree, and for a field that is missing, unknown or of
-//          another kind, JsonReader throws InputError with the file and the JSON pointer.
+// Rule     A function template `x_fields(io, x)` names every field once, for JsonWriter and for JsonReader.
+//          Floating-point numbers stand as {"decimal": [...], "bits": ["..."]}; where the two disagree, and for a field
+//          that is missing, unknown or of another kind, JsonReader throws InputError with the file and the JSON
+//          pointer.
 // Tests    tests/scenes/packs/json_fields_test.cpp
 #pragma once
 #include <cstdint>

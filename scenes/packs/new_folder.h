@@ -1,4 +1,5 @@
-// scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written; a signal that ends the process removes it, too.
+// scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written; a signal that ends the
+// process removes it, too.
 //
 // Tests    tests/tools/probe/pack_test.cpp
 #pragma once

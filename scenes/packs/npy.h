@@ -1,7 +1,7 @@
 // scenes/packs/npy.h - arrays of numbers as NumPy keeps them in files.
 //
-// Rule     NPY 1.0, C order, little endian; the header is padded to 128 bytes, so that the array begins there in every file
-//          of ours. Read are versions 1 to 3 with any length of header.
+// Rule     NPY 1.0, C order, little endian; the header is padded to 128 bytes, so that the array begins there in every
+//          file of ours. Read are versions 1 to 3 with any length of header.
 // Source   NumPy Enhancement Proposal 1.
 // Tests    tests/scenes/packs/npy_test.cpp
 #pragma once

@@ -36,8 +36,8 @@ ByteSums sums_of(std::string_view bytes) noexcept {
     return sums;
 }
 
-// One byte changed by d at position i changes the sums by d and (i + 1) d. Both are small beside the prime, so that their
-// quotient is one of integers.
+// One byte changed by d at position i changes the sums by d and (i + 1) d. Both are small beside the prime, so that
+// their quotient is one of integers.
 std::optional<ChangedByte> changed_byte(std::string_view bytes, const ByteSums& sums) noexcept {
     const ByteSums found = sums_of(bytes);
     const bool has_grown = difference(found.plain, sums.plain) < 256;

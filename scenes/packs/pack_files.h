@@ -35,7 +35,8 @@ class PackFiles {
     using Sink = std::function<void(const std::string& name, const std::string& bytes)>;
     explicit PackFiles(Sink sink) : sink_{std::move(sink)} {}
 
-    // Both hand the file's bytes on, list them, and answer the name. Names are paths in the pack, with slashes, none twice.
+    // Both hand the file's bytes on, list them, and answer the name. Names are paths in the pack, with slashes, none
+    // twice.
     const std::string& add(const std::string& name, const NumberArray& array);
     const std::string& add_text(const std::string& name, const std::string& text);
 

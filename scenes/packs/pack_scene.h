@@ -1,4 +1,5 @@
-// scenes/packs/pack_scene.h - the scene of a golden pack: buffers as stored, materials, textures, instances, light and view.
+// scenes/packs/pack_scene.h - the scene of a golden pack: buffers as stored, materials, textures, instances, light and
+// view.
 //
 // Rule     tools/oracle/PACK.md. What is written reads back to the same bits.
 // Tests    tests/scenes/packs/pack_scene_test.cpp

@@ -1,4 +1,5 @@
-// scenes/procedural/procedural.cpp - scenes that come from a formula: names, parameters, and the choice between them and files.
+// scenes/procedural/procedural.cpp - scenes that come from a formula: names, parameters, and the choice between them
+// and files.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// scenes/procedural/teapot_patches.h - the Utah teapot (Martin Newell, 1975): 32 bicubic Bezier patches over 290 control
-// points. The published table: z up, handle and spout along x; each patch lists 16 points row by row. The classic
-// list has 306 points because it repeats 16 of them. Patches 20 to 23 (the lid's top) and 28 to 31 (the bottom)
+// scenes/procedural/teapot_patches.h - the Utah teapot (Martin Newell, 1975): 32 bicubic Bezier patches over 290
+// control points. The published table: z up, handle and spout along x; each patch lists 16 points row by row. The
+// classic list has 306 points because it repeats 16 of them. Patches 20 to 23 (the lid's top) and 28 to 31 (the bottom)
 // have a collapsed first row.
 #pragma once
 #include <cstdint>

@@ -1,4 +1,5 @@
-// scenes/procedural/volume_beam.h - a stack of alpha-modulated planes crossed by a conical shell, after Carr et al., Figure 1.
+// scenes/procedural/volume_beam.h - a stack of alpha-modulated planes crossed by a conical shell, after Carr et al.,
+// Figure 1.
 //
 // Rule     scenes.md 3, in binary64, each vertex rounded once to binary32. Mesh 0: the planes in the order in which
 //          they are drawn; mesh 1: the cone. Both two-sided and BLEND (the cone's alpha is 1: `--alpha` makes it

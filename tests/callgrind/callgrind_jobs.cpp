@@ -1,5 +1,5 @@
-// tests/callgrind/callgrind_jobs.cpp - small fixed jobs of the core, one thread and AVX2, whose instructions counts.sh counts.
-// Run: callgrind_jobs --compiler | --list | JOB. Exit status 77: this processor lacks AVX2.
+// tests/callgrind/callgrind_jobs.cpp - small fixed jobs of the core, one thread and AVX2, whose instructions counts.sh
+// counts. Run: callgrind_jobs --compiler | --list | JOB. Exit status 77: this processor lacks AVX2.
 #include <iostream>
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
-// tests/faults/failing_memory.h - memory that runs out when a test says so: operator new and oneTBB's allocator, counted and
-// failed.
+// tests/faults/failing_memory.h - memory that runs out when a test says so: operator new and oneTBB's allocator,
+// counted and failed.
 #pragma once
 #include <cstdint>
 

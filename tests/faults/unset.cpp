@@ -1,5 +1,6 @@
-// tests/faults/unset.cpp - two ways with a vector whose elements have no value yet, under the memory sanitizer: `unset read` decides
-// by an uninitialised one, `unset write` writes it first. The sanitizer must tell the first and be silent about the second.
+// tests/faults/unset.cpp - two ways with a vector whose elements have no value yet, under the memory sanitizer: `unset
+// read` decides by an uninitialised one, `unset write` writes it first. The sanitizer must tell the first and be silent
+// about the second.
 #include <cstdio>
 #include <cstring>
 

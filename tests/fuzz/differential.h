@@ -1,4 +1,5 @@
-// tests/fuzz/differential.h - every way of running a frame against the first one, and the smallest case that still differs.
+// tests/fuzz/differential.h - every way of running a frame against the first one, and the smallest case that still
+// differs.
 //
 // Rule     Nothing that a user sees depends on execution, instruction set, tile size, effects or fragment memory.
 // Tests    A difference is printed as a reduced case with the bytes that made it.

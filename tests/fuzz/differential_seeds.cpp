@@ -1,5 +1,6 @@
-// tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each come from its seed.
-// Run: differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference; --seeds A..B --threads N on N threads,
+// tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each come from its seed. Run:
+// differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference; --seeds A..B --threads N on N
+// threads,
 //      --seeds A..B --relations holds each frame against itself said in other ways;
 //      differential_seeds --write FOLDER: the bytes of the first hundred as files for libFuzzer to start from.
 #include <charconv>

@@ -1,5 +1,5 @@
-// tests/fuzz/frame_case.h - a small frame and several ways to run it, made of any bytes. Equal bytes make an equal case; bytes
-// that are missing count as 0, and 0 stands for the plainest choice.
+// tests/fuzz/frame_case.h - a small frame and several ways to run it, made of any bytes. Equal bytes make an equal
+// case; bytes that are missing count as 0, and 0 stands for the plainest choice.
 #pragma once
 #include <cstdint>
 #include <iosfwd>

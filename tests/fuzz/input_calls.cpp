@@ -1,4 +1,5 @@
-// tests/fuzz/input_calls.cpp - any sequence of calls on one renderer: each answers what it answers on a renderer of its own.
+// tests/fuzz/input_calls.cpp - any sequence of calls on one renderer: each answers what it answers on a renderer of its
+// own.
 #include <algorithm>
 #include <array>
 #include <bit>

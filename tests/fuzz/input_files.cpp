@@ -1,4 +1,5 @@
-// tests/fuzz/input_files.cpp - inputs that are read from files: a pack's manifest beside its arrays, and EXR files given back.
+// tests/fuzz/input_files.cpp - inputs that are read from files: a pack's manifest beside its arrays, and EXR files
+// given back.
 #include <cstdlib>
 #include <fstream>
 #include <string>

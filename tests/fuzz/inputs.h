@@ -1,9 +1,12 @@
-// tests/fuzz/inputs.h - what people hand to the program, each kind by itself: any bytes are refused in a sentence, or keep a promise.
+// tests/fuzz/inputs.h - what people hand to the program, each kind by itself: any bytes are refused in a sentence, or
+// keep a promise.
 //
-// Rule     profile, camera  what is read and written reads back as it is. plan  its cells are there, none twice. pack  a manifest beside the
-//          arrays of a small scene: what is read can be drawn. exr  its targets have the digests that are told without reading them whole.
-//          calls  a sequence of calls on one renderer answers what each call answers on a renderer of its own.
-// Tests    tests/fuzz/corpus holds archives of inputs that reach different code; tests/fuzz/replay_inputs.cpp asks each.
+// Rule     profile, camera what is read and written reads back as it is. plan its cells are there, none twice. pack a
+//          manifest beside the arrays of a small scene: what is read can be drawn. exr its targets have the digests
+//          that are told without reading them whole. calls a sequence of calls on one renderer answers what each call
+//          answers on a renderer of its own.
+// Tests    tests/fuzz/corpus holds archives of inputs that reach different code; tests/fuzz/replay_inputs.cpp asks
+//          each.
 #pragma once
 #include <cstdint>
 #include <filesystem>

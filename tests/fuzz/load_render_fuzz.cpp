@@ -44,7 +44,8 @@ void check_invariants(const Scene& scene) {
     }
 }
 
-// At 16 x 16, by the layered and the min-max peel, opaque surfaces first; replay (by rasterizing every pass) and literal execution must agree.
+// At 16 x 16, by the layered and the min-max peel, opaque surfaces first; replay (by rasterizing every pass) and
+// literal execution must agree.
 void render(const Scene& scene) {
     strata::peeling::RenderOptions options{.width = 16, .height = 16, .max_passes = 8, .tile_size = 8, .threads = 1};
     const auto view = strata::scenes::orbit_view(scene.bounds, 30, 20, 1.0);

@@ -19,7 +19,8 @@ using pipeline::Mesh;
 
 namespace {
 
-// Beside these take fragments by more than their depths: as they come, by object, by a limited number, or by two depths.
+// Beside these take fragments by more than their depths: as they come, by object, by a limited number, or by two
+// depths.
 constexpr std::array<std::string_view, 10> by_depth{
     "depth_units", "front_to_back",    "dual",           "dual_independent", "layer_peel",
     "a_buffer",    "coherent_stencil", "coherent_blend", "coherent_ideal",   "depth_pass"};
@@ -84,7 +85,8 @@ bool has_order_by_depth(const FrameCase& frame) {
     const peeling::RenderOptions& o = frame.options;
     if (std::find(by_depth.begin(), by_depth.end(), frame.algorithm) == by_depth.end()) return false;
     if (frame.algorithm == "depth_pass") return true;
-    // A run is blended in one pass, and how a list falls into runs is a matter of its order: where a pass rounds once, so are colours.
+    // A run is blended in one pass, and how a list falls into runs is a matter of its order: where a pass rounds once,
+    // so are colours.
     const bool rounds_passes = frame.profile.blend_storage != pipeline::BlendStorage::target;
     if (rounds_passes && frame.algorithm.starts_with("coherent_")) return false;
     if (o.termination.rule != pipeline::TerminationRule::exact || o.max_passes != 0 ||

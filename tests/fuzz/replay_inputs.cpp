@@ -1,5 +1,5 @@
-// tests/fuzz/replay_inputs.cpp - the kept inputs, without a fuzzer.
-// Run: replay_inputs FOLDER: each file of FOLDER/NAME is asked what an input of that name is asked, and of FOLDER/gltf what a scene is;
+// tests/fuzz/replay_inputs.cpp - the kept inputs, without a fuzzer. Run: replay_inputs FOLDER: each file of FOLDER/NAME
+// is asked what an input of that name is asked, and of FOLDER/gltf what a scene is;
 //      exit status 1 if a promise is broken. replay_inputs --write FOLDER: files to start from.
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
-// tests/mutants/mutant.h - one-step changes of a source, all compiled in, of which STRATA_MUTANT chooses one at run time. Only
-// the copy that tools/mutate.py makes includes it.
+// tests/mutants/mutant.h - one-step changes of a source, all compiled in, of which STRATA_MUTANT chooses one at run
+// time. Only the copy that tools/mutate.py makes includes it.
 //
 // Rule     In a constant expression nothing is changed. Every change that is reached is noted in `reached`.
 #pragma once

@@ -1,5 +1,6 @@
-// Backgrounds that let light through. Model: the layers of a pixel in real numbers, far to near: premultiplied colours and 1 - the product of
-// all (1 - alpha), that of the background among them. Opaque surfaces have alpha 1 whatever lies behind them.
+// Backgrounds that let light through. Model: the layers of a pixel in real numbers, far to near: premultiplied colours
+// and 1 - the product of all (1 - alpha), that of the background among them. Opaque surfaces have alpha 1 whatever lies
+// behind them.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,8 +21,8 @@ using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
 using strata::peeling::TiePolicy;
 
-// Up to four fragments a pixel, submitted far to near, so that each algorithm orders them right; of one alpha a pixel, so that their
-// average lets through what they do.
+// Up to four fragments a pixel, submitted far to near, so that each algorithm orders them right; of one alpha a pixel,
+// so that their average lets through what they do.
 FragmentScene layered(std::uint64_t seed) {
     Random random{seed};
     FragmentScene scene{8, 8};

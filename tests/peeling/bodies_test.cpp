@@ -1,5 +1,5 @@
-// Passes that no algorithm of the papers makes, written against Region as a user would: the same pixels in every way of running, and
-// those that the passes' own words ask for.
+// Passes that no algorithm of the papers makes, written against Region as a user would: the same pixels in every way of
+// running, and those that the passes' own words ask for.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -14,7 +14,8 @@ using strata::peeling::RenderResult;
 
 }  // namespace
 
-// The first clear of the opaque depth is remembered, so that tests against it may be left out; what takes its place must be tested against.
+// The first clear of the opaque depth is remembered, so that tests against it may be left out; what takes its place
+// must be tested against.
 TEST_CASE(
     "what an algorithm copies or clears into the opaque depth hides what lies behind it in every way of running") {
     const bool clears = GENERATE(false, true);
@@ -49,7 +50,8 @@ TEST_CASE(
     }
 }
 
-// The second layer's program paints where it stands; its fragments are found by their keys, without rasterizing them again.
+// The second layer's program paints where it stands; its fragments are found by their keys, without rasterizing them
+// again.
 TEST_CASE("a program sees the same window position in a pass that visits what it keeps") {
     FragmentScene scene{20, 12};
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)

@@ -1,4 +1,5 @@
-// Model: matrices that bring vertices to clip space, multiplied here with the rounding of the vertex stage; identity matrices change nothing.
+// Model: matrices that bring vertices to clip space, multiplied here with the rounding of the vertex stage; identity
+// matrices change nothing.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"

@@ -1,5 +1,5 @@
-// Peels that compare another depth than they store. Model: layers that the scene was built with. That they keep their promises is
-// asked in selection_test.cpp, and that they execute alike by differential fuzzing.
+// Peels that compare another depth than they store. Model: layers that the scene was built with. That they keep their
+// promises is asked in selection_test.cpp, and that they execute alike by differential fuzzing.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/rendering.h"

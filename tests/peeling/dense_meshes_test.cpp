@@ -1,4 +1,5 @@
-// Nothing that a user sees depends on how a mesh of triangles of a pixel or two was drawn: literal execution is the definition.
+// Nothing that a user sees depends on how a mesh of triangles of a pixel or two was drawn: literal execution is the
+// definition.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -14,8 +15,8 @@ using strata::peeling::RenderOptions;
 using strata::pipeline::DeviceProfile;
 using strata::pipeline::Execution;
 
-// Two wavy sheets of cells of about two thirds of a pixel at 76 by 52, whose corners have colours of their own or, in stripes, one;
-// through them goes an opaque one.
+// Two wavy sheets of cells of about two thirds of a pixel at 76 by 52, whose corners have colours of their own or, in
+// stripes, one; through them goes an opaque one.
 [[nodiscard]] TriangleScene sheets(std::uint64_t seed) {
     Random random{seed};
     TriangleScene scene;

@@ -7,8 +7,8 @@
 
 namespace strata::testing {
 
-// An ascending, a descending or a half-sorted list of `length` depths k / 512 with ties, then some neighbours or far entries
-// exchanged: from sorted to random.
+// An ascending, a descending or a half-sorted list of `length` depths k / 512 with ties, then some neighbours or far
+// entries exchanged: from sorted to random.
 [[nodiscard]] inline std::vector<float> disordered_depths(Random& random, int length) {
     std::vector<float> depths;
     for (int i = 0; i < length; ++i) depths.push_back(static_cast<float>(random_int(random, 0, 511)) / 512.0f);

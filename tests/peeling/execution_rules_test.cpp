@@ -26,7 +26,8 @@ TEST_CASE("alpha for everything, other formats and the whole state of the raster
         check_all_ways(scene, {"geforce8_dx101", algorithm}, options);
 }
 
-// With alphas of 3e-38 many products of colour and alpha are denormal, which the GeForce8 adds as 0: over black that shows.
+// With alphas of 3e-38 many products of colour and alpha are denormal, which the GeForce8 adds as 0: over black that
+// shows.
 TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
     const TriangleScene scene = random_triangles(79, 12);
     RenderOptions options = small_frame();
@@ -60,7 +61,8 @@ TEST_CASE("sums of colours by the chip's weights execute alike on a device with 
         CHECK(difference(drawn_on(mixed, scene, "weighted_average", with(options, way)), expected) == "");
 }
 
-// OVER and UNDER by (0, 0, 0, 0) flush a denormal that a float target holds and make 0 of -0, so that even they are not left out.
+// OVER and UNDER by (0, 0, 0, 0) flush a denormal that a float target holds and make 0 of -0, so that even they are not
+// left out.
 TEST_CASE("both ends peeled over a background of denormals and -0 execute alike in floats") {
     const TriangleScene scene = random_triangles(85, 5);  // in many pixels one fragment
     const std::array<Way, 2> chosen{ways[7], ways[8]};
@@ -78,7 +80,8 @@ TEST_CASE("both ends peeled over a background of denormals and -0 execute alike 
         }
 }
 
-// An offset moves most fragments below 0: in fixed point they wrap around and are farther than all others, in D32F nearer.
+// An offset moves most fragments below 0: in fixed point they wrap around and are farther than all others, in D32F
+// nearer.
 TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole, and no tile trusts a bound",
           "[slow]") {
     using namespace strata::pipeline;
@@ -151,7 +154,8 @@ TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one
             }
 }
 
-// Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules. Random ones.
+// Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules.
+// Random ones.
 TEST_CASE(
     "peels execute alike on devices that blend and convert by every rule, in every format, with ties and under "
     "limits",

@@ -1,5 +1,6 @@
-// tests/peeling/expectations.h - what tests expect of each algorithm, a row an algorithm: typed from the papers and the pages, not read from the registry.
-// The rows of later algorithms stand in their own tests (algorithms/NAME_test.cpp), as an `ExpectedRow`.
+// tests/peeling/expectations.h - what tests expect of each algorithm, a row an algorithm: typed from the papers and the
+// pages, not read from the registry. The rows of later algorithms stand in their own tests (algorithms/NAME_test.cpp),
+// as an `ExpectedRow`.
 #pragma once
 #include <algorithm>
 #include <set>
@@ -12,7 +13,8 @@
 
 namespace strata::testing {
 
-// Which tests of execution draw it: those of single loops, those whose queries stand inside an iteration, those of lists of objects.
+// Which tests of execution draw it: those of single loops, those whose queries stand inside an iteration, those of
+// lists of objects.
 enum class Kind { loop, partial_order, objects };
 // From which device on an algorithm runs: devices.md 10.
 enum class Devices { everything, programmable, independent_blending, many_samples, texture_shaders, ideal_alone };

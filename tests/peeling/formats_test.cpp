@@ -1,5 +1,5 @@
-// A picture, a front and a back in formats of their own. Models: composite_model.h with a number line a target; and, for every algorithm,
-// the picture of wide floats rounded by hand.
+// A picture, a front and a back in formats of their own. Models: composite_model.h with a number line a target; and,
+// for every algorithm, the picture of wide floats rounded by hand.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <optional>

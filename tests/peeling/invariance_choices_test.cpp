@@ -1,5 +1,5 @@
-// Experiments whose further passes draw something else, or the same in other words. Models: the experiment without that choice; fragments
-// worked out by hand.
+// Experiments whose further passes draw something else, or the same in other words. Models: the experiment without that
+// choice; fragments worked out by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// Model: the emulated machine itself. What the adviser calls safe is peeled, and so are the nearest values that it does not.
+// Model: the emulated machine itself. What the adviser calls safe is peeled, and so are the nearest values that it does
+// not.
 #include "peeling/invariance.h"
 
 #include <catch2/catch.hpp>

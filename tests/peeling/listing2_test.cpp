@@ -1,5 +1,5 @@
-// Everitt 2001, Listing 2, entered as it is printed, matrix for matrix, with its slips mended (errata.md 1): what its state
-// stores and compares, against the depth paths that the peeling algorithms use.
+// Everitt 2001, Listing 2, entered as it is printed, matrix for matrix, with its slips mended (errata.md 1): what its
+// state stores and compares, against the depth paths that the peeling algorithms use.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>

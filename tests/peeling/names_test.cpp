@@ -1,5 +1,5 @@
-// What the entry of an algorithm says beside what its passes do. Models: tests/peeling/expectations.h, and the passes by themselves on a
-// device that lacks one feature.
+// What the entry of an algorithm says beside what its passes do. Models: tests/peeling/expectations.h, and the passes
+// by themselves on a device that lacks one feature.
 #include <catch2/catch.hpp>
 #include <set>
 #include <string>

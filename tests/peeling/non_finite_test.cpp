@@ -15,7 +15,8 @@ using strata::peeling::RenderResult;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Sums 40000 times every colour: two fragments of white are more than binary16 holds. Then a quad by `program` from the sums.
+// Sums 40000 times every colour: two fragments of white are more than binary16 holds. Then a quad by `program` from the
+// sums.
 template <class Program>
 RenderResult overflowing(const FragmentScene& scene, bool is_named, const Program& program) {
     strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("unsorted");

@@ -1,4 +1,5 @@
-// What object_sorted and batched spend on objects whose order and depths are known: passes and fragments, counted by hand.
+// What object_sorted and batched spend on objects whose order and depths are known: passes and fragments, counted by
+// hand.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -41,8 +42,8 @@ TEST_CASE("an object of two layers before another is asked about once: its own f
     CHECK_FALSE(has_diagnostic(result, Fault::out_of_order));
 }
 
-// Four objects to a batch, whose bounds do not touch: each batch takes a pass for each of its layers and one that finds none, and
-// each of these draws the batch's own objects alone.
+// Four objects to a batch, whose bounds do not touch: each batch takes a pass for each of its layers and one that finds
+// none, and each of these draws the batch's own objects alone.
 TEST_CASE("a batch draws the objects whose depths it may hold, and no others") {
     FragmentScene all{4, 4};
     std::vector<std::vector<float>> depths;

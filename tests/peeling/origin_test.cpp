@@ -1,5 +1,6 @@
-// Memory that begins at the lower left corner. Model: a projection that turns the scene over, drawn from the upper left corner by a device
-// with the same rules of memory, leaves the same memory; front faces are then clockwise. Its rows, the last one first, are the picture.
+// Memory that begins at the lower left corner. Model: a projection that turns the scene over, drawn from the upper left
+// corner by a device with the same rules of memory, leaves the same memory; front faces are then clockwise. Its rows,
+// the last one first, are the picture.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,6 @@
-// Carr's algorithms and those that their paper compares itself with, over every short sequence of fragments and over deep ones of
-// all degrees of disorder: what they composite is the exact A-buffer's list in the order of their tie policy.
+// Carr's algorithms and those that their paper compares itself with, over every short sequence of fragments and over
+// deep ones of all degrees of disorder: what they composite is the exact A-buffer's list in the order of their tie
+// policy.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/disordered_sequences.h"

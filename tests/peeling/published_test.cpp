@@ -1,5 +1,5 @@
-// The listings of Carr, Mech and Miller as they were printed: what each loses, repeats or never ends, by erratum; and hybrid
-// peeling, whose input is two sets.
+// The listings of Carr, Mech and Miller as they were printed: what each loses, repeats or never ends, by erratum; and
+// hybrid peeling, whose input is two sets.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/disordered_sequences.h"

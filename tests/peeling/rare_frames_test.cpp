@@ -1,6 +1,6 @@
-// Frames that come seldom: sums and counts that stop growing, colours that MAX does not order, depths that blending flushes, limits of a
-// pass or two, lists in parts, ties that are equal in everything. Models: literal execution; pixels counted by hand; the same frame with
-// room enough.
+// Frames that come seldom: sums and counts that stop growing, colours that MAX does not order, depths that blending
+// flushes, limits of a pass or two, lists in parts, ties that are equal in everything. Models: literal execution;
+// pixels counted by hand; the same frame with room enough.
 #include <catch2/catch.hpp>
 #include <cmath>
 

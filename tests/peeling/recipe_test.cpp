@@ -1,4 +1,5 @@
-// The files that tools/new_algorithm.py writes: the listing compiled as it is and run. Models: unsorted, which draws the same; lines by hand.
+// The files that tools/new_algorithm.py writes: the listing compiled as it is and run. Models: unsorted, which draws
+// the same; lines by hand.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>

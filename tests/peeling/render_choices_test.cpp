@@ -1,5 +1,5 @@
-// What a renderer answers to rare choices: sentences of refusals typed a second time, pictures and counts that a choice must not change,
-// and diagnostics for figures that the test makes up.
+// What a renderer answers to rare choices: sentences of refusals typed a second time, pictures and counts that a choice
+// must not change, and diagnostics for figures that the test makes up.
 #include <catch2/catch.hpp>
 
 #include "peeling/audit/audit_result.h"

@@ -1,5 +1,6 @@
-// Reversed depth (GREATER, near at 1) and clip space from 0 to 1. Models: the same fragments with depth 1 - d, every d and 1 - d exact
-// in binary32; fragments sorted by a plain loop; the real numbers of depths behind a perspective projection.
+// Reversed depth (GREATER, near at 1) and clip space from 0 to 1. Models: the same fragments with depth 1 - d, every d
+// and 1 - d exact in binary32; fragments sorted by a plain loop; the real numbers of depths behind a perspective
+// projection.
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -211,7 +212,8 @@ TEST_CASE("layers of a reversed peel are the fragments of each pixel from the gr
 }
 
 TEST_CASE("reversed float depth tells walls apart that forward depth merges") {
-    // Near 1, far at infinity: clip z is e - 1 under LESS and 1 under GREATER, w is e; all of them exact for the distances here.
+    // Near 1, far at infinity: clip z is e - 1 under LESS and 1 under GREATER, w is e; all of them exact for the
+    // distances here.
     for (const float distance : {0x1p10f, 0x1p14f, 0x1p20f}) {
         const float gap = distance * 0x1p-8f;
         INFO(distance);

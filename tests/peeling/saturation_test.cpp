@@ -1,5 +1,5 @@
-// What weighted_average tells of half precision that has run out. The model counts: from 2,048 on a half holds every second number
-// alone, so a count that goes up by one stands still.
+// What weighted_average tells of half precision that has run out. The model counts: from 2,048 on a half holds every
+// second number alone, so a count that goes up by one stands still.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/rendering.h"

@@ -1,5 +1,5 @@
-// Passes that visit only what they keep. Models: visiting everything, pass by pass, from the same targets; and counts of
-// layers that the scene was built with.
+// Passes that visit only what they keep. Models: visiting everything, pass by pass, from the same targets; and counts
+// of layers that the scene was built with.
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <tuple>
@@ -116,8 +116,8 @@ TEST_CASE("selections by another depth, with codes to spare and as published kee
     }
 }
 
-// As published, a run begins by ending where the registers are cleared to, at depth 0, and what lies there is composited although it is not
-// before the opaque surface.
+// As published, a run begins by ending where the registers are cleared to, at depth 0, and what lies there is
+// composited although it is not before the opaque surface.
 TEST_CASE("as published, coherent_ideal composites what lies at depth 0 at an opaque surface there") {
     FragmentScene scene{8, 8};
     for (auto& pixel : scene.pixels) {
@@ -135,8 +135,8 @@ TEST_CASE("as published, coherent_ideal composites what lies at depth 0 at an op
     CHECK(render(list, {}, machine, options).frame.color.codes == literal.codes);
 }
 
-// In a range up to 2^-120 the depths between these ends are denormal: a profile that flushes them stores 0. Ends that are normal in every
-// pixel write no range, and so do not flush it again.
+// In a range up to 2^-120 the depths between these ends are denormal: a profile that flushes them stores 0. Ends that
+// are normal in every pixel write no range, and so do not flush it again.
 TEST_CASE("what lies between a peel's ends is left as its blend leaves it, denormal depths among them") {
     FragmentScene scene{8, 8};
     Random random{93};

@@ -93,8 +93,8 @@ TEST_CASE("the floor is dark where the blocker stands between it and the light, 
         }
 }
 
-// The eye's first plane keeps what lies right of the window's middle, as the eye sees it. What the light sees it does not cut: the shadow
-// of the blocker's left half still falls on the floor's right half.
+// The eye's first plane keeps what lies right of the window's middle, as the eye sees it. What the light sees it does
+// not cut: the shadow of the blocker's left half still falls on the floor's right half.
 TEST_CASE("a clip plane of the eye cuts what the eye sees and not the light's map") {
     const DrawList list = floor_and_blocker(AlphaMode::opaque, false);
     strata::peeling::RenderOptions options;

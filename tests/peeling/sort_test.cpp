@@ -81,7 +81,8 @@ TEST_CASE("N buckets cut the range of the keys into N equal parts, and within a 
             least = std::min(least, sum(soup, t));
             greatest = std::max(greatest, sum(soup, t));
         }
-        // Bucket i: i (greatest - least) <= N (key - least) < (i + 1) (greatest - least), in whole numbers; the last is closed.
+        // Bucket i: i (greatest - least) <= N (key - least) < (i + 1) (greatest - least), in whole numbers; the last is
+        // closed.
         const auto bucket = [&](std::uint32_t t) {
             int i = 0;
             while (i + 1 < buckets && (i + 1) * (greatest - least) <= buckets * (sum(soup, t) - least)) ++i;

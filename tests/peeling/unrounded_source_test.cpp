@@ -1,4 +1,5 @@
-// Blends of a source that is no code (fragment-stages.md 8.2), as real numbers give them: Direct3D allows it, and devices do it.
+// Blends of a source that is no code (fragment-stages.md 8.2), as real numbers give them: Direct3D allows it, and
+// devices do it.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -14,7 +15,8 @@ struct Differing {
     int codes = 0, most = 0, channels = 0;
 };
 
-// Each blend in real numbers and rounded once to a code; where they lie within 2^-12 of the middle of two codes either is right.
+// Each blend in real numbers and rounded once to a code; where they lie within 2^-12 of the middle of two codes either
+// is right.
 [[nodiscard]] Differing from_real_numbers(const FragmentScene& scene, const Image& picture, const Rgba& background) {
     Differing found;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)

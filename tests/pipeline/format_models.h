@@ -71,8 +71,9 @@ struct Binary {
     return high < 0 || (high == 0 && is_even);
 }
 
-// `half` is x rounded as where exponent 31 is an exponent like the others: what is beyond 131040 or infinite is the largest
-// code, NaN the negative one; below 2^-14 digits of x below 2^-37 are dropped, then it is rounded to the nearest multiple of 2^-24, the even one at a midpoint.
+// `half` is x rounded as where exponent 31 is an exponent like the others: what is beyond 131040 or infinite is the
+// largest code, NaN the negative one; below 2^-14 digits of x below 2^-37 are dropped, then it is rounded to the
+// nearest multiple of 2^-24, the even one at a midpoint.
 [[nodiscard]] inline bool is_half_without_infinity(std::uint32_t bits, std::uint32_t half) {
     const std::uint32_t x_bits = bits & 0x7fffffff, h = half & 0x7fff;
     if (x_bits > 0x7f800000) return half == 0xffff;

@@ -1,5 +1,5 @@
-// tests/rasterizer/dense.h - soups of many triangles of few pixels, as they come in dense meshes: whole groups of them are set up and
-// drawn side by side.
+// tests/rasterizer/dense.h - soups of many triangles of few pixels, as they come in dense meshes: whole groups of them
+// are set up and drawn side by side.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,9 @@ struct DenseCase {
     RasterRules rules;
 };
 
-// A grid of cells of about `size` pixels over a window of 70 by 40, and beyond it, twice, one behind the other; every 97th cell is larger,
-// every 11th corner on a pixel's centre or on the corner before, and a run of points and lines at its end.
+// A grid of cells of about `size` pixels over a window of 70 by 40, and beyond it, twice, one behind the other; every
+// 97th cell is larger, every 11th corner on a pixel's centre or on the corner before, and a run of points and lines at
+// its end.
 [[nodiscard]] inline TriangleSoup dense_soup(std::uint64_t seed, float size) {
     Random random{seed};
     TriangleSoup soup;

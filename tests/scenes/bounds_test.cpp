@@ -81,7 +81,8 @@ TEST_CASE("a vertex that its instance moves beyond binary64 does not count, alon
 }
 
 TEST_CASE("a vertex is transformed in binary64, from the first column to the translation") {
-    // ((2^53 + 1) - 2^53) + 1/2 is 1/2, for the first sum is rounded; 2^53 + (1 - 2^53) would be 1, and the others' sum 0.
+    // ((2^53 + 1) - 2^53) + 1/2 is 1/2, for the first sum is rounded; 2^53 + (1 - 2^53) would be 1, and the others' sum
+    // 0.
     Matrix m = identity;
     for (int r = 0; r < 3; ++r) {
         m[0][r] = 0x1p53;

@@ -1,4 +1,5 @@
-// Model: what lies in the folder is known, for the test put it there; links that lead out stand ready, so that following one would work.
+// Model: what lies in the folder is known, for the test put it there; links that lead out stand ready, so that
+// following one would work.
 #include "scenes/inside_folder.h"
 
 #include <catch2/catch.hpp>

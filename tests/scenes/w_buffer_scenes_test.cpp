@@ -1,4 +1,5 @@
-// What a w buffer holds of whole scenes: w of the exact plane of 1/w, in units of which the far plane has the format's depth 1.
+// What a w buffer holds of whole scenes: w of the exact plane of 1/w, in units of which the far plane has the format's
+// depth 1.
 #include <catch2/catch.hpp>
 
 #include "pipeline/vertices/prepare.h"

@@ -1,4 +1,5 @@
-// tests/specification/dual_cases.cpp - pixels with fragments of a few depths, ties among them, peeled by dual on geforce8.
+// tests/specification/dual_cases.cpp - pixels with fragments of a few depths, ties among them, peeled by dual on
+// geforce8.
 #include <algorithm>
 #include <ostream>
 

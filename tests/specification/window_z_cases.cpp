@@ -1,4 +1,5 @@
-// tests/specification/window_z_cases.cpp - random triangles over pixels, slivers and steep ones among them, drawn on geforce3.
+// tests/specification/window_z_cases.cpp - random triangles over pixels, slivers and steep ones among them, drawn on
+// geforce3.
 #include <bit>
 #include <ostream>
 
@@ -16,7 +17,8 @@ using testing::random_int;
 
 constexpr int width = 640, height = 480;
 
-// Clip-space positions with w = 1 in the viewport: anywhere, or near one of the others; depths alike, far apart, or at an end.
+// Clip-space positions with w = 1 in the viewport: anywhere, or near one of the others; depths alike, far apart, or at
+// an end.
 TriangleSoup random_triangles(testing::Random& random, int count) {
     TriangleSoup soup;
     const auto depth = [&](float near_to) {

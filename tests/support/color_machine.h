@@ -1,5 +1,6 @@
-// tests/support/color_machine.h - a colour target of the machine as a model: one channel at a time, in binary64 rounded to binary32 after
-// every operation (a product or sum of binary32 that is rounded twice is rounded once: 53 >= 2 * 24 + 2), stored by rules of its own.
+// tests/support/color_machine.h - a colour target of the machine as a model: one channel at a time, in binary64 rounded
+// to binary32 after every operation (a product or sum of binary32 that is rounded twice is rounded once: 53 >= 2 * 24 +
+// 2), stored by rules of its own.
 #pragma once
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // tests/support/composite_model.h - what each exact algorithm must show at one pixel, one fragment after another.
-// Written from algorithms.md 0 and 2 to 6 with the arithmetic of fragment-stages.md 8 to 9, formats.md 2 to 3: it shares nothing with the
-// product. The targets' arithmetic is here a number line of its own: integers over 255, or binary32 (and its rounding
-// to 11 bits).
+// Written from algorithms.md 0 and 2 to 6 with the arithmetic of fragment-stages.md 8 to 9, formats.md 2 to 3: it
+// shares nothing with the product. The targets' arithmetic is here a number line of its own: integers over 255, or
+// binary32 (and its rounding to 11 bits).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -74,7 +74,8 @@ struct TargetModel {
     }
 };
 
-// The targets of a peel: what it composites onto from the front, or at all; the back of a peel from both ends, and the background; the picture.
+// The targets of a peel: what it composites onto from the front, or at all; the back of a peel from both ends, and the
+// background; the picture.
 struct PeelTargets {
     TargetModel front{}, back{}, picture{};
     PeelTargets(const TargetModel& all) : front{all}, back{all}, picture{all} {}

@@ -1,4 +1,5 @@
-// tests/support/exact_fragments.h - the fragments of a scene by exact arithmetic: nothing is snapped, clipped or rounded.
+// tests/support/exact_fragments.h - the fragments of a scene by exact arithmetic: nothing is snapped, clipped or
+// rounded.
 //
 // A corner's clip coordinates are rationals. The weights l of a window point (X, Y) solve l0 v0 + l1 v1 + l2 v2 =
 // (X, Y, 1) over v = (x, y, w); the point is inside where no weight is negative, which also holds only in front of the
@@ -54,8 +55,8 @@ class ExactScene {
           transparent_{fragments_of(scene, scene.list.meshes[0])},
           opaque_{fragments_of(scene, scene.list.meshes[1])} {}
 
-    // The visible fragments by pixel, row by row from the top, in the order of their triangles. A pixel that no triangle
-    // covers is missing.
+    // The visible fragments by pixel, row by row from the top, in the order of their triangles. A pixel that no
+    // triangle covers is missing.
     [[nodiscard]] ExactPixels visible() const {
         ExactPixels result = transparent_;
         for (auto& [pixel, fragments] : result) {

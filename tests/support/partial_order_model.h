@@ -1,5 +1,5 @@
-// tests/support/partial_order_model.h - what Carr's algorithms and their kin must show at one pixel. Written from algorithms.md 9
-// to 14 with the targets' arithmetic of composite_model.h: it shares nothing with the product.
+// tests/support/partial_order_model.h - what Carr's algorithms and their kin must show at one pixel. Written from
+// algorithms.md 9 to 14 with the targets' arithmetic of composite_model.h: it shares nothing with the product.
 #pragma once
 #include "tests/support/composite_model.h"
 

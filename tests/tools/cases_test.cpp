@@ -1,5 +1,6 @@
-// What people report of ports, each as a picture that is computed here from the panes of its scene, never by the mistake's own entry of
-// a list. Model: squares that are parallel to the picture, blended pixel by pixel in real numbers.
+// What people report of ports, each as a picture that is computed here from the panes of its scene, never by the
+// mistake's own entry of a list. Model: squares that are parallel to the picture, blended pixel by pixel in real
+// numbers.
 #include <fmt/format.h>
 
 #include <array>
@@ -183,7 +184,8 @@ TEST_CASE("blends of sources that are no codes are right under another rounding,
 
 namespace {
 
-// A half transparent square at `decal` (base64 of its four corners) on an opaque one at z = 0; a third one is hidden behind.
+// A half transparent square at `decal` (base64 of its four corners) on an opaque one at z = 0; a third one is hidden
+// behind.
 void write_decal(const Folder& folder, const std::string& name, const std::string& decal) {
     constexpr const char* indices = "AAABAAIAAAACAAMA";
     constexpr const char* opaque = "zcxMv83MTL8AAAAAzcxMP83MTL8AAAAAzcxMP83MTD8AAAAAzcxMv83MTD8AAAAA";

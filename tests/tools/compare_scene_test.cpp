@@ -1,4 +1,5 @@
-// Model: pictures that the command renders itself, and one that is stopped too early; exit statuses of tools/docs/commands.md.
+// Model: pictures that the command renders itself, and one that is stopped too early; exit statuses of
+// tools/docs/commands.md.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 

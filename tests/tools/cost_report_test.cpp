@@ -10,7 +10,8 @@ using namespace strata::tools;
 
 namespace {
 
-// Another point takes no more time and has no more error, and is better in one of them; of equal points the first stays.
+// Another point takes no more time and has no more error, and is better in one of them; of equal points the first
+// stays.
 bool is_beaten(const std::vector<CostPoint>& points, std::size_t i) {
     for (std::size_t k = 0; k < points.size(); ++k) {
         const bool no_worse = points[k].time <= points[i].time && points[k].error <= points[i].error;

@@ -1,5 +1,5 @@
-// Model: PNG files written here byte by byte from codes: equal codes have equal digests, one bit changed has another, whatever the file is packed
-// like; formats and sizes are those that were written.
+// Model: PNG files written here byte by byte from codes: equal codes have equal digests, one bit changed has another,
+// whatever the file is packed like; formats and sizes are those that were written.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,5 @@
-// A real model, every pixel: the picture is the model of tests/support/composite_model.h applied to the a_buffer's lists.
+// A real model, every pixel: the picture is the model of tests/support/composite_model.h applied to the a_buffer's
+// lists.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdlib>

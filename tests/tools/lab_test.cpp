@@ -1,4 +1,5 @@
-// Model: strata and strata-lab are one command in two files: what each says alone, and what strata says without the other.
+// Model: strata and strata-lab are one command in two files: what each says alone, and what strata says without the
+// other.
 #include <catch2/catch.hpp>
 #include <filesystem>
 

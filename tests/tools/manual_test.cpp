@@ -1,5 +1,5 @@
-// Model: what the program parses with is what is written about it: every option of every command stands in its help, its page and each
-// shell's completions. bash itself completes; man's own formatter reads the pages.
+// Model: what the program parses with is what is written about it: every option of every command stands in its help,
+// its page and each shell's completions. bash itself completes; man's own formatter reads the pages.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,5 @@
-// Model: planes one behind the other, whose number at a pixel is a matter of counting; colours worked out by hand from the legend.
+// Model: planes one behind the other, whose number at a pixel is a matter of counting; colours worked out by hand from
+// the legend.
 #include <catch2/catch.hpp>
 #include <fstream>
 

@@ -38,7 +38,8 @@ TEST_CASE("a frame takes half as much again as its scene, targets and fragment m
     for (const char* algorithm : {"dual", "front_to_back", "dual_independent", "depth_units"}) {
         // depth_units keeps a colour and a depth for each of 65 layers and the empty one, in two tiles at a time.
         const std::uint64_t layers = algorithm == std::string{"depth_units"} ? 2 * 66 * 2 * 128 * 128 * 4 : 0;
-        // A pass of dual_independent names the fragments that it visits, 12 bytes each: nearest, farthest and their neighbours.
+        // A pass of dual_independent names the fragments that it visits, 12 bytes each: nearest, farthest and their
+        // neighbours.
         const std::uint64_t visits = algorithm == std::string{"dual_independent"} ? 2 * 4 * 12 * 128 * 128 : 0;
         INFO(algorithm);
         CHECK(peak(folder, algorithm, {"--fragment-memory", "4M", "--no-audit"}) <

@@ -1,4 +1,5 @@
-// Model: what stands in tools/docs/commands.md about messages: which stream, how much, which bytes. A terminal is one that script(1) makes.
+// Model: what stands in tools/docs/commands.md about messages: which stream, how much, which bytes. A terminal is one
+// that script(1) makes.
 #include "tools/strata/messages.h"
 
 #include <catch2/catch.hpp>

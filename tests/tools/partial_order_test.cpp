@@ -1,5 +1,5 @@
-// Slices and a cone: how Carr's algorithms grow with the number of slices. Model: the counts of the paper's section 8, in passes and
-// fragments, never in seconds.
+// Slices and a cone: how Carr's algorithms grow with the number of slices. Model: the counts of the paper's section 8,
+// in passes and fragments, never in seconds.
 #include <catch2/catch.hpp>
 
 #include "peeling/render.h"

@@ -1,4 +1,5 @@
-// Model: pages of a few words whose text is typed out; the picture in a page is read back as a PNG by another reader; a CSV by RFC 4180.
+// Model: pages of a few words whose text is typed out; the picture in a page is read back as a PNG by another reader; a
+// CSV by RFC 4180.
 #include "tools/strata/report/plain_page.h"
 
 #include <catch2/catch.hpp>

@@ -24,8 +24,8 @@ void redirect(int descriptor, const std::string& path) {
     close(file);
 }
 
-// SIGINT waits while this is there. Between fork and exec the test's own handler must not run: what it does is not safe where the
-// signal interrupts an allocation, and the child would wait for itself for ever.
+// SIGINT waits while this is there. Between fork and exec the test's own handler must not run: what it does is not safe
+// where the signal interrupts an allocation, and the child would wait for itself for ever.
 class InterruptsWait {
   public:
     InterruptsWait() {

@@ -1,5 +1,5 @@
-// Model: a picture whose command the test wrote by hand, with all that it names at hand, so that following it would succeed; the folder's
-// listing and bytes are those of before.
+// Model: a picture whose command the test wrote by hand, with all that it names at hand, so that following it would
+// succeed; the folder's listing and bytes are those of before.
 #include "tools/strata/recorded_command.h"
 
 #include <catch2/catch.hpp>

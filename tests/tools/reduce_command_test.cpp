@@ -1,5 +1,5 @@
-// Model: what the shell that the test wrote leaves behind. A named pipe tells when a command runs, and that every process with the pipe
-// open has ended: nothing waits for a time.
+// Model: what the shell that the test wrote leaves behind. A named pipe tells when a command runs, and that every
+// process with the pipe open has ended: nothing waits for a time.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"

@@ -1,5 +1,5 @@
-// What `strata reproduce` leaves: a page whose pictures and tables are there, tables that say what the papers' algorithms must, and
-// charts whose points lie where logarithms put them.
+// What `strata reproduce` leaves: a page whose pictures and tables are there, tables that say what the papers'
+// algorithms must, and charts whose points lie where logarithms put them.
 #include <catch2/catch.hpp>
 #include <regex>
 

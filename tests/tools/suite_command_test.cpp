@@ -1,4 +1,5 @@
-// Model: the packs that `golden` makes of the listed commands, and what `diagnose` says of a mistake drawn by `render --mistake`.
+// Model: the packs that `golden` makes of the listed commands, and what `diagnose` says of a mistake drawn by `render
+// --mistake`.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>

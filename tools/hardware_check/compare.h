@@ -1,9 +1,9 @@
 // tools/hardware_check/compare.h - a drawn picture against the chip's.
 //
 // Rule     Both are read as a word a pixel: r g b a from the lowest byte on; 1 where a pixel is not the background; a
-//          16-bit depth, which a capture shows as R5G6B5 widened; a 24-bit depth above its stencil, which it shows in
-//          A R G and B. Label pixels of a colour capture, (255, 255, 255, 0) and what was overdrawn, and hidden rectangles are not compared.
-//          Colours differ by their largest channel difference in 1/255, the rest by units.
+//          16-bit depth, which a capture shows as R5G6B5 widened; a 24-bit depth above its stencil, which it shows in A
+//          R G and B. Label pixels of a colour capture, (255, 255, 255, 0) and what was overdrawn, and hidden
+//          rectangles are not compared. Colours differ by their largest channel difference in 1/255, the rest by units.
 // Source   the captures' own descriptions, as repeated in chip-fragment.md and chip-geometry.md.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once

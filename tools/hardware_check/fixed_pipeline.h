@@ -1,11 +1,11 @@
 // tools/hardware_check/fixed_pipeline.h - the test suite's default camera through the fixed pipeline, to the window.
 //
-// Rule     Eye (0, 0, -7) looking along +z, field of view 45 degrees, 4:3, near 1, far 200; w = z + 7. Window
-//          x = 320 + 320 * 1.81066 X / w, y = 240 - 240 * 2.41421 Y / w, z = M (200 / 199) (1 - 1 / w); the viewport
-//          adds 0.53125 to x and y. In binary64, rounded once. The chip's own z: the matrix holds S = M (200 / 199)
-//          and 6 S, each rounded to binary32, and the vertex engine computes (z S + 6 S) (1 / (z + 7)) by its cuts
-//          and its reciprocal (nv20_arithmetic.h). A CompositeMatrix holds all rows of another camera: one dot product a
-//          row, each of x, y, z times the reciprocal of w, then the viewport's offset.
+// Rule     Eye (0, 0, -7) looking along +z, field of view 45 degrees, 4:3, near 1, far 200; w = z + 7. Window x = 320 +
+//          320 * 1.81066 X / w, y = 240 - 240 * 2.41421 Y / w, z = M (200 / 199) (1 - 1 / w); the viewport adds 0.53125
+//          to x and y. In binary64, rounded once. The chip's own z: the matrix holds S = M (200 / 199) and 6 S, each
+//          rounded to binary32, and the vertex engine computes (z S + 6 S) (1 / (z + 7)) by its cuts and its reciprocal
+//          (nv20_arithmetic.h). A CompositeMatrix holds all rows of another camera: one dot product a row, each of x,
+//          y, z times the reciprocal of w, then the viewport's offset.
 // Source   chip-geometry.md 1.3, 5.4 and 6. The chip's z: [M] suite Depth_buffer_fixed_function at 24 bits, every
 //          word of 327 quads but 24 of one strip, whose slope is steep (chip-depth.md 4). Its x and y:
 //          chip-float-depth.md 9.2.
@@ -58,7 +58,8 @@ struct CompositeMatrix {
     return {nv20::multiply(p[0], inverse), nv20::multiply(p[1], inverse), nv20::multiply(p[2], inverse), p[3]};
 }
 
-// The window's x, y and z of a point by the vertex engine's arithmetic, with the viewport's offset in x and y; w beside them.
+// The window's x, y and z of a point by the vertex engine's arithmetic, with the viewport's offset in x and y; w beside
+// them.
 [[nodiscard]] constexpr std::array<float, 4> chip_window_point(const CompositeMatrix& m,
                                                                const std::array<float, 4>& point,
                                                                float offset = viewport_offset) {

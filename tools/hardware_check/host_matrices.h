@@ -1,10 +1,11 @@
-// tools/hardware_check/host_matrices.h - the matrices of the test suite's host, and points that it sends back from the window.
+// tools/hardware_check/host_matrices.h - the matrices of the test suite's host, and points that it sends back from the
+// window.
 //
-// Rule     Points are rows, times a matrix on the right. The host's processor keeps 53 bits between operations and 24 in
-//          memory: an expression is computed in binary64 and rounded to binary32 where it is stored. An inverse is the
-//          adjoint, whose entries are stored, times the stored reciprocal of the determinant.
-// Source   chip-geometry.md 6.1; the order of operations is that of the suite's public sources (abaire/xbox_math3d, MIT), told
-//          in our words.
+// Rule     Points are rows, times a matrix on the right. The host's processor keeps 53 bits between operations and 24
+//          in memory: an expression is computed in binary64 and rounded to binary32 where it is stored. An inverse is
+//          the adjoint, whose entries are stored, times the stored reciprocal of the determinant.
+// Source   chip-geometry.md 6.1; the order of operations is that of the suite's public sources (abaire/xbox_math3d,
+//          MIT), told in our words.
 // Tests    tests/tools/hardware_check/host_matrices_test.cpp
 #pragma once
 #include "tools/hardware_check/fixed_pipeline.h"
@@ -20,7 +21,8 @@ using HostMatrix = std::array<HostVector, 4>;  // [row][column]
 
 // From `eye` to `at`, y up, looking along +z.
 [[nodiscard]] HostMatrix look_at(const std::array<float, 3>& eye, const std::array<float, 3>& at);
-// The default camera's projection and the viewport of 640 x 480 in one; `units` is the greatest value of the depth buffer.
+// The default camera's projection and the viewport of 640 x 480 in one; `units` is the greatest value of the depth
+// buffer.
 [[nodiscard]] HostMatrix perspective_to_window(float units);
 // An orthographic view of the window's own size from `near` to `far`, and a viewport of 16 bits.
 [[nodiscard]] HostMatrix orthographic_to_window(float near, float far);
@@ -33,7 +35,8 @@ struct HostCamera {
 // Eye at (0, 0, -7), looking at the origin.
 [[nodiscard]] HostCamera default_camera(float units);
 
-// The world point that appears at window x, y and has world z: on the line between what the inverse makes of depths 0 and 64000.
+// The world point that appears at window x, y and has world z: on the line between what the inverse makes of depths 0
+// and 64000.
 [[nodiscard]] HostVector unprojected(const HostCamera& camera, float x, float y, float world_z);
 // The world point of window x, y, z.
 [[nodiscard]] HostVector unprojected_point(const HostCamera& camera, const HostVector& window);

@@ -51,8 +51,8 @@ struct Picture {
     // Half-open rectangles that are not compared. Label pixels need none: (255, 255, 255, 0) in a
     // colour capture.
     std::vector<rasterizer::Rect> hidden{};
-    // A colour that the test drew over its picture, and that the picture itself cannot have: such pixels of a capture are
-    // labels, too.
+    // A colour that the test drew over its picture, and that the picture itself cannot have: such pixels of a capture
+    // are labels, too.
     std::optional<std::array<std::uint8_t, 4>> overdrawn{};
     Bound bound{};
     // Counts that the chip's occlusion queries would answer, in order. No capture holds them: they

@@ -39,8 +39,8 @@ void place(pipeline::Surface& surface, const pipeline::Texture& image, float x, 
 // rgba8 codes as a rectangle texture with nearest lookups.
 [[nodiscard]] pipeline::Texture as_texture(const pipeline::Image& image);
 
-// The depth range from `least` to `greatest` in buffer units, of which depth 1 has `units`: both limits are inside, although
-// DrawState takes shares of 1 in binary32.
+// The depth range from `least` to `greatest` in buffer units, of which depth 1 has `units`: both limits are inside,
+// although DrawState takes shares of 1 in binary32.
 void limit_depth(pipeline::DrawState& state, double least, double greatest, double units);
 
 [[nodiscard]] float next_below(float positive);  // the next smaller binary32

@@ -20,7 +20,8 @@ struct TexturedCorner {
 // No general stage; the final one gives `color` as it is, and as alpha the register's own or, from `zero`, 1.
 [[nodiscard]] pipeline::Combiners show(pipeline::CombinerRegister color, pipeline::CombinerRegister alpha);
 
-// A square checker of `texels` a side, nearest lookups; its cells have `cell` texels a side, and the one at texel (0, 0) is `first`.
+// A square checker of `texels` a side, nearest lookups; its cells have `cell` texels a side, and the one at texel (0,
+// 0) is `first`.
 [[nodiscard]] pipeline::Texture checker(int texels, int cell, Argb first, Argb second);
 
 // A lookup at s/q, t/q in texels.

@@ -1,4 +1,5 @@
-// tools/lab/main.cpp - strata-lab: the experiments, and every other command. People type `strata cost`, which runs this.
+// tools/lab/main.cpp - strata-lab: the experiments, and every other command. People type `strata cost`, which runs
+// this.
 #include "tools/lab/commands.h"
 #include "tools/strata/program.h"
 

@@ -11,7 +11,8 @@ inline namespace v0_1 {
 
 namespace {
 
-// Throws unless `rows` rows of `row` bytes, `row_bytes` apart, lie within `memory` bytes. Answers how far apart they are.
+// Throws unless `rows` rows of `row` bytes, `row_bytes` apart, lie within `memory` bytes. Answers how far apart they
+// are.
 std::size_t checked_row_bytes(std::size_t memory, std::size_t row, std::size_t rows, std::size_t row_bytes) {
     if (row_bytes == 0) row_bytes = row;
     if (row_bytes < row)

@@ -1,9 +1,10 @@
 // tools/oracle/codes.h - the channels of foreign pictures: how each stores a value, and how far two of them are apart.
 //
-// Rule     Two codes are equal if their values are: integers of one type by their bits, integers of two types as exact quotients. A
-//          float stands for an integer's value if it is that value rounded to it, and the float has the bits to tell all
-//          of the type's values apart (half: 8 and 10 bits; binary32: 8, 10, 16 and 24). A NaN equals no other bits. The distance counts codes of the
-//          reference's type between two values (of floats: units in the last place), at least 1 where they differ.
+// Rule     Two codes are equal if their values are: integers of one type by their bits, integers of two types as exact
+//          quotients. A float stands for an integer's value if it is that value rounded to it, and the float has the
+//          bits to tell all of the type's values apart (half: 8 and 10 bits; binary32: 8, 10, 16 and 24). A NaN equals
+//          no other bits. The distance counts codes of the reference's type between two values (of floats: units in the
+//          last place), at least 1 where they differ.
 // Numbers  k / (2^n - 1) for n up to 24 is one division in binary64, which is finer than all codes here.
 // Tests    tests/tools/oracle/codes_test.cpp
 #pragma once

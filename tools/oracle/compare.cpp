@@ -27,8 +27,8 @@ std::string_view name(Kind kind) noexcept {
 
 namespace {
 
-// Beside the distances of all targets, the worst of a pixel's depths and of its other codes, and whether one of them is beyond what its
-// target allows.
+// Beside the distances of all targets, the worst of a pixel's depths and of its other codes, and whether one of them is
+// beyond what its target allows.
 struct Distances {
     std::vector<std::uint32_t> color, depth;
     std::vector<bool> is_beyond;

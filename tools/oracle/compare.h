@@ -1,8 +1,9 @@
-// tools/oracle/compare.h - how a candidate differs from a reference: the kind of each difference, and what would explain them all.
+// tools/oracle/compare.h - how a candidate differs from a reference: the kind of each difference, and what would
+// explain them all.
 //
-// Rule     Targets are paired by part and name, or by meaning where a picture has one of that meaning alone. A pixel differs if a paired
-//          code does, and gets the first kind that fits, in the order of `Kind`. Nothing is forgiven unless a tolerance says so;
-//          `equal` knows no tolerance.
+// Rule     Targets are paired by part and name, or by meaning where a picture has one of that meaning alone. A pixel
+//          differs if a paired code does, and gets the first kind that fits, in the order of `Kind`. Nothing is
+//          forgiven unless a tolerance says so; `equal` knows no tolerance.
 // Tests    tests/tools/oracle/compare_test.cpp, compare_layers_test.cpp
 #pragma once
 #include <algorithm>
@@ -46,8 +47,8 @@ struct Budget {
 struct Tolerances {
     std::uint32_t color_codes = 0, depth_codes = 0;       // of the reference's type, at every pixel
     std::map<std::string, std::uint32_t> target_codes{};  // of targets by their names, in place of the two
-    // Pixels that may differ all the same, by what they differ in: coverage, the background, layers of any kind, and depths and colours
-    // that are further apart; and of those that are left over, whatever they differ in.
+    // Pixels that may differ all the same, by what they differ in: coverage, the background, layers of any kind, and
+    // depths and colours that are further apart; and of those that are left over, whatever they differ in.
     Budget coverage{}, background{}, layers{}, depth{}, color{}, pixels{};
     ColorChannels channels = ColorChannels::all;  // of colours
     friend bool operator==(const Tolerances&, const Tolerances&) = default;

@@ -1,8 +1,9 @@
 // tools/oracle/contact_sheet.h - all targets after all passes on one page: a row a pass, a column a target.
 //
-// Rule     Colours are shown as they are, min-max depths with the near one red and the far one green. Depths, stencils and single channels are
-//          stretched from their least to their greatest value on that picture, depths with the near end bright. A target that the pass
-//          has written has a light frame. Large targets are thinned to a whole fraction of their size.
+// Rule     Colours are shown as they are, min-max depths with the near one red and the far one green. Depths, stencils
+//          and single channels are stretched from their least to their greatest value on that picture, depths with the
+//          near end bright. A target that the pass has written has a light frame. Large targets are thinned to a whole
+//          fraction of their size.
 #pragma once
 #include <string>
 #include <vector>

@@ -145,7 +145,8 @@ std::vector<Run> runs_of(const Mask& mask, std::size_t first, std::size_t step, 
     return runs;
 }
 
-// Lines whose masks have another number of runs, and runs that touch the picture's edge, tell nothing of where a border went.
+// Lines whose masks have another number of runs, and runs that touch the picture's edge, tell nothing of where a border
+// went.
 void follow(const Masks& masks, std::size_t first, std::size_t step, int count, Ends& ends) {
     const auto here = runs_of(masks.reference, first, step, count),
                there = runs_of(masks.candidate, first, step, count);

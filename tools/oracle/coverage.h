@@ -1,11 +1,12 @@
 // tools/oracle/coverage.h - which pixels something was drawn at, and what the difference of two such masks looks like.
 //
-// Rule     Drawn: a depth other than 1 where both pictures have depths; else an alpha above 0 where the reference's alpha varies; else a
-//          colour other than the background's, which is the commonest colour along the reference's edge if half of the edge has it.
-//          The candidate's background is its own commonest colour at those pixels. A background that the caller knows decides alone.
-//          Borders of the masks are followed along rows and columns. `moved`: both ends of the runs go the same way, by a quarter of a
-//          pixel or more; `edge_rule`: gains and losses each keep to one side, or there are gains or losses alone, at the borders;
-//          `snapping`: they mix at the borders; `surface`: most lie away from the borders.
+// Rule     Drawn: a depth other than 1 where both pictures have depths; else an alpha above 0 where the reference's
+//          alpha varies; else a colour other than the background's, which is the commonest colour along the reference's
+//          edge if half of the edge has it. The candidate's background is its own commonest colour at those pixels. A
+//          background that the caller knows decides alone. Borders of the masks are followed along rows and columns.
+//          `moved`: both ends of the runs go the same way, by a quarter of a pixel or more; `edge_rule`: gains and
+//          losses each keep to one side, or there are gains or losses alone, at the borders; `snapping`: they mix at
+//          the borders; `surface`: most lie away from the borders.
 // Tests    tests/tools/oracle/coverage_test.cpp
 #pragma once
 #include <array>

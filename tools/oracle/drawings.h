@@ -6,8 +6,8 @@
 
 namespace strata::oracle {
 
-// How far each pixel is from the reference's, in codes: black where they are equal, else the colour of a HeatScale up to the greatest
-// distance (heat_scale.h).
+// How far each pixel is from the reference's, in codes: black where they are equal, else the colour of a HeatScale up
+// to the greatest distance (heat_scale.h).
 [[nodiscard]] pipeline::Image heat_map(const Comparison& comparison);
 // The scale of that map.
 [[nodiscard]] HeatScale heat_scale(const Comparison& comparison);
@@ -22,7 +22,8 @@ namespace strata::oracle {
 // The target that people look at first: colours before depths; grey for one channel, nearer brighter for depths.
 [[nodiscard]] pipeline::Image as_shown(const Picture& picture);
 
-// Reference, candidate, heat map and map of kinds with a grey line between them; below the maps the scale in codes, and the kinds that there are.
+// Reference, candidate, heat map and map of kinds with a grey line between them; below the maps the scale in codes, and
+// the kinds that there are.
 [[nodiscard]] pipeline::Image side_by_side(const Picture& reference, const Picture& candidate,
                                            const Comparison& comparison);
 

@@ -1,8 +1,10 @@
-// tools/oracle/explanations.h - mistakes that change a whole picture: does one of them make the candidate out of the reference?
+// tools/oracle/explanations.h - mistakes that change a whole picture: does one of them make the candidate out of the
+// reference?
 //
-// Rule     Each mistake says which pixel or which value the candidate would have. A moved pixel agrees if its codes are equal; a
-//          computed value if it is within one code of the candidate's (half: 2^-9 of it, binary32: 2^-18), because a port may round as
-//          it likes. `explained`: differing pixels that agree; `contradicted`: equal pixels that do not.
+// Rule     Each mistake says which pixel or which value the candidate would have. A moved pixel agrees if its codes are
+//          equal; a computed value if it is within one code of the candidate's (half: 2^-9 of it, binary32: 2^-18),
+//          because a port may round as it likes. `explained`: differing pixels that agree; `contradicted`: equal pixels
+//          that do not.
 // Tests    tests/tools/oracle/explanations_test.cpp
 #pragma once
 #include <span>

@@ -43,7 +43,8 @@ bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat forma
     return has_chip_rule && has_w && format != pipeline::DepthFormat::d32f;
 }
 
-// Numbers of the source triangles in the order of submission; empty: as listed. Nothing where the order is the algorithm's own.
+// Numbers of the source triangles in the order of submission; empty: as listed. Nothing where the order is the
+// algorithm's own.
 std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, const peeling::Algorithm& algorithm,
                                                      pipeline::Selection selection) {
     const bool sorts = algorithm.order == ListOrder::given && input.options.sort.rule != peeling::SortRule::none;

@@ -1,4 +1,5 @@
-// tools/oracle/fragment_facts.h - what is known of a fragment from its triangle alone: whose it is, where in it, and its depth by every path.
+// tools/oracle/fragment_facts.h - what is known of a fragment from its triangle alone: whose it is, where in it, and
+// its depth by every path.
 #pragma once
 #include <span>
 
@@ -6,7 +7,8 @@
 
 namespace strata::oracle {
 
-// Fills mesh, triangle, barycentric and path_codes of the facts of each history; `histories` are the rectangle's pixels row by row.
+// Fills mesh, triangle, barycentric and path_codes of the facts of each history; `histories` are the rectangle's pixels
+// row by row.
 void add_facts(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
                std::span<History> histories);
 

@@ -1,8 +1,8 @@
 // tools/oracle/heat_scale.h - distances in codes as colours, with a legend that says which colour is how many codes.
 //
-// Rule     0 is black. From 1 code to the scale's end colours follow the logarithm of the distance through a table whose lightness (CIE L*)
-//          rises in even steps: twice as many codes are the same step lighter, wherever on the scale. The end is 255 codes, or, where a
-//          distance is greater, the least 2^k - 1 that is not less.
+// Rule     0 is black. From 1 code to the scale's end colours follow the logarithm of the distance through a table
+//          whose lightness (CIE L*) rises in even steps: twice as many codes are the same step lighter, wherever on the
+//          scale. The end is 255 codes, or, where a distance is greater, the least 2^k - 1 that is not less.
 // Source   the upper three quarters of the colour map Inferno (S. van der Walt, N. Smith, matplotlib; CC0)
 // Tests    tests/tools/oracle/heat_scale_test.cpp
 #pragma once
@@ -36,8 +36,8 @@ class HeatScale {
 // The least width has room for "4294967295 codes".
 inline constexpr int legend_height_px = 26, least_legend_width_px = 132;
 
-// Draws the scale into an rgba8 image: a bar from `left` on, `width` wide and at least least_legend_width_px, and below it the numbers of codes.
-// It takes legend_height_px rows from `top` on.
+// Draws the scale into an rgba8 image: a bar from `left` on, `width` wide and at least least_legend_width_px, and below
+// it the numbers of codes. It takes legend_height_px rows from `top` on.
 void draw_legend(pipeline::Image& image, int left, int top, int width, const HeatScale& scale);
 
 }  // namespace strata::oracle

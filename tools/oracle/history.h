@@ -1,8 +1,9 @@
 // tools/oracle/history.h - what happened at a pixel: its fragments, and each thing that a pass did to its targets.
 //
-// Rule     The run is literal and simulates every effect, so that each fragment has all its values; neither changes a bit. Lines stand in
-//          the order in which things happened. They are enough to do them again: what was cleared or copied, what a program gave out,
-//          with which state it was tested and blended, and what the targets held before and after.
+// Rule     The run is literal and simulates every effect, so that each fragment has all its values; neither changes a
+//          bit. Lines stand in the order in which things happened. They are enough to do them again: what was cleared
+//          or copied, what a program gave out, with which state it was tested and blended, and what the targets held
+//          before and after.
 // Tests    tests/tools/oracle/explain_lines_test.cpp does them again
 #pragma once
 #include <array>
@@ -18,9 +19,9 @@ namespace strata::oracle {
 // A fragment of the transparent list, or of the opaque one; colours and depth are those that fragment programs get.
 struct FragmentFact {
     std::uint32_t primitive = 0;  // submission number of its triangle in its list
-    std::string
-        mesh{};  // the begin of a long name; "" and triangle -1 where the algorithm sorts triangles by an order of its own
-    int triangle = -1;  // within the mesh
+    std::string mesh{};  // the begin of a long name; "" and triangle -1 where the algorithm sorts triangles by an order
+                         // of its own
+    int triangle = -1;   // within the mesh
     std::array<double, 3>
         barycentric{};  // of the snapped triangle's corners, in submission order; of a clipped one, its piece's
     std::array<float, 4> color{};
@@ -101,7 +102,8 @@ struct History {
 [[nodiscard]] std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
                                            const rasterizer::Rect& pixels);
 
-// The fragments of each layer that was composited, near to far: those taken in front, then those taken behind, the last first.
+// The fragments of each layer that was composited, near to far: those taken in front, then those taken behind, the last
+// first.
 [[nodiscard]] std::vector<std::vector<int>> composited(const History& history);
 
 }  // namespace strata::oracle

@@ -1,4 +1,5 @@
-// tools/oracle/history_svg.cpp - the fragments of a pixel by depth, and beside them what each algorithm took, as a drawing.
+// tools/oracle/history_svg.cpp - the fragments of a pixel by depth, and beside them what each algorithm took, as a
+// drawing.
 #include <fmt/format.h>
 
 #include <algorithm>

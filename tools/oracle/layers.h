@@ -1,7 +1,8 @@
 // tools/oracle/layers.h - what became of the layers of one pixel.
 //
-// Rule     Layers are the parts of a file that have names, in the file's order. A pixel has those whose alpha is above 0 (any channel
-//          other than 0 where there is no alpha). Two layers are equal if their colours are, and their depths where both files have them.
+// Rule     Layers are the parts of a file that have names, in the file's order. A pixel has those whose alpha is above
+//          0 (any channel other than 0 where there is no alpha). Two layers are equal if their colours are, and their
+//          depths where both files have them.
 // Tests    tests/tools/oracle/compare_layers_test.cpp
 #pragma once
 #include <optional>

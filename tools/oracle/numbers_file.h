@@ -10,7 +10,8 @@ namespace strata::oracle {
 // What elements of that type mean in a file that says no more; InputError names `file` for i4, which no picture has.
 [[nodiscard]] Code code_of(scenes::Element element, const std::string& file);
 
-// InputError for element types that are not u1, u2, u4, f2 or f4, for big-endian or Fortran order, and for a wrong size.
+// InputError for element types that are not u1, u2, u4, f2 or f4, for big-endian or Fortran order, and for a wrong
+// size.
 [[nodiscard]] Target read_npy(const std::string& path);
 // Bytes that a code takes in a file; and a row without padding.
 [[nodiscard]] std::size_t bytes_of(Code code) noexcept;

@@ -1,8 +1,10 @@
-// tools/oracle/pairs.h - which target of a candidate stands for which of the reference, made comparable channel by channel.
+// tools/oracle/pairs.h - which target of a candidate stands for which of the reference, made comparable channel by
+// channel.
 //
-// Rule     Grey beside colour is three equal channels. Where one of two colours has no alpha, its alpha is 1, and a note says so. Straight
-//          colours beside premultiplied ones are multiplied by their alpha where that is below 1, to the nearest code, a half up: of codes
-//          that were divided by alpha this gives back what they were made of.
+// Rule     Grey beside colour is three equal channels. Where one of two colours has no alpha, its alpha is 1, and a
+//          note says so. Straight colours beside premultiplied ones are multiplied by their alpha where that is below
+//          1, to the nearest code, a half up: of codes that were divided by alpha this gives back what they were made
+//          of.
 // Tests    tests/tools/oracle/pairs_test.cpp
 #pragma once
 #include <algorithm>

@@ -1,9 +1,10 @@
 // tools/oracle/passes.h - every pass of an algorithm with all targets as it leaves them.
 //
-// Rule     The run is literal: its passes are the machine's. A pass is shown when it has ended and its queries are answered; clears and copies before it are told with
-//          it. Targets have the names that the algorithm gives them; of several of one name the second is NAME.1, and so on: a pair
-//          that is swapped keeps its names. Under reversed depth, depth targets are shown as depths; colour targets that hold depths hold
-//          keys (rasterizer/rules/depth_key.h). The last entry is what is published, the picture.
+// Rule     The run is literal: its passes are the machine's. A pass is shown when it has ended and its queries are
+//          answered; clears and copies before it are told with it. Targets have the names that the algorithm gives
+//          them; of several of one name the second is NAME.1, and so on: a pair that is swapped keeps its names. Under
+//          reversed depth, depth targets are shown as depths; colour targets that hold depths hold keys
+//          (rasterizer/rules/depth_key.h). The last entry is what is published, the picture.
 // Tests    tests/tools/oracle/passes_test.cpp
 #pragma once
 #include <functional>

@@ -1,8 +1,9 @@
 // tools/oracle/target_parts.h - targets of any format as parts of an EXR file.
 //
-// Rule     Half and binary32 channels are R G B A with their own bits. 8-bit ones are R G B A as values and Rbits ... as codes, depths Z as
-//          a value and Zbits as the code, stencils S as the code: UINT32 all three. A target of several samples is a part for each:
-//          NAME.sample0 ... Attributes: strata:format.color or strata:format.depth, and strata:digest of the whole target.
+// Rule     Half and binary32 channels are R G B A with their own bits. 8-bit ones are R G B A as values and Rbits ...
+//          as codes, depths Z as a value and Zbits as the code, stencils S as the code: UINT32 all three. A target of
+//          several samples is a part for each: NAME.sample0 ... Attributes: strata:format.color or strata:format.depth,
+//          and strata:digest of the whole target.
 // Tests    tests/tools/oracle/passes_test.cpp
 #pragma once
 #include <span>

@@ -15,8 +15,8 @@ enum class ContextKind { core, compatible };
 // program come from that thread.
 class HeadlessContext {
   public:
-    // A software driver rasterizes on `threads` threads (LP_NUM_THREADS). Throws std::runtime_error where EGL gives no such
-    // context or another driver.
+    // A software driver rasterizes on `threads` threads (LP_NUM_THREADS). Throws std::runtime_error where EGL gives no
+    // such context or another driver.
     explicit HeadlessContext(const std::string& driver, int threads, ContextKind kind = ContextKind::core);
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;

@@ -19,8 +19,8 @@ class GpuScene {
     void draw(Surfaces surfaces = Surfaces::transparent) const;
     [[nodiscard]] bool has(Surfaces surfaces) const { return !runs_[static_cast<std::size_t>(surfaces)].empty(); }
 
-    // A program whose fragment text may call `vec4 shade()`, the interpolated straight colour of the fragment's side, and
-    // name its own texel TEXEL.
+    // A program whose fragment text may call `vec4 shade()`, the interpolated straight colour of the fragment's side,
+    // and name its own texel TEXEL.
     [[nodiscard]] Handle make_program(const std::string& fragment, const std::vector<std::string>& samplers = {}) const;
 
   private:

@@ -19,7 +19,8 @@ struct Array {
 // Throws std::runtime_error, naming the file, for what is no such array.
 [[nodiscard]] Array read_npy(const std::string& file);
 
-// The array of this file as values of T, which must be as wide as its elements and stand for `type`; `width` elements a row.
+// The array of this file as values of T, which must be as wide as its elements and stand for `type`; `width` elements a
+// row.
 template <class T>
 [[nodiscard]] std::vector<T> read_rows(const std::string& file, const std::string& type, std::size_t width);
 

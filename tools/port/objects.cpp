@@ -10,8 +10,8 @@ namespace strata::port {
 
 namespace {
 
-// `as_written` before a variable: its sum is what the text says, not an interpolation that rounds otherwise, as softpipe makes of
-// x (1 - t) + y t. Without the extension drivers do as they like.
+// `as_written` before a variable: its sum is what the text says, not an interpolation that rounds otherwise, as
+// softpipe makes of x (1 - t) + y t. Without the extension drivers do as they like.
 constexpr auto as_written = R"(#version 330 core
 #extension GL_ARB_gpu_shader5 : enable
 #ifdef GL_ARB_gpu_shader5

@@ -1,4 +1,5 @@
-// tools/port/pack.h - what a port reads of a golden pack, and what it writes: oracle/PACK.md, by a reader of the port's own.
+// tools/port/pack.h - what a port reads of a golden pack, and what it writes: oracle/PACK.md, by a reader of the port's
+// own.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +9,8 @@
 
 namespace strata::port {
 
-// What the buffers of a pack say. Everything else that a pack can say and the port cannot draw is refused when it is read.
+// What the buffers of a pack say. Everything else that a pack can say and the port cannot draw is refused when it is
+// read.
 struct Pack {
     Mesh mesh;
     Size size;

@@ -1,4 +1,5 @@
-// tools/port/way.h - what the port decides where ports go wrong. The defaults are the right port; a mistake changes a field.
+// tools/port/way.h - what the port decides where ports go wrong. The defaults are the right port; a mistake changes a
+// field.
 #pragma once
 #include <array>
 #include <string>

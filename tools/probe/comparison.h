@@ -1,7 +1,7 @@
 // tools/probe/comparison.h - a device's answers held against what a profile would have answered, pixel by pixel.
 //
-// Rule     A pixel agrees if all codes of its colour do, and a depth if its code does; both count, each as a pixel. NaNs of
-//          float targets are all alike: which payload an operation leaves is no rule of a profile.
+// Rule     A pixel agrees if all codes of its colour do, and a depth if its code does; both count, each as a pixel.
+//          NaNs of float targets are all alike: which payload an operation leaves is no rule of a profile.
 // Tests    tests/tools/probe/infer_test.cpp
 #pragma once
 #include <string_view>
@@ -25,7 +25,8 @@ struct Tally {
 // Every pixel's colour, then every depth: 1 where the two answers have the same bits.
 [[nodiscard]] std::vector<bool> equal_places(const Answer& a, const Answer& b);
 
-// Pixels of two answers that differ. A pixel is covered if its depth is not the cleared one, or, without a depth buffer, its colour.
+// Pixels of two answers that differ. A pixel is covered if its depth is not the cleared one, or, without a depth
+// buffer, its colour.
 struct Difference {
     std::uint64_t pixels = 0, coverage = 0, depth = 0, color = 0;
     Difference& operator+=(const Difference& o) noexcept {
@@ -39,8 +40,9 @@ struct Difference {
 };
 [[nodiscard]] Difference difference(const Answer& a, const Answer& b);
 
-// How near an answer is: a place that agrees counts most_points, another one less the more bits its code is off; so a search is
-// drawn towards the right value while another field still spoils every code. The coverage is that of `difference`.
+// How near an answer is: a place that agrees counts most_points, another one less the more bits its code is off; so a
+// search is drawn towards the right value while another field still spoils every code. The coverage is that of
+// `difference`.
 struct Nearness {
     std::uint64_t coverage = 0, depth = 0, color = 0, equal = 0, places = 0;
 };

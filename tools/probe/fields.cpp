@@ -141,8 +141,8 @@ std::vector<int> searched_values(const ProfileField& f, int current) {
     return values;
 }
 
-// No frame of the kit is larger than 256 pixels, and no guard band is within the frame. Paths that need a texture shader or a
-// w buffer cannot draw a kit.
+// No frame of the kit is larger than 256 pixels, and no guard band is within the frame. Paths that need a texture
+// shader or a w buffer cannot draw a kit.
 bool is_valid(const DeviceProfile& profile) {
     const RasterRules& r = profile.raster;
     if (r.depth_path == DepthPath::depth_replace || r.depth_path == DepthPath::w_buffer) return false;

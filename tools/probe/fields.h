@@ -1,8 +1,8 @@
-// tools/probe/fields.h - the fields of a profile as unknowns: which the kit can tell, when a field matters, and in which groups
-// they are searched.
+// tools/probe/fields.h - the fields of a profile as unknowns: which the kit can tell, when a field matters, and in
+// which groups they are searched.
 //
-// Rule     A field that does not matter under the other fields keeps its value and is not searched. Groups are searched in
-//          order: the scenes of a group depend on its own fields and on those of the groups before it.
+// Rule     A field that does not matter under the other fields keeps its value and is not searched. Groups are searched
+//          in order: the scenes of a group depend on its own fields and on those of the groups before it.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <span>
@@ -26,8 +26,8 @@ using pipeline::ProfileField;
 // Whether the field can change a pixel of the scene at all. What is said to change none is not drawn again (scores.h).
 [[nodiscard]] bool can_change(std::string_view key, const Item& item);
 
-// Fields that no picture shows: features and limits, which a driver says; the origin, which its client says (--y); and whether equal colours
-// are a program's uniform: the kit's are not.
+// Fields that no picture shows: features and limits, which a driver says; the origin, which its client says (--y); and
+// whether equal colours are a program's uniform: the kit's are not.
 [[nodiscard]] bool is_said(std::string_view key);
 
 // Other fields that no scene of the kit decides, with the reason.

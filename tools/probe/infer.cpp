@@ -10,8 +10,8 @@ namespace strata::probe {
 
 namespace {
 
-// One of a field's scenes under one of its values: where it is what the device drew, and where it is what the profile draws
-// that was found.
+// One of a field's scenes under one of its values: where it is what the device drew, and where it is what the profile
+// draws that was found.
 struct Hypothesis {
     std::vector<bool> equal{}, as_found{};
 };
@@ -106,7 +106,8 @@ class Evidence {
         explain_coverage(f, others, items, finding);
     }
 
-    // A value that explains fewer pixels than another, but more of which are covered, is the one that was found (search.cpp).
+    // A value that explains fewer pixels than another, but more of which are covered, is the one that was found
+    // (search.cpp).
     void explain_coverage(const ProfileField& f, const std::vector<DeviceProfile>& others,
                           const std::vector<std::size_t>& items, FieldFinding& finding) const {
         if (finding.runners_up.empty() || finding.runners_up.front().agree <= finding.agree) return;

@@ -1,18 +1,18 @@
 // tools/probe/infer.h - a device's profile from its answers, with the evidence for every field.
 //
-// Rule     The evidence of a field are the places of its scenes where its values differ, all other fields being as found: n of
-//          them. A value has k of n if the device's bits are those of that value in k of them. A field without such a place is open; so is
-//          one whose best values have equal k. Nothing is guessed: an open field keeps the value of the profile that the
-//          search began with, and is said to be open.
+// Rule     The evidence of a field are the places of its scenes where its values differ, all other fields being as
+//          found: n of them. A value has k of n if the device's bits are those of that value in k of them. A field
+//          without such a place is open; so is one whose best values have equal k. Nothing is guessed: an open field
+//          keeps the value of the profile that the search began with, and is said to be open.
 // Tests    tests/tools/probe/infer_test.cpp
 #pragma once
 #include "tools/probe/search.h"
 
 namespace strata::probe {
 
-// inferred: one value has all n. broken: one has the greatest k, and there are places where the device does what none says. open: several have the
-// greatest k, or no scene tells. idle: the field has no effect beside the
-// others. unprobed: the kit has no scene for it. stated: a feature or a limit, as the driver says.
+// inferred: one value has all n. broken: one has the greatest k, and there are places where the device does what none
+// says. open: several have the greatest k, or no scene tells. idle: the field has no effect beside the others.
+// unprobed: the kit has no scene for it. stated: a feature or a limit, as the driver says.
 enum class FieldState : std::uint8_t { inferred, broken, open, idle, unprobed, stated };
 
 struct ValueCount {

@@ -1,8 +1,8 @@
 // tools/probe/item.h - one small scene of a kit, and what a device drew of it. Plain values.
 //
 // Rule     Corners are in clip space and reach the rasterizer as they are: no client computes a position. A colour is
-//          interpolated by perspective and stored as it is; blending is the only arithmetic behind it. Rows are numbered
-//          as memory has them; `y` says where clip-space +y points to.
+//          interpolated by perspective and stored as it is; blending is the only arithmetic behind it. Rows are
+//          numbered as memory has them; `y` says where clip-space +y points to.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>

@@ -1,4 +1,5 @@
-// tools/probe/kit.h - the scenes that measure a device: each is made so that a few fields of a profile decide its pixels.
+// tools/probe/kit.h - the scenes that measure a device: each is made so that a few fields of a profile decide its
+// pixels.
 //
 // Rule     Names are unique. A kit is the same bits on every machine; its digest is that of its JSON.
 // Tests    tests/tools/probe/kit_test.cpp
@@ -10,8 +11,8 @@
 
 namespace strata::probe {
 
-// Both orientations draw every item: clip-space +y up in memory as glClipControl(GL_UPPER_LEFT) has it, or down, which is what
-// OpenGL without that call does to a framebuffer object.
+// Both orientations draw every item: clip-space +y up in memory as glClipControl(GL_UPPER_LEFT) has it, or down, which
+// is what OpenGL without that call does to a framebuffer object.
 [[nodiscard]] const std::vector<Item>& kit();
 
 // Scenes that no field was thought of for: random triangles and models through a camera, to test a profile that was
@@ -19,8 +20,8 @@ namespace strata::probe {
 [[nodiscard]] Item unseen_scene(int number);
 [[nodiscard]] std::vector<Item> unseen_scenes(int first, int count);
 
-// {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats as the 8 hexadecimal digits of their bits.
-// With operations: their list as "operations", its digest as "operations_digest".
+// {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats as the 8 hexadecimal digits of their
+// bits. With operations: their list as "operations", its digest as "operations_digest".
 [[nodiscard]] std::string to_json(const std::vector<Item>& items, bool with_operations = false);
 // Of the array of items as JSON without a space: a pack names the kit that it answers by it.
 [[nodiscard]] std::string digest(const std::vector<Item>& items);

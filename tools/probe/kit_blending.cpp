@@ -41,8 +41,8 @@ Item crossed_item(Format format, const BlendTerm& term, const std::vector<float>
     return item;
 }
 
-// Boxes over one another in one draw, each of a few thirds of what the format tells apart: what rounds every blend loses other
-// parts of the sum than what rounds it once. Some lie across tiles of 64 pixels.
+// Boxes over one another in one draw, each of a few thirds of what the format tells apart: what rounds every blend
+// loses other parts of the sum than what rounds it once. Some lie across tiles of 64 pixels.
 Item overlaps_item(Format format, float step, const std::string& name) {
     Item item{.name = name, .decides = {"blend_storage"}, .width = 144, .height = 80, .color = format};
     Dice dice{71};
@@ -56,8 +56,8 @@ Item overlaps_item(Format format, float step, const std::string& name) {
     return item;
 }
 
-// A NaN that the blender makes itself, for one in a vertex drops its triangle: 3e38 twice is an infinity, and that times 0 a NaN.
-// Numbers meet it from both sides.
+// A NaN that the blender makes itself, for one in a vertex drops its triangle: 3e38 twice is an infinity, and that
+// times 0 a NaN. Numbers meet it from both sides.
 Item nan_item(BlendEquation equation, const std::string& name) {
     Item item{.name = name, .decides = {"min_max_nan"}, .width = 32, .height = 32, .color = Format::rgba32f};
     const auto layer = [&](BlendTerm term, const Color& color, float x0, float x1) {

@@ -50,7 +50,8 @@ Item corners_item(Beyond beyond, std::uint64_t seed, const std::string& name) {
     return item;
 }
 
-// Slopes of a few codes that cross the near or the far plane: whether a fragment is outside is a matter of the last bit.
+// Slopes of a few codes that cross the near or the far plane: whether a fragment is outside is a matter of the last
+// bit.
 Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& name) {
     Item item = plain_item(name, {"raster.z_clip", "raster.depth_limits", "raster.window_z_rule", "raster.weights",
                                   "raster.sum_bits", "raster.reciprocal_bits", "raster.reciprocal_deficit"});
@@ -72,8 +73,8 @@ Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& na
     return item;
 }
 
-// Row y holds a triangle that reaches so far out of the frame on both sides. A guard band that is nearer cuts it, and the
-// rounding of the new corners shows in the frame's middle, which is as far from the one as from the other.
+// Row y holds a triangle that reaches so far out of the frame on both sides. A guard band that is nearer cuts it, and
+// the rounding of the new corners shows in the frame's middle, which is as far from the one as from the other.
 Item guard_item(DepthFormat format, const std::string& name) {
     Item item = plain_item(name, {"raster.guard_band_px"});
     const std::vector<int> all = guard_reaches();

@@ -42,8 +42,8 @@ Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const s
     return item;
 }
 
-// Corners on pixel centres: a weight that is a whole number of 256ths lies on the edge of its 8 bits, whichever the area, and
-// the last bits of a reciprocal decide it. With a w of powers of two, too.
+// Corners on pixel centres: a weight that is a whole number of 256ths lies on the edge of its 8 bits, whichever the
+// area, and the last bits of a reciprocal decide it. With a w of powers of two, too.
 Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
     Draw draw;

@@ -11,8 +11,8 @@ namespace {
 const std::vector<std::string> coverage_fields{"raster.subpixel_bits", "raster.snap", "raster.coverage",
                                                "raster.tie_rule"};
 
-// By how much an edge misses a pixel's centre: a hair on either side of every place where rounding to 4, 8 or 12 bits, cut or
-// nearest, decides whether it still does; and 0. The hair is 2^-16 pixel.
+// By how much an edge misses a pixel's centre: a hair on either side of every place where rounding to 4, 8 or 12 bits,
+// cut or nearest, decides whether it still does; and 0. The hair is 2^-16 pixel.
 float near_miss(Dice& dice) {
     constexpr int bits[]{4, 8, 12};
     const int n = bits[dice.below(3)];
@@ -55,7 +55,8 @@ Item ties_item() {
     return item;
 }
 
-// Triangles of all sizes over each other, each of a colour of its own, some reaching out of the frame by its guard band.
+// Triangles of all sizes over each other, each of a colour of its own, some reaching out of the frame by its guard
+// band.
 Item random_item(int count, float size, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = coverage_fields};
     Draw draw;

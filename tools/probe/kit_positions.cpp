@@ -1,8 +1,8 @@
 // tools/probe/kit_positions.cpp - the way from clip space to the window: the divide by w, and how the viewport rounds.
 //
-// Rule     Two ways of computing a position differ in its last bit. A flat depth under a depth range that is no power of two
-//          shows that bit; where there is no float depth buffer, an edge shows it that lies so near the place where snapping
-//          or coverage changes its mind that the two ways end on different sides.
+// Rule     Two ways of computing a position differ in its last bit. A flat depth under a depth range that is no power
+//          of two shows that bit; where there is no float depth buffer, an edge shows it that lies so near the place
+//          where snapping or coverage changes its mind that the two ways end on different sides.
 #include <bit>
 #include <cmath>
 #include <vector>

@@ -1,8 +1,9 @@
-// tools/probe/operations.h - what shaders, textures and fixed tests compute: one operation a picture, exact bits in and out.
+// tools/probe/operations.h - what shaders, textures and fixed tests compute: one operation a picture, exact bits in and
+// out.
 //
-// Rule     A fragment reads four words of its texel of the inputs and writes four; `words` of them count. A hypothesis says what
-//          it writes for those inputs, and nothing else decides: NaNs are equal to each other where results are floats. The first
-//          hypothesis of an operation is what a device that is a profile answers.
+// Rule     A fragment reads four words of its texel of the inputs and writes four; `words` of them count. A hypothesis
+//          says what it writes for those inputs, and nothing else decides: NaNs are equal to each other where results
+//          are floats. The first hypothesis of an operation is what a device that is a profile answers.
 // Tests    tests/tools/probe/operations_test.cpp
 #pragma once
 #include <array>
@@ -23,8 +24,8 @@ struct Hypothesis {
     std::function<Texel(const Texel&)> answer{};
 };
 
-// The texture that the fragment's `image` reads: one row of texels, a word each (r32f and d32f: bits of the float, rgba8 and
-// srgb8: red lowest, d16 and d24: the code).
+// The texture that the fragment's `image` reads: one row of texels, a word each (r32f and d32f: bits of the float,
+// rgba8 and srgb8: red lowest, d16 and d24: the code).
 struct SourceImage {
     std::string format{};
     std::vector<std::uint32_t> texels{};

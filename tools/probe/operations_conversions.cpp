@@ -88,7 +88,8 @@ std::uint32_t uint_low_bits(std::uint32_t a, std::uint32_t) {
 std::uint32_t uint_all_ones(std::uint32_t a, std::uint32_t b) {
     return float_of(a) > -1.0f && float_of(a) < 0x1p32f ? uint_saturated(a, b) : 0xffffffffu;
 }
-// As compilers do it with signed conversions alone: from 2^31 on behind a subtraction, whose bit comes back by exclusive or.
+// As compilers do it with signed conversions alone: from 2^31 on behind a subtraction, whose bit comes back by
+// exclusive or.
 std::uint32_t uint_by_halves(std::uint32_t a, std::uint32_t b) {
     return float_of(a) >= 0x1p31f ? int_indefinite(word_of(float_of(a) - 0x1p31f), b) ^ 0x80000000u
                                   : int_indefinite(a, b);

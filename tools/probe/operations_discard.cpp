@@ -1,4 +1,5 @@
-// tools/probe/operations_discard.cpp - which alphas `if (a < t) discard` keeps: of values that come as bits, and of an attribute.
+// tools/probe/operations_discard.cpp - which alphas `if (a < t) discard` keeps: of values that come as bits, and of an
+// attribute.
 #include <array>
 #include <cmath>
 
@@ -98,8 +99,9 @@ float by_quotients(float a, float w) {
     return quotient / inverse;
 }
 
-// SwiftShader's planes of a / w and 1 / w (its Pipeline/SetupRoutine.cpp) from the third corner on, which lies a quarter of a pixel above the
-// centre: `own` and `other` are the corners' parts of their slope along y, which cancel but for roundings. Along x they are 0.
+// SwiftShader's planes of a / w and 1 / w (its Pipeline/SetupRoutine.cpp) from the third corner on, which lies a
+// quarter of a pixel above the centre: `own` and `other` are the corners' parts of their slope along y, which cancel
+// but for roundings. Along x they are 0.
 float by_planes(float a, float w) {
     const float inverse = 1.0f / w, square = w * w, scale = 1.0f / (square * 0.25f);
     const float own = square * 0.5f * (scale * inverse), other = -0.25f * w * scale;
@@ -114,8 +116,8 @@ Hypothesis arriving(std::string name, float (*arrived)(float, float)) {
             }};
 }
 
-// A triangle a pixel, as in test.facing: its corners have one alpha, in the place of z, and one w. The threshold is the alpha or
-// a neighbour of it.
+// A triangle a pixel, as in test.facing: its corners have one alpha, in the place of z, and one w. The threshold is the
+// alpha or a neighbour of it.
 Operation by_attribute() {
     constexpr int side = 32;
     Operation o{.name = "test.discard-attribute",

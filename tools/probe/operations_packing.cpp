@@ -86,8 +86,8 @@ std::uint32_t normal_half_code(float value) {
     return (code & 0x7c00u) == 0 ? code & 0x8000u : code;
 }
 
-// By shifts: what is cut below a denormal is not seen again when it is rounded, and the exponent of 65,536 and more is 31 with
-// whatever mantissa, until 131,008 and more are all ones.
+// By shifts: what is cut below a denormal is not seen again when it is rounded, and the exponent of 65,536 and more is
+// 31 with whatever mantissa, until 131,008 and more are all ones.
 std::uint32_t half_code_by_shifts(float value) {
     const std::uint32_t word = word_of(value), size = word & 0x7fffffffu, places = 113u - (size >> 23);
     const bool is_normal = size > 0x38800000u;

@@ -1,8 +1,10 @@
-// tools/probe/operations_srgb.cpp - sRGB both ways: codes of a texture to linear values, linear values to codes of a target.
+// tools/probe/operations_srgb.cpp - sRGB both ways: codes of a texture to linear values, linear values to codes of a
+// target.
 //
-// Source   the drivers' own rules, tried on their pictures. Mesa 22: util/format_srgb.py (a table in 8 decimal digits; 104 lines after F. Giesen,
-//          "Float to sRGB8", https://gist.github.com/rygorous/2203834), gallivm/lp_bld_format_srgb.c (a cubic, and roots).
-//          SwiftShader: Pipeline/Constants.cpp (a table of 65,280ths) and Pipeline/ShaderCore.cpp (powers).
+// Source   the drivers' own rules, tried on their pictures. Mesa 22: util/format_srgb.py (a table in 8 decimal digits;
+//          104 lines after F. Giesen, "Float to sRGB8", https://gist.github.com/rygorous/2203834),
+//          gallivm/lp_bld_format_srgb.c (a cubic, and roots). SwiftShader: Pipeline/Constants.cpp (a table of
+//          65,280ths) and Pipeline/ShaderCore.cpp (powers).
 // Tests    tests/tools/probe/operations_rules_test.cpp
 #include <fmt/format.h>
 
@@ -96,7 +98,8 @@ std::uint32_t code_below(float linear) {
     return static_cast<std::uint32_t>(std::floor(scenes::encode_srgb(std::clamp(linear, 0.0f, 1.0f)) * 255.0f));
 }
 
-// Eight pieces an octave from 2^-13 on: in the upper half where it begins, in steps of 2^-7 code, in the lower its slope.
+// Eight pieces an octave from 2^-13 on: in the upper half where it begins, in steps of 2^-7 code, in the lower its
+// slope.
 constexpr std::array<std::uint32_t, 104> pieces{
     0x0073000d, 0x007a000d, 0x0080000d, 0x0087000d, 0x008d000d, 0x0094000d, 0x009a000d, 0x00a1000d, 0x00a7001a,
     0x00b4001a, 0x00c1001a, 0x00ce001a, 0x00da001a, 0x00e7001a, 0x00f4001a, 0x0101001a, 0x010e0033, 0x01280033,
@@ -126,8 +129,8 @@ std::uint32_t by_roots(float linear) {
     return static_cast<std::uint32_t>(std::nearbyint(code));
 }
 
-// SwiftShader's power of binary32 before "Mediump" (its SWIFTSHADER_LEGACY_PRECISION): the exponent plus a quotient of two polynomials
-// of the mantissa m, and the other way round a polynomial of the fraction.
+// SwiftShader's power of binary32 before "Mediump" (its SWIFTSHADER_LEGACY_PRECISION): the exponent plus a quotient of
+// two polynomials of the mantissa m, and the other way round a polynomial of the fraction.
 template <bool is_fused>
 float logarithm_of_2(float x) {
     const std::uint32_t word = word_of(x);

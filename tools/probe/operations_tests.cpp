@@ -1,4 +1,5 @@
-// tools/probe/operations_tests.cpp - which side faces, what a stencil keeps, and whether two shaders place a corner alike.
+// tools/probe/operations_tests.cpp - which side faces, what a stencil keeps, and whether two shaders place a corner
+// alike.
 #include <algorithm>
 #include <utility>
 
@@ -54,8 +55,8 @@ Hypothesis stencil_as(std::string name, bool wraps) {
     return {std::move(name), [wraps](const Texel& t) { return one_word(after(t[1], t[0], wraps) >> t[3] & 1); }};
 }
 
-// Inputs: the value before, the operation, when it applies (0 the stencil test fails, 1 the depth test fails, 2 both pass),
-// and the bit that is shown.
+// Inputs: the value before, the operation, when it applies (0 the stencil test fails, 1 the depth test fails, 2 both
+// pass), and the bit that is shown.
 Operation stencil() {
     Operation o{.name = "test.stencil", .question = "do INCR and DECR end at 255 and 0?", .width = 8 * 4 * 3};
     o.result = ResultKind::words;

@@ -1,4 +1,5 @@
-// tools/probe/operations_textures.cpp - texel choice, weights of a bilinear lookup, sRGB both ways, and shadow comparisons.
+// tools/probe/operations_textures.cpp - texel choice, weights of a bilinear lookup, sRGB both ways, and shadow
+// comparisons.
 #include <fmt/format.h>
 
 #include <algorithm>

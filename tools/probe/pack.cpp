@@ -32,8 +32,9 @@ std::string file_name(YDirection y, const Item& item, std::string_view target) {
     return fmt::format("probe/{}/{}/{}.npy", name(y), item.name, target);
 }
 
-// Codes of a depth that a shader read: the nearest to the float, whose own rounding is far less than half a code. Floats of 24 bits
-// that are farther from every code than two roundings of binary32 are what the buffer holds (Depth24::binary32).
+// Codes of a depth that a shader read: the nearest to the float, whose own rounding is far less than half a code.
+// Floats of 24 bits that are farther from every code than two roundings of binary32 are what the buffer holds
+// (Depth24::binary32).
 Image from_texels(const NumberArray& array, pipeline::Format format, int width, int height) {
     Image codes{format, width, height}, floats{pipeline::Format::d32f, width, height};
     const double greatest = rasterizer::buffer_units(pipeline::depth_format(format));

@@ -1,9 +1,9 @@
 // tools/probe/pack.h - a kit's answers as files: a candidate pack (tools/oracle/PACK.md).
 //
-// Rule     candidate.json has an object "probe": the kit's digest, the driver's features and limits by their keys in a profile,
-//          and the items without an answer with the reason. probe/ORIENTATION/ITEM/color.npy and depth.npy hold codes; a
-//          depth that a shader read is binary32 whatever the buffer's format, and becomes the nearest code. Read are a folder
-//          and a tar archive of it.
+// Rule     candidate.json has an object "probe": the kit's digest, the driver's features and limits by their keys in a
+//          profile, and the items without an answer with the reason. probe/ORIENTATION/ITEM/color.npy and depth.npy
+//          hold codes; a depth that a shader read is binary32 whatever the buffer's format, and becomes the nearest
+//          code. Read are a folder and a tar archive of it.
 // Tests    tests/tools/probe/pack_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-// tools/probe/scenes.cpp - scenes that no field was thought of for: random triangles and models through a camera, cut at every
-// plane of the view volume, in frames of many sizes and formats.
+// tools/probe/scenes.cpp - scenes that no field was thought of for: random triangles and models through a camera, cut
+// at every plane of the view volume, in frames of many sizes and formats.
 #include <fmt/format.h>
 
 #include "pipeline/vertices/prepare.h"

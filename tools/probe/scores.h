@@ -1,6 +1,8 @@
-// tools/probe/scores.h - how well profiles explain a device's answers, each scene drawn once for all profiles that draw it alike.
+// tools/probe/scores.h - how well profiles explain a device's answers, each scene drawn once for all profiles that draw
+// it alike.
 //
-// Rule     Two profiles draw a scene alike if they agree in every field that matters under them (fields.h) and can change it.
+// Rule     Two profiles draw a scene alike if they agree in every field that matters under them (fields.h) and can
+//          change it.
 // Tests    tests/tools/probe/search_test.cpp
 #pragma once
 #include <map>
@@ -35,8 +37,8 @@ class Scores {
     const Comparison& device_;
     // For every scene the fields that can change it, then what is known of it by their values.
     std::vector<std::vector<const ProfileField*>> fields_{};
-    // All of it in memory of its own: small pieces that stay, between the buffers of drawing that come and go, break up the heap of
-    // glibc 2.36 so that 100 KB a scene are lost.
+    // All of it in memory of its own: small pieces that stay, between the buffers of drawing that come and go, break up
+    // the heap of glibc 2.36 so that 100 KB a scene are lost.
     std::pmr::monotonic_buffer_resource memory_{std::size_t{1} << 20};
     std::vector<std::pmr::map<std::pmr::vector<int>, Nearness>> known_{};
     std::size_t drawn_ = 0;

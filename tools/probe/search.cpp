@@ -153,7 +153,8 @@ void search_guard_band(const View& view, BandSearch& bands, Candidate& best) {
     best.points = view.points(best.profile);
 }
 
-// A guard band is cut like the view volume where it is as near: whether there is one is known when it has been searched.
+// A guard band is cut like the view volume where it is as near: whether there is one is known when it has been
+// searched.
 DeviceProfile search_clip(const FieldGroup& group, BandSearch& bands, const DeviceProfile& start) {
     Scores& scores = bands.scores;
     const View view{scores, scores.device().items_of(group.items), group.part};

@@ -1,7 +1,7 @@
 // tools/probe/shapes.h - triangles of a kit, from pixels to clip space.
 //
-// Numbers  Where a frame's sides are powers of two and a position is a multiple of 2^-16 pixel, the way to clip space and back
-//          is exact.
+// Numbers  Where a frame's sides are powers of two and a position is a multiple of 2^-16 pixel, the way to clip space
+//          and back is exact.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>

@@ -1,7 +1,8 @@
 // tools/probe/split_depths.h - a triangle on which two of the chip's reciprocals give different window depths.
 //
-// Rule     Its area's reciprocal differs between the two, which the last bit of a depth of 24 bits shows at a pixel: by one unit of
-//          2^-32 in a reciprocal's deficit at one pixel of 256 (window_z.h, cut_weight.h). So the triangle is sought.
+// Rule     Its area's reciprocal differs between the two, which the last bit of a depth of 24 bits shows at a pixel: by
+//          one unit of 2^-32 in a reciprocal's deficit at one pixel of 256 (window_z.h, cut_weight.h). So the triangle
+//          is sought.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>

@@ -24,7 +24,8 @@ DepthHypothesis random_reciprocal(Dice& dice) {
     return hypothesis;
 }
 
-// Edge values at the centre, all positive; the corners are exchanged if they run the other way round. None if it is outside.
+// Edge values at the centre, all positive; the corners are exchanged if they run the other way round. None if it is
+// outside.
 std::optional<EdgeValues> edges_of(SplitTriangle& t) {
     EdgeValues e{};
     for (int turn = 0; turn < 2; ++turn) {

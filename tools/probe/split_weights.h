@@ -1,7 +1,8 @@
 // tools/probe/split_weights.h - a triangle on which two of the chip's reciprocals give different 8-bit weights.
 //
-// Rule     The weight of one corner at a pixel lies within 2^-24 of itself of a whole number of 256ths: its w is solved for that, and
-//          rounded. The last bits of the reciprocal decide on which side the cut weight comes to lie (color_weights.h).
+// Rule     The weight of one corner at a pixel lies within 2^-24 of itself of a whole number of 256ths: its w is solved
+//          for that, and rounded. The last bits of the reciprocal decide on which side the cut weight comes to lie
+//          (color_weights.h).
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>

@@ -39,7 +39,8 @@ struct CompareOptions {
     RunOptions run{};  // of a scene
 };
 
-// A scene or a pack is asked whether a picture is right. Pictures are told what differs, and so is a user who wants the bits or forgives some.
+// A scene or a pack is asked whether a picture is right. Pictures are told what differs, and so is a user who wants the
+// bits or forgives some.
 bool asks_for_verdict(const CompareOptions& options) {
     return is_scene(options.reference) && !options.exact && options.tolerances == oracle::Tolerances{};
 }
@@ -116,7 +117,8 @@ int compare_folders(const CompareOptions& options) {
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }
 
-// A pack stands for the picture of its only algorithm, or of the one that is asked for; a scene for the one that is drawn of it.
+// A pack stands for the picture of its only algorithm, or of the one that is asked for; a scene for the one that is
+// drawn of it.
 oracle::Picture reference_of(const CompareOptions& options) {
     if (!is_scene(options.reference)) return oracle::read_picture(options.reference, options.layout);
     if (!scenes::is_pack(options.reference))

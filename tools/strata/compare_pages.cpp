@@ -40,7 +40,8 @@ std::string count_of(const oracle::Comparison& found) {
            (found.accepted ? ", which the tolerance allows." : ".");
 }
 
-// A sentence for the picture, for the layers and for the passes of an algorithm; what differs in a picture is in its tables.
+// A sentence for the picture, for the layers and for the passes of an algorithm; what differs in a picture is in its
+// tables.
 void add_findings(PlainPage& page, const oracle::PackComparison& c) {
     if (!c.is_there) return page.paragraph("Not compared: the candidate has nothing of it.");
     std::vector<std::string> sentences;

@@ -1,6 +1,7 @@
 // tools/strata/compare_pages.h - what compare leaves beside its text: pages of --report, and the verdicts in colours.
 //
-// Rule     A page holds what is printed, as a sentence and tables, and reference, candidate and heat map of each picture compared; no path of this machine.
+// Rule     A page holds what is printed, as a sentence and tables, and reference, candidate and heat map of each
+//          picture compared; no path of this machine.
 // Tests    tests/tools/compare_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <optional>
@@ -26,7 +27,8 @@ void add_heat_map(PlainPage& page, const oracle::Comparison& found);
 void add_tables(PlainPage& page, const oracle::Comparison& found);
 [[nodiscard]] std::string sentence_of(const oracle::Comparison& found);
 
-// Of a pack and a folder: what an algorithm's pictures show. The end, or, where that is alike, the first pass that is not.
+// Of a pack and a folder: what an algorithm's pictures show. The end, or, where that is alike, the first pass that is
+// not.
 struct ShownPair {
     const oracle::Picture& reference;
     const oracle::Picture& candidate;
@@ -41,8 +43,8 @@ struct ShownPair {
                                 const std::vector<oracle::PackPictures>& candidate,
                                 const std::vector<oracle::PackComparison>& found);
 
-// The printed text; where standard output shows colours, the verdict of each line that is not indented is green if it is "equal", yellow
-// if differences are accepted, red if it is "different".
+// The printed text; where standard output shows colours, the verdict of each line that is not indented is green if it
+// is "equal", yellow if differences are accepted, red if it is "different".
 [[nodiscard]] std::string with_painted_verdicts(const std::string& text);
 
 }  // namespace strata::tools

@@ -81,7 +81,8 @@ pipeline::Image drawn(const EditMap& map) {
     return image;
 }
 
-// The command of the first scene of the suite that tells the explanations apart; "" if there is none, or one explanation alone.
+// The command of the first scene of the suite that tells the explanations apart; "" if there is none, or one
+// explanation alone.
 std::string telling_command(const oracle::verdict::Verdict& found) {
     std::vector<std::vector<oracle::verdict::Rule>> rules;
     for (const oracle::verdict::Checked& c : found.explanations)

@@ -1,4 +1,5 @@
-// tools/strata/compare_scene.h - compare with a scene as the reference: is a picture of it right, whatever formats and roundings its port has?
+// tools/strata/compare_scene.h - compare with a scene as the reference: is a picture of it right, whatever formats and
+// roundings its port has?
 #pragma once
 #include <optional>
 #include <string>
@@ -24,7 +25,8 @@ struct SceneQuestion {
 // The scene at the candidate's size.
 [[nodiscard]] Session open_at_size(SceneQuestion& question, const oracle::Target& target);
 
-// The picture that the algorithm draws, dual where none is named: in the candidate's size, with a depth where it has one.
+// The picture that the algorithm draws, dual where none is named: in the candidate's size, with a depth where it has
+// one.
 [[nodiscard]] oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& candidate);
 
 // Writes the report, and prints the verdict. 0: right, 1: not.

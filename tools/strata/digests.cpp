@@ -49,7 +49,8 @@ Digests channels_of(const std::string& file) {
     return digests;
 }
 
-// Whether a PNG's header says 8 bits a channel and colours (PNG 11.2.2: of the colour type bit 1). Anything else says no.
+// Whether a PNG's header says 8 bits a channel and colours (PNG 11.2.2: of the colour type bit 1). Anything else says
+// no.
 bool has_8_bit_colors(const std::string& file) {
     std::array<char, 26> header{};
     std::ifstream{file, std::ios::binary}.read(header.data(), header.size());

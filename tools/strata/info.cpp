@@ -1,4 +1,5 @@
-// tools/strata/info.cpp - strata info: what a picture says of itself, first of all the command that made it, and its digests.
+// tools/strata/info.cpp - strata info: what a picture says of itself, first of all the command that made it, and its
+// digests.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,9 @@
-// tools/strata/messages.h - what the program says beside its result: errors, warnings, details and their colours, and how much of it is wanted.
+// tools/strata/messages.h - what the program says beside its result: errors, warnings, details and their colours, and
+// how much of it is wanted.
 //
-// Rule     Messages go to standard error, one line each of at most 3,000 bytes or its begin and end; no byte of a file or of the command line reaches a terminal as a control
-//          character. Colours are put round words of a terminal alone, unless --color says otherwise; NO_COLOR (not empty) and
-//          TERM=dumb leave them out.
+// Rule     Messages go to standard error, one line each of at most 3,000 bytes or its begin and end; no byte of a file
+//          or of the command line reaches a terminal as a control character. Colours are put round words of a terminal
+//          alone, unless --color says otherwise; NO_COLOR (not empty) and TERM=dumb leave them out.
 // Tests    tests/tools/messages_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
@@ -33,8 +34,8 @@ void say_detail(std::string_view sentence);   // "strata: ..." under -v alone
 // Text for people that is not the result, on standard error; -q leaves it out.
 void say_note(std::string_view text);
 
-// As it may go to that stream: control characters and bytes that are no character as `printable` has them, but for line ends, tabs and,
-// where the stream shows colours, the codes of `painted`. JSON stays JSON.
+// As it may go to that stream: control characters and bytes that are no character as `printable` has them, but for line
+// ends, tabs and, where the stream shows colours, the codes of `painted`. JSON stays JSON.
 [[nodiscard]] std::string shown_text(std::string_view text, Stream stream);
 
 // 0.0123 s as "0.012 s".

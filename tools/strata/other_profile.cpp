@@ -12,8 +12,8 @@ namespace strata::tools {
 
 namespace {
 
-// The right structure's account, by fragments to the bit or off by units in the last place, if it leaves two codes of 255 open at most or
-// the picture takes one at most.
+// The right structure's account, by fragments to the bit or off by units in the last place, if it leaves two codes of
+// 255 open at most or the picture takes one at most.
 std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::SceneFragments& scene,
                                                        const oracle::verdict::Colors& candidate,
                                                        oracle::verdict::Sample& sample) {

@@ -1,7 +1,7 @@
 // tools/strata/other_profile.h - is a picture that a scene's profile calls wrong right by the rules of another one?
 //
-// Rule     By definite hypotheses alone, and only where they leave at most two codes open or the picture takes at most one: what only a wide
-//          rounding makes right under another profile is no evidence.
+// Rule     By definite hypotheses alone, and only where they leave at most two codes open or the picture takes at most
+//          one: what only a wide rounding makes right under another profile is no evidence.
 // Tests    tests/tools/compare_scene_test.cpp
 #pragma once
 #include <memory>
@@ -28,7 +28,8 @@ struct OtherProfile {
     [[nodiscard]] std::string sentence(const std::string& given, std::size_t wrong_pixels) const;
 };
 
-// The first of `more` and of the built-in profiles; none if there is no such profile, or if the scene cannot be drawn by it.
+// The first of `more` and of the built-in profiles; none if there is no such profile, or if the scene cannot be drawn
+// by it.
 [[nodiscard]] std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input, std::uint64_t bytes,
                                                                  const oracle::verdict::Colors& candidate,
                                                                  std::span<const pipeline::DeviceProfile> more = {});

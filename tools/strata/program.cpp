@@ -154,7 +154,8 @@ constexpr std::array listed{
     Listed{"Lists and help", "completions", add_completions},
 };
 
-// Of an experiment that this program does not hold only the name and the description, for lists: run_lab has run before.
+// Of an experiment that this program does not hold only the name and the description, for lists: run_lab has run
+// before.
 Command add_listed(CLI::App& root, const Listed& entry, const std::vector<NamedCommand>& experiments) {
     const auto held = std::ranges::find(experiments, entry.name, &NamedCommand::name);
     Command command;
@@ -194,7 +195,8 @@ Shown take_amount_of_help(std::vector<std::string>& words) {
     return Shown::usual;
 }
 
-// CLI11 wants the last word first. The name of a command behind help or man is an argument: "--" keeps it from being run.
+// CLI11 wants the last word first. The name of a command behind help or man is an argument: "--" keeps it from being
+// run.
 void parse(CLI::App& root, std::vector<std::string> words) {
     const bool is_about = words.front() == "help" || words.front() == "man";
     if (is_about && words.size() > 1 && !words[1].starts_with('-')) words.insert(words.begin() + 1, "--");

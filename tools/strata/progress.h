@@ -11,8 +11,9 @@ namespace strata::tools {
 // Whether the line tells how much longer it takes, if the rest goes like the part that is done.
 enum class Remaining : std::uint8_t { hidden, shown };
 
-// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard error is a terminal, a second
-// has passed and --quiet was not given, and wipes its line when it ends. Under -v the end tells how long the work took.
+// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard error is a terminal,
+// a second has passed and --quiet was not given, and wipes its line when it ends. Under -v the end tells how long the
+// work took.
 class Progress {
   public:
     explicit Progress(std::string label, Remaining remaining = Remaining::hidden);

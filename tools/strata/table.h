@@ -27,7 +27,8 @@ struct Table {
 // The text of a table, with its first line bold where standard output shows colours.
 [[nodiscard]] std::string titled(const std::string& table);
 
-// Writes all of `text`, as shown_text has it (messages.h), to standard output and flushes it. Throws SystemError where that fails (a full disk).
+// Writes all of `text`, as shown_text has it (messages.h), to standard output and flushes it. Throws SystemError where
+// that fails (a full disk).
 void print(std::string_view text);
 
 }  // namespace strata::tools

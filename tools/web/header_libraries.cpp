@@ -1,5 +1,6 @@
-// tools/web/header_libraries.cpp - what the packages keep in libraries, and a browser's build has as headers alone: tinygltf's reader,
-// without images and files, and the few functions of Highway that one instruction set needs. And in place of the image module a sentence.
+// tools/web/header_libraries.cpp - what the packages keep in libraries, and a browser's build has as headers alone:
+// tinygltf's reader, without images and files, and the few functions of Highway that one instruction set needs. And in
+// place of the image module a sentence.
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE

@@ -1,7 +1,8 @@
-// tools/web/missing_library.h - what the C++ library of Debian's Emscripten (libc++ 13) lacks of C++20 and our code uses. Every source of
-// the browser's build has it in front; no other build sees it.
+// tools/web/missing_library.h - what the C++ library of Debian's Emscripten (libc++ 13) lacks of C++20 and our code
+// uses. Every source of the browser's build has it in front; no other build sees it.
 //
-// Rule     Each name means what the standard says of it, for ranges that are containers, arrays or spans. It goes when libc++ has them.
+// Rule     Each name means what the standard says of it, for ranges that are containers, arrays or spans. It goes when
+//          libc++ has them.
 #pragma once
 #ifdef __cplusplus
 #include <algorithm>

@@ -1,8 +1,10 @@
-// tools/web/workbench.cpp - what the page asks of the renderer: scenes, pictures, layers and histories, in JSON and plain arrays.
+// tools/web/workbench.cpp - what the page asks of the renderer: scenes, pictures, layers and histories, in JSON and
+// plain arrays.
 //
-// Rule     A question is an object with "do"; its other fields have the names and meaning of the command's options, so that `strata render`
-//          with the same gives the same digest. The answer is an object, too; one with "error" is a sentence for people. Arrays that
-//          belong to an answer stay where they are until the next question of the same kind.
+// Rule     A question is an object with "do"; its other fields have the names and meaning of the command's options, so
+//          that `strata render` with the same gives the same digest. The answer is an object, too; one with "error" is
+//          a sentence for people. Arrays that belong to an answer stay where they are until the next question of the
+//          same kind.
 // Tests    tools/web/test.sh
 #include <fmt/format.h>
 

@@ -61,8 +61,8 @@ class ChunkReader {
     }
 
   private:
-    // Older exporters did not count the padding of a chunk, or made none. Where only one of the two leads to the file's end or to a BIN
-    // chunk that fits, the file is clear.
+    // Older exporters did not count the padding of a chunk, or made none. Where only one of the two leads to the file's
+    // end or to a BIN chunk that fits, the file is clear.
     std::size_t behind_odd(std::uint32_t length) {
         const std::size_t bare = at_ + chunk_header_size + length, padded = (bare + 3) / 4 * 4;
         const auto leads_on = [&](std::size_t to) {

@@ -1,5 +1,5 @@
-// scenes/gltf/document/faults.h - all faults of a document, not the first alone: a part that is wrong does not keep the others from being
-// looked at.
+// scenes/gltf/document/faults.h - all faults of a document, not the first alone: a part that is wrong does not keep the
+// others from being looked at.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -13,7 +13,8 @@ namespace strata::scenes {
 
 class Faults {
   public:
-    // Runs the check of one part; its fault is kept, and the next part's turn comes. A part that is reached by two ways counts once.
+    // Runs the check of one part; its fault is kept, and the next part's turn comes. A part that is reached by two ways
+    // counts once.
     void collect(auto&& check) {
         try {
             check();

@@ -1,5 +1,5 @@
-// scenes/gltf/document/uri.h - what a uri may lead to: bytes inside the document (data:), or a plain file in the scene's own
-// folder.
+// scenes/gltf/document/uri.h - what a uri may lead to: bytes inside the document (data:), or a plain file in the
+// scene's own folder.
 //
 // Rule     No scheme but data:, no absolute path, no "..", no backslash, no query; what is left is percent-decoded,
 //          links are followed, and the file at their end must be a regular one inside the folder of the scene. data:

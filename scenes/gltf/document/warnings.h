@@ -1,5 +1,5 @@
-// scenes/gltf/document/warnings.h - what a file asks for and does not get: one sentence a feature, with the first place that
-// asks.
+// scenes/gltf/document/warnings.h - what a file asks for and does not get: one sentence a feature, with the first place
+// that asks.
 #pragma once
 #include <map>
 #include <string>

@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/build_case.h - the words in which hard cases are written: corners in pixels, quads, planes, colours.
+// scenes/procedural/hard_cases/build_case.h - the words in which hard cases are written: corners in pixels, quads,
+// planes, colours.
 //
 // Numbers  A corner's clip coordinates are 2 x / width - 1, 1 - 2 y / height and 2 depth - 1, computed in binary64 and
 //          rounded once. Frames have sides that are powers of two, so all three are exact for the pixels and depths

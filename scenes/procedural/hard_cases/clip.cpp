@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/clip.cpp - triangles that leave the view volume: at the eye, near, far, and far beyond the frame.
+// scenes/procedural/hard_cases/clip.cpp - triangles that leave the view volume: at the eye, near, far, and far beyond
+// the frame.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {

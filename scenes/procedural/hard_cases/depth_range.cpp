@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/depth_range.cpp - depths at the ends of a range, and ranges that leave little between them.
+// scenes/procedural/hard_cases/depth_range.cpp - depths at the ends of a range, and ranges that leave little between
+// them.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {

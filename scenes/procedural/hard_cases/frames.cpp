@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/frames.cpp - frames of one pixel, of one row or column, and the largest that the older devices have.
+// scenes/procedural/hard_cases/frames.cpp - frames of one pixel, of one row or column, and the largest that the older
+// devices have.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
@@ -15,8 +16,8 @@ void crossing(CaseScene& scene) {
     add_quad(scene, whole(scene), {0.75, -slope, -slope}, color_of(2));
 }
 
-// A row and a column of pixels through the middle, whose depths rise alike from 1/4 on, and two layers of 8 x 8 pixels in
-// each corner: a frame that is large costs little to check.
+// A row and a column of pixels through the middle, whose depths rise alike from 1/4 on, and two layers of 8 x 8 pixels
+// in each corner: a frame that is large costs little to check.
 void cross_and_corners(CaseScene& scene) {
     const double side = scene.width, middle = side / 2, slope = 0.5 / side;
     add_quad(scene, {0, middle, side, middle + 1}, {0.25, slope, 0}, color_of(1));
@@ -61,7 +62,8 @@ std::span<const HardCase> frame_cases() {
          .height = 1,
          .build = crossing,
          .counts = {32768, 2, 2, 1}},
-        // 2 * 8192 fragments of the cross, and 2 * 64 in each corner. At (4096, 4096) both have depth 1/4 + 4096.5 / 16384.
+        // 2 * 8192 fragments of the cross, and 2 * 64 in each corner. At (4096, 4096) both have depth 1/4 + 4096.5 /
+        // 16384.
         {.name = "frame-8192x8192",
          .hard = "The frame has 67 million pixels; a row, a column and the corners are drawn.",
          .answer = "One layer along the row and the column, which tie where they meet; two in each corner.",

@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/hard_case.h - small scenes on which rasterizers and peels go wrong, each with its right answer.
+// scenes/procedural/hard_cases/hard_case.h - small scenes on which rasterizers and peels go wrong, each with its right
+// answer.
 //
 // Rule     A case is a draw list, a view and a frame. Its corners are the same binary32 numbers on every machine, and
 //          its right answer is counted over exact geometry: positions that are not snapped, planes that are not

@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/inputs.cpp - numbers that no scene should hold: infinite, not a number, or far out of range.
+// scenes/procedural/hard_cases/inputs.cpp - numbers that no scene should hold: infinite, not a number, or far out of
+// range.
 #include <limits>
 
 #include "scenes/procedural/hard_cases/build_case.h"

@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/planes.cpp - planes that nearly coincide, coincide, or cross where a pixel's centre lies.
+// scenes/procedural/hard_cases/planes.cpp - planes that nearly coincide, coincide, or cross where a pixel's centre
+// lies.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {

@@ -1,4 +1,5 @@
-// Coherent layer peeling pass by pass: the paper's Figure 2, its limits of 128 and 255, and how many iterations it takes.
+// Coherent layer peeling pass by pass: the paper's Figure 2, its limits of 128 and 255, and how many iterations it
+// takes.
 #include "peeling/loops/coherent.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
-// Model: the audit of a literal run with memory for everything, whose figures audit_test knows; the sizes of a fragment's lists
-// and of a trace's entries, for the memory that one pixel needs.
+// Model: the audit of a literal run with memory for everything, whose figures audit_test knows; the sizes of a
+// fragment's lists and of a trace's entries, for the memory that one pixel needs.
 #include <atomic>
 #include <catch2/catch.hpp>
 

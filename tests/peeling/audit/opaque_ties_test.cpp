@@ -1,4 +1,5 @@
-// Model: fragments at the very depth of an opaque one of their pixel, as the scene was written: they are counted by hand.
+// Model: fragments at the very depth of an opaque one of their pixel, as the scene was written: they are counted by
+// hand.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -10,8 +11,8 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
 
-// Opaque at depth 0.5 where y is even. Fragments at 0.25, 0.5 and 0.75 of (2, 0), two at 0.5 of (1, 2), and one at 0.5 of (0, 1) and one at
-// the far end of (3, 3), where nothing opaque is.
+// Opaque at depth 0.5 where y is even. Fragments at 0.25, 0.5 and 0.75 of (2, 0), two at 0.5 of (1, 2), and one at 0.5
+// of (0, 1) and one at the far end of (3, 3), where nothing opaque is.
 FragmentScene scene_of_ties() {
     FragmentScene scene{4, 4};
     const Rgba grey{0.5f, 0.5f, 0.5f, 0.5f};

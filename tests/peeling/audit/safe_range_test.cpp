@@ -1,4 +1,5 @@
-// Model: the peel as Everitt 2001 tells it, fragment by fragment: what is nearest of all that lies behind the depth peeled last.
+// Model: the peel as Everitt 2001 tells it, fragment by fragment: what is nearest of all that lies behind the depth
+// peeled last.
 #include "peeling/audit/safe_range.h"
 
 #include <catch2/catch.hpp>
@@ -134,7 +135,8 @@ TEST_CASE("where no epsilon is safe, the named fragments alone exclude each othe
     CHECK(wrong == 0);
 }
 
-// Of D24 codes 20 and 30 with references of 22 and 31: the first hides behind itself from 2 codes on, the second is lost at 11.
+// Of D24 codes 20 and 30 with references of 22 and 31: the first hides behind itself from 2 codes on, the second is
+// lost at 11.
 TEST_CASE("an absolute epsilon is safe between the same two numbers however many pixels ask for it") {
     const std::vector<PathPair> pixel{{0, 0, 20, 22}, {0, 1, 30, 31}};
     std::vector<PathPair> four;

@@ -1,4 +1,5 @@
-// Model: the passes themselves, one depth after the other, fragment by fragment, on the colour targets of color_machine.h.
+// Model: the passes themselves, one depth after the other, fragment by fragment, on the colour targets of
+// color_machine.h.
 #include "peeling/loops/block_passes.h"
 
 #include <bit>

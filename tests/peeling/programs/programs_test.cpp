@@ -1,5 +1,5 @@
-// The lane loops of fragment programs on every instruction set against the scalar loops that define them, bit by bit, and
-// those against the papers' words.
+// The lane loops of fragment programs on every instruction set against the scalar loops that define them, bit by bit,
+// and those against the papers' words.
 #include "peeling/programs/programs.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
-// Models: every sample's channels by TargetStorage::code and the formats' definitions, put in order by std::stable_sort, composited as the
-// header's rule says.
+// Models: every sample's channels by TargetStorage::code and the formats' definitions, put in order by
+// std::stable_sort, composited as the header's rule says.
 #include "peeling/programs/sample_lists.h"
 
 #include <bit>

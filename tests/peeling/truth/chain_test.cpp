@@ -1,5 +1,5 @@
-// Model: the emulated machine itself, whose pictures a chain without exact links, or with exact blending alone, must have to the bit;
-// and a chain whose links are made exact one after the other, which must end at the truth.
+// Model: the emulated machine itself, whose pictures a chain without exact links, or with exact blending alone, must
+// have to the bit; and a chain whose links are made exact one after the other, which must end at the truth.
 #include "peeling/truth/chain.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
-// Panes that cover the frame, at depths and in colours that are constant: every chain, whichever of its links are exact, shows what a
-// plain loop composites from the far end. And the lookups, corners and sides that random scenes do not meet. Model: that loop in long
-// double; formulas of sRGB and of the convention turned round.
+// Panes that cover the frame, at depths and in colours that are constant: every chain, whichever of its links are
+// exact, shows what a plain loop composites from the far end. And the lookups, corners and sides that random scenes do
+// not meet. Model: that loop in long double; formulas of sRGB and of the convention turned round.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// Model: the formulas of the header in long double, with the C library's logarithm; pictures whose SSIM is known by hand.
+// Model: the formulas of the header in long double, with the C library's logarithm; pictures whose SSIM is known by
+// hand.
 #include "peeling/truth/real_error.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,6 @@
-// Model: rational arithmetic from the matrices and positions to the last pixel, in homogeneous coordinates: a pixel's point solves
-// v = b0 v0 + b1 v1 + b2 v2 for the ray through its centre, so nothing is divided by w, clipped or snapped.
+// Model: rational arithmetic from the matrices and positions to the last pixel, in homogeneous coordinates: a pixel's
+// point solves v = b0 v0 + b1 v1 + b2 v2 for the ray through its centre, so nothing is divided by w, clipped or
+// snapped.
 #include "peeling/truth/truth.h"
 
 #include <boost/multiprecision/cpp_int.hpp>

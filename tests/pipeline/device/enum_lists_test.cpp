@@ -1,5 +1,5 @@
-// Names of enums that users read tell their values apart, and every feature can be refused by its own. The names of a profile's choices
-// stand in profile_table_test.cpp.
+// Names of enums that users read tell their values apart, and every feature can be refused by its own. The names of a
+// profile's choices stand in profile_table_test.cpp.
 #include <catch2/catch.hpp>
 #include <set>
 

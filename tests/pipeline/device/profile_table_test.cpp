@@ -1,5 +1,5 @@
-// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe,
-// llvmpipe_sse, softpipe, swiftshader.
+// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal,
+// llvmpipe, llvmpipe_sse, softpipe, swiftshader.
 #include <catch2/catch.hpp>
 #include <string>
 #include <string_view>

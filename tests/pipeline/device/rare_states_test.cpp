@@ -1,5 +1,6 @@
-// States that no algorithm sets: NV2A's signed blends, w buffers without a far plane, profiles that contradict themselves, lookups in
-// rectangles by dot products. Models: integers; matrices multiplied out; the tables, typed a second time.
+// States that no algorithm sets: NV2A's signed blends, w buffers without a far plane, profiles that contradict
+// themselves, lookups in rectangles by dot products. Models: integers; matrices multiplied out; the tables, typed a
+// second time.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/profile_fields.h"

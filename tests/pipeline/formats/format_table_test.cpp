@@ -1,4 +1,5 @@
-// The model: the list of formats typed a second time; an image's codes counted one after the other; a digest of bytes laid out here.
+// The model: the list of formats typed a second time; an image's codes counted one after the other; a digest of bytes
+// laid out here.
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <random>

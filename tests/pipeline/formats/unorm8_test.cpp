@@ -45,7 +45,8 @@ TEST_CASE("product_even rounds 255 x in binary32 first, and its halves to the ev
     Tally tally;
     std::uint64_t unlike_half_up = 0;
     const auto check = [&](float x) {
-        // 255 x has at most 32 bits: exact in binary64; the cast rounds it to binary32, and codes are found by comparison.
+        // 255 x has at most 32 bits: exact in binary64; the cast rounds it to binary32, and codes are found by
+        // comparison.
         const double product = double{static_cast<float>(double{x} * 255.0)};
         int code = 0;
         while (code < 255 && (product > code + 0.5 || (product == code + 0.5 && code % 2 == 1))) ++code;

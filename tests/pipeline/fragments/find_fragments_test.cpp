@@ -209,8 +209,8 @@ struct Ends {
     std::set<std::uint32_t> needed, may;  // what must be visited, and what may
 };
 
-// Of the ends all arrivals, of what lies between one of the least and of the greatest key, and where there is nothing but one key one from
-// outside.
+// Of the ends all arrivals, of what lies between one of the least and of the greatest key, and where there is nothing
+// but one key one from outside.
 template <class IsNear, class IsFar, class IsInside>
 Ends ends_at(const Tile& tile, std::uint32_t p, bool one_outside, const IsInside& is_inside, const IsNear& is_near,
              const IsFar& is_far) {

@@ -1,4 +1,5 @@
-// tests/pipeline/fragments/recorded_fragments.h - the record of some batches, and beside it the same fragments one by one as they came.
+// tests/pipeline/fragments/recorded_fragments.h - the record of some batches, and beside it the same fragments one by
+// one as they came.
 #pragma once
 #include <algorithm>
 #include <memory>

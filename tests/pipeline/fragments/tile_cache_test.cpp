@@ -1,4 +1,5 @@
-// Blends that a cache of tiles keeps in binary32: a model that knows one fragment at a time, and no batches, lists or planes.
+// Blends that a cache of tiles keeps in binary32: a model that knows one fragment at a time, and no batches, lists or
+// planes.
 #include "pipeline/fragments/tile_cache.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::rasterizer::Rect;
 
-// The cache as its pages tell it: 50 places, each with the number of a tile; pixels of tiles that have a place hold a float.
+// The cache as its pages tell it: 50 places, each with the number of a tile; pixels of tiles that have a place hold a
+// float.
 struct FragmentModel {
     int width, height;
     ChannelType type;

@@ -1,5 +1,5 @@
-// What a combiner refuses, sentence by sentence, and the parts of its state that no random stage reaches. Model: the rules' own words,
-// and integers worked out by hand.
+// What a combiner refuses, sentence by sentence, and the parts of its state that no random stage reaches. Model: the
+// rules' own words, and integers worked out by hand.
 #include <catch2/catch.hpp>
 #include <memory>
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// Texture shader stages where a texture's shape, a device's depth or a rule for divides decides. Models: the texel's place by integers,
-// the extension's formulas, and divide rules by neighbours of the quotient.
+// Texture shader stages where a texture's shape, a device's depth or a rule for divides decides. Models: the texel's
+// place by integers, the extension's formulas, and divide rules by neighbours of the quotient.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>

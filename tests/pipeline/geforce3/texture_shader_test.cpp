@@ -184,7 +184,8 @@ TEST_CASE("a dot product multiplies s, t, r with HI, LO and 1, or with red, gree
         const Coordinate c{any_float(random), any_float(random), any_float(random), any_float(random)};
         bench.put(1, c);
         static_cast<void>(bench.run());
-        // Binary32 operations, each by binary64 and one rounding: exact products, and sums of two that round innocuously.
+        // Binary32 operations, each by binary64 and one rounding: exact products, and sums of two that round
+        // innocuously.
         const auto rounded = [](double x) { return static_cast<float>(x); };
         const std::array<float, 3> colour{static_cast<float>(column) / 255.0f, static_cast<float>(line) / 255.0f, 1.0f};
         const std::array<float, 3> pair{static_cast<float>(high) / 65535.0f, static_cast<float>(low) / 65535.0f, 1.0f};

@@ -1,5 +1,5 @@
-// Model: what a step would have left without the change, and with it, in numbers that a reader works out: a few fragments
-// a pixel, MAX and replacement.
+// Model: what a step would have left without the change, and with it, in numbers that a reader works out: a few
+// fragments a pixel, MAX and replacement.
 #include "pipeline/frame/alteration.h"
 
 #include <catch2/catch.hpp>

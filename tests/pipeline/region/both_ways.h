@@ -1,5 +1,5 @@
-// tests/pipeline/region/both_ways.h - one body run literally, which never selects a fragment and never walks a row, and tile by tile:
-// what each leaves in all of its targets, what it counts and reports, or the words with which it refuses.
+// tests/pipeline/region/both_ways.h - one body run literally, which never selects a fragment and never walks a row, and
+// tile by tile: what each leaves in all of its targets, what it counts and reports, or the words with which it refuses.
 #pragma once
 #include <functional>
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// tests/pipeline/region/changed_states.h - one piece of a pass's state after the other, changed: for passes that a fast way may take only
-// while nothing stands in its way.
+// tests/pipeline/region/changed_states.h - one piece of a pass's state after the other, changed: for passes that a fast
+// way may take only while nothing stands in its way.
 #pragma once
 #include <array>
 #include <functional>

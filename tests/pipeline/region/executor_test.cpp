@@ -116,7 +116,8 @@ FrameResult execute(const TestFrame& test, const Body& body, Execution execution
     return run(test.frame, body, execution, 2);
 }
 
-// Replay of the test's tiles, with memory for every fragment, for one byte and for none, equals literal, which is returned.
+// Replay of the test's tiles, with memory for every fragment, for one byte and for none, equals literal, which is
+// returned.
 FrameResult both(const TestFrame& test, const Body& body) {
     FrameResult literal = execute(test, body, Execution::literal);
     constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
@@ -241,7 +242,7 @@ TEST_CASE("a tile whose count is zero and later is not goes on with the frame") 
 }
 
 TEST_CASE("a tile leaves each of several loops by itself, and counts what the frame's loops cost") {
-    // Loop 1 finds slots 0 to 3 and not 4, loop 2 slots 6 and 7 and not 8; tile 3 has nothing, the others less than all.
+    // Loop 1 finds slots 0 to 3 and not 4, loop 2 slots 6 and 7 and not 8; tile 3 has nothing, others less.
     const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0, 6}}, {300, {6, 7}}, {301, {0, 1}}}), "geforce8"};
     const FrameResult result = both(test, loops_from<0, 6>);
     CHECK(result.iterations == 5 + 3);
@@ -253,7 +254,7 @@ TEST_CASE("a tile leaves each of several loops by itself, and counts what the fr
 }
 
 TEST_CASE("a limit cuts the third loop where the frame's passes end, whichever tile left the first two early") {
-    // Slots 0 to 2, 4 to 6 and 8 to 10 hold fragments, in tile 0 alone or in others: four iterations of two passes a loop.
+    // Slots 0 to 2, 4 to 6 and 8 to 10 hold fragments, in tile 0 alone or in others: four iterations of two passes.
     const std::vector<Spot> all{
         {1, {0, 1, 2, 4, 8, 9}}, {28, {0, 4, 5, 6}}, {260, {8}}, {511, {0, 1, 8, 9, 10}}, {300, {4}}};
     std::set<int> iterations;
@@ -294,7 +295,7 @@ TEST_CASE("passes behind a branch's answer are the frame's, whichever tile is id
         return spots({{static_cast<std::size_t>(first), {0}, alpha}, {3, {0, 1, 2, 3, 4}}, {28, {0, 1}}, {300, {0}}});
     };
     for (const int first : {1, 255}) {
-        // Alpha 1 in slot 0 alone, so that every later iteration of every tile takes the same branch: the promise is honest.
+        // Alpha 1 in slot 0 alone: every later iteration of every tile takes the same branch, so the promise holds.
         const TestFrame once{scene(first, 1), "geforce8"};
         const FrameResult found = both(once, branch<Idle::yes>);
         CHECK(found.iterations == 6);

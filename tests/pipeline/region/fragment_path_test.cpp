@@ -19,7 +19,8 @@ using strata::rasterizer::Rect;
 constexpr int width = 16, height = 8;
 constexpr std::uint32_t last_code = 0xffffff;
 
-// s and t of a unit are the window position, y up, moved by (dx, dy) texels; r and q as given by rows of the clip position.
+// s and t of a unit are the window position, y up, moved by (dx, dy) texels; r and q as given by rows of the clip
+// position.
 CoordinateUnit screen_aligned(double dx, double dy, const Plane4& r) {
     CoordinateUnit unit{.enabled = true, .gen = eye_position()};
     unit.matrix = product(translation(dx + width / 2.0, dy + height / 2.0, 0), scaling(width / 2.0, height / 2.0, 1));

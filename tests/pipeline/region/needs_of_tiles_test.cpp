@@ -1,4 +1,5 @@
-// What the passes of one tile have computed, read from their log; which primitives they draw; and what a region's pixels are read back as.
+// What the passes of one tile have computed, read from their log; which primitives they draw; and what a region's
+// pixels are read back as.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <vector>

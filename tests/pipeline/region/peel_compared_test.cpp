@@ -1,5 +1,6 @@
-// Peels by a depth that is not rounded like the stored one, whose fragments may lie behind themselves: passes that go on from the one before,
-// and passes with another bound, surface, target or program. Model: literal execution, which visits every fragment.
+// Peels by a depth that is not rounded like the stored one, whose fragments may lie behind themselves: passes that go
+// on from the one before, and passes with another bound, surface, target or program. Model: literal execution, which
+// visits every fragment.
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/region/both_ways.h"
@@ -12,8 +13,8 @@ namespace {
 
 using namespace pipeline;
 
-// Up to six layers a pixel in any order, one code apart or equal, half of them behind their own code; opaque surfaces at a layer's depth;
-// pixels without any.
+// Up to six layers a pixel in any order, one code apart or equal, half of them behind their own code; opaque surfaces
+// at a layer's depth; pixels without any.
 FragmentScene any_layers(Random& random) {
     FragmentScene made{16, 16};
     for (auto& pixel : made.pixels) {

@@ -1,5 +1,5 @@
-// Peels from both ends whose passes go on from range to range, and peels that do not: another range, another surface, another
-// clear, a pass twice. Model: literal execution, which visits every fragment.
+// Peels from both ends whose passes go on from range to range, and peels that do not: another range, another surface,
+// another clear, a pass twice. Model: literal execution, which visits every fragment.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -13,8 +13,8 @@ namespace {
 
 using namespace pipeline;
 
-// Up to eleven depths a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without any. `rare` depths are
-// 0 or denormal.
+// Up to eleven depths a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without
+// any. `rare` depths are 0 or denormal.
 FragmentScene any_depths(Random& random, bool has_rare) {
     FragmentScene made{16, 16};
     for (auto& pixel : made.pixels) {

@@ -1,4 +1,5 @@
-// Peels whose passes go on from layer to layer, and peels that do not: another bound, another surface, another range, a pass twice. Model: literal execution, which visits every fragment.
+// Peels whose passes go on from layer to layer, and peels that do not: another bound, another surface, another range, a
+// pass twice. Model: literal execution, which visits every fragment.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -12,7 +13,8 @@ namespace {
 
 using namespace pipeline;
 
-// Up to nine layers a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without any.
+// Up to nine layers a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without
+// any.
 FragmentScene any_layers(Random& random) {
     FragmentScene made{16, 16};
     for (auto& pixel : made.pixels) {
@@ -164,7 +166,8 @@ TEST_CASE("passes of a peel leave what visiting everything does, whatever their 
         const FragmentScene scene = any_layers(random);
         const Walk walk = random_walk(random);
         const auto format = std::array{DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16}[round % 3];
-        // Tiles of 8 x 8 pixels with some three hundred fragments: the least of these memories holds them, and not what is sorted.
+        // Tiles of 8 x 8 pixels with some three hundred fragments: the least of these memories holds them, and not what
+        // is sorted.
         const std::uint64_t bytes = std::array{1u << 20, 1u << 20, 12'000u}[static_cast<std::size_t>(round / 3 % 3)];
         INFO("round " << round << ", format " << static_cast<int>(format) << ", bytes " << bytes);
         REQUIRE(difference_of_walk(walk, scene, format, bytes) == "");

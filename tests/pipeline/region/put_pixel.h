@@ -7,7 +7,8 @@
 
 namespace strata::testing {
 
-// `put(out, i)` says what fragment i of a quad over the whole frame leaves; the frame keeps that of one pixel, in whichever region it lies.
+// `put(out, i)` says what fragment i of a quad over the whole frame leaves; the frame keeps that of one pixel, in
+// whichever region it lies.
 template <class Put>
 void put_pixel(pipeline::Region& region, const pipeline::PassState& state, int x, int y, const Put& put) {
     using namespace pipeline;

@@ -1,4 +1,5 @@
-// tests/pipeline/region/random_walk.h - peels that go on as they began but for a few passes, in which something is different.
+// tests/pipeline/region/random_walk.h - peels that go on as they began but for a few passes, in which something is
+// different.
 #pragma once
 #include <cstdint>
 #include <vector>

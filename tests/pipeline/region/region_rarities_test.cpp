@@ -1,5 +1,6 @@
-// What regions are seldom asked for: broken passes by their sentences, images of several samples and channels, observers and alterations
-// that listen to one thing alone, blank tiles that report. Models: the sentences; codes by place; counts by hand.
+// What regions are seldom asked for: broken passes by their sentences, images of several samples and channels,
+// observers and alterations that listen to one thing alone, blank tiles that report. Models: the sentences; codes by
+// place; counts by hand.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/check.h"

@@ -1,5 +1,5 @@
-// Passes that rows can draw, depth alone and sums of halves, and the same passes with one piece of their state changed. Model: literal
-// execution, which never walks a row.
+// Passes that rows can draw, depth alone and sums of halves, and the same passes with one piece of their state changed.
+// Model: literal execution, which never walks a row.
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/region/both_ways.h"

@@ -1,5 +1,5 @@
-// A pass that selects fragments, and the same pass with one piece of its state changed: the selection's promise then holds no longer, or
-// of other stages. Model: literal execution, which visits every fragment.
+// A pass that selects fragments, and the same pass with one piece of its state changed: the selection's promise then
+// holds no longer, or of other stages. Model: literal execution, which visits every fragment.
 #include <catch2/catch.hpp>
 
 #include "pipeline/frame/selection.h"
@@ -73,8 +73,8 @@ const std::vector<Stage> stages{
      .writes_registers = true},
 };
 
-// The window of every stage: keys from `least` on, before the opaque surface. MAX of (-z, z) and registers let what lies outside
-// of it write what changes nothing.
+// The window of every stage: keys from `least` on, before the opaque surface. MAX of (-z, z) and registers let what
+// lies outside of it write what changes nothing.
 struct StageProgram {
     const Stage& stage;
     DepthKey key;

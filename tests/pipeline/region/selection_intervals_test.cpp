@@ -1,5 +1,6 @@
-// Selections by every kind of bound, alone and two at a time, on every depth format; and by the compared depth where the stored one
-// differs. Models: the interval as selection.h says it, fragment by fragment, in the pass's own program; literal execution.
+// Selections by every kind of bound, alone and two at a time, on every depth format; and by the compared depth where
+// the stored one differs. Models: the interval as selection.h says it, fragment by fragment, in the pass's own program;
+// literal execution.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -40,7 +41,8 @@ const FragmentScene& window_scene() {
     return scene;
 }
 
-// A value of a pixel: of its place alone, whatever the tile. Bounds of values also are NaN, negative, above 1 and between two codes.
+// A value of a pixel: of its place alone, whatever the tile. Bounds of values also are NaN, negative, above 1 and
+// between two codes.
 std::uint32_t hashed(std::uint16_t x, std::uint16_t y, std::uint32_t salt) {
     std::uint32_t h = (x * 73856093u) ^ (y * 19349663u) ^ (salt * 83492791u);
     h ^= h >> 13;

@@ -1,4 +1,5 @@
-// Surfaces: what is written, drawn and tested on each format. Model: integers worked out by hand, a pixel's place by its row and column.
+// Surfaces: what is written, drawn and tested on each format. Model: integers worked out by hand, a pixel's place by
+// its row and column.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/check.h"

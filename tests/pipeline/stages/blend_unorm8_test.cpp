@@ -68,7 +68,8 @@ TEST_CASE("each_product rounds s F and d G by themselves, for all pairs of codes
     CHECK(unlike_exact == 24);
 }
 
-// Operation by operation: a product or sum of binary32 that is rounded twice, to binary64 and to binary32, is rounded once.
+// Operation by operation: a product or sum of binary32 that is rounded twice, to binary64 and to binary32, is rounded
+// once.
 TEST_CASE(
     "unrounded_source blends the clamped source with the values of codes in binary32, and rounds to a code at the "
     "end") {

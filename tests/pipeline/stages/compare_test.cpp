@@ -1,4 +1,5 @@
-// The model: the table of GL 2.1 4.1.4 as sets of outcomes (stage_values.h), and a float's neighbours counted by their bits.
+// The model: the table of GL 2.1 4.1.4 as sets of outcomes (stage_values.h), and a float's neighbours counted by their
+// bits.
 #include "pipeline/device/compare.h"
 
 #include <catch2/catch.hpp>

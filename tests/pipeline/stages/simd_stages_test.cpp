@@ -36,7 +36,8 @@ int any_count(Random& random) { return counts[below(random, counts.size())]; }
 
 constexpr std::size_t plane_pixels = 300;
 
-// Distinct pixels: one run, runs of some length with gaps between them, up to the last pixel of the plane with a few missing, or any order.
+// Distinct pixels: one run, runs of some length with gaps between them, up to the last pixel of the plane with a few
+// missing, or any order.
 CodeLanes any_pixels(Random& random) {
     CodeLanes pixel{};
     const std::uint32_t kind = below(random, 5), start = below(random, 45), run = 1 + below(random, 40);

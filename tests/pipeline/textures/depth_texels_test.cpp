@@ -1,4 +1,5 @@
-// The model: texel (column, row) of a texture whose codes tell where they are; a lookup outside what is held finds nothing.
+// The model: texel (column, row) of a texture whose codes tell where they are; a lookup outside what is held finds
+// nothing.
 #include "pipeline/textures/depth_texels.h"
 
 #include <catch2/catch.hpp>

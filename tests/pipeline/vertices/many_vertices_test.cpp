@@ -1,4 +1,5 @@
-// The model: each vertex and triangle of a mesh in a list of its own. Lists are transformed in chunks and in groups of sixteen.
+// The model: each vertex and triangle of a mesh in a list of its own. Lists are transformed in chunks and in groups of
+// sixteen.
 #include <bit>
 #include <catch2/catch.hpp>
 

@@ -81,8 +81,8 @@ TEST_CASE("rotating names each triangle's corners in another order and leaves ev
     }
 }
 
-// A quad of sides 1000, 499, 1 and 500 whose last corner lies 7e-4 off the plane: 2^-20 of the first side is 9.5e-4, of any other less
-// than 4.8e-4.
+// A quad of sides 1000, 499, 1 and 500 whose last corner lies 7e-4 off the plane: 2^-20 of the first side is 9.5e-4, of
+// any other less than 4.8e-4.
 TEST_CASE("how far a corner may lie off the plane goes by the longest of all four sides") {
     DrawList list = flat_grid(1);
     list.meshes[0].positions = {{0, 0, 0}, {1000, 0, 0}, {501, 1, 0}, {500, 1, 7e-4f}};

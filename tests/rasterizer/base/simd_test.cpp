@@ -1,4 +1,5 @@
-// Model: none of its own. The kernels are held to their scalar reference where they live; here stands what a choice means.
+// Model: none of its own. The kernels are held to their scalar reference where they live; here stands what a choice
+// means.
 #include "rasterizer/base/simd.h"
 
 #include <algorithm>

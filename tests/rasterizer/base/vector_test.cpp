@@ -1,6 +1,6 @@
-// The vectors are storage: what the language says of overloads decides which expressions exist at all, so most of this file is
-// checked while it is compiled. The arithmetic's model is integers, for which every order of operations is exact, and one sum
-// whose order shows.
+// The vectors are storage: what the language says of overloads decides which expressions exist at all, so most of this
+// file is checked while it is compiled. The arithmetic's model is integers, for which every order of operations is
+// exact, and one sum whose order shows.
 #include "rasterizer/base/vector.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The model: the rule for unequal w of color_weights.h over rationals, every rounding to 53 bits and every cut written out.
+// The model: the rule for unequal w of color_weights.h over rationals, every rounding to 53 bits and every cut written
+// out.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/chip/color_weights.h"
@@ -152,7 +153,8 @@ TEST_CASE(
 
 TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by any rule for products",
           "[slow]") {
-    // Edge values whose products with 1/w are k / 256 of their sum, the sum being `odd` times a power of two: r is inexact.
+    // Edge values whose products with 1/w are k / 256 of their sum, the sum being `odd` times a power of two: r is
+    // inexact.
     std::uint64_t wrong = 0, cases = 0, unlike = 0, not_whole = 0;
     for (const std::int64_t odd : {3, 7, 13, 1021, 65537})
         for (const auto& inverse_w :
@@ -187,8 +189,9 @@ TEST_CASE("weights that end on a 256th or a hair beside it fall on their own sid
     CHECK(not_whole > cases / 20);
 }
 
-// The upper side of Depth_buffer_fixed_function's wide quad (chip-geometry.md 5.4) goes through pixel centres between two corners of
-// w = 135.666...; every third pixel has a whole 256 b. The chip's picture has these codes of green and blue there.
+// The upper side of Depth_buffer_fixed_function's wide quad (chip-geometry.md 5.4) goes through pixel centres between
+// two corners of w = 135.666...; every third pixel has a whole 256 b. The chip's picture has these codes of green and
+// blue there.
 TEST_CASE("weights that are whole on a side of one w come out as the chip's picture has them") {
     const std::array<float, 3> w{386.0f / 3.0f + 7.0f, 386.0f / 3.0f + 7.0f, 200.0f};
     const std::array<float, 3> inverse{1.0f / w[0], 1.0f / w[1], 1.0f / w[2]};

@@ -1,5 +1,5 @@
-// The model: the spans of mesa-rasterizers.md 3.1 and 3.2 over rationals, each operation rounded to binary32 by definition, pixel by
-// pixel.
+// The model: the spans of mesa-rasterizers.md 3.1 and 3.2 over rationals, each operation rounded to binary32 by
+// definition, pixel by pixel.
 #include "rasterizer/coverage/float_spans.h"
 
 #include <catch2/catch.hpp>

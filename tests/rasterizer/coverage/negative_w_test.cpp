@@ -1,5 +1,6 @@
-// The model: a pixel belongs to a triangle if at its centre the edge value over every corner has the sign of that corner's w,
-// the area being positive; a centre on a side counts as its tie rule says, and the other way where w is negative.
+// The model: a pixel belongs to a triangle if at its centre the edge value over every corner has the sign of that
+// corner's w, the area being positive; a centre on a side counts as its tie rule says, and the other way where w is
+// negative.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>

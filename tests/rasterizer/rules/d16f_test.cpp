@@ -1,4 +1,5 @@
-// The model: a code has 4 bits of exponent e and 12 of mantissa m; its value is 2^(e - 7) (1 + m / 4096), over rationals; e = 0 is 0.
+// The model: a code has 4 bits of exponent e and 12 of mantissa m; its value is 2^(e - 7) (1 + m / 4096), over
+// rationals; e = 0 is 0.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <limits>

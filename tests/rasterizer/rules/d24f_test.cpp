@@ -1,5 +1,5 @@
-// The model: a code has 8 bits of exponent e and 16 of mantissa m; its value is 2^(e - 127) (1 + m / 65536) over rationals; e = 0 is
-// 0.
+// The model: a code has 8 bits of exponent e and 16 of mantissa m; its value is 2^(e - 127) (1 + m / 65536) over
+// rationals; e = 0 is 0.
 #include <catch2/catch.hpp>
 #include <limits>
 

@@ -1,5 +1,5 @@
-// The model: a triangle belongs to a tile's list if its box of pixels reaches into the tile and, for one that is not small, every
-// side takes some pixel centre of the tile; each centre is looked at by itself.
+// The model: a triangle belongs to a tile's list if its box of pixels reaches into the tile and, for one that is not
+// small, every side takes some pixel centre of the tile; each centre is looked at by itself.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <vector>

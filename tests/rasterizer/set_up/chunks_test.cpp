@@ -1,4 +1,5 @@
-// The model: each triangle set up alone. Set-up takes vertices and triangles in chunks, and chunks of clipped triangles make vertices.
+// The model: each triangle set up alone. Set-up takes vertices and triangles in chunks, and chunks of clipped triangles
+// make vertices.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/set_up/geometry.h"

@@ -100,8 +100,8 @@ TEST_CASE("no fragment of a sliver lies behind the bound of a plane that is step
     CHECK(tally.drawn > 300);
 }
 
-// Corners at 0, 2000 and 4000 on a diagonal, the last a subpixel beside it: an area of 7.8 of products of 8,000,000 may be off by all of
-// itself in binary32, and so may the slope.
+// Corners at 0, 2000 and 4000 on a diagonal, the last a subpixel beside it: an area of 7.8 of products of 8,000,000 may
+// be off by all of itself in binary32, and so may the slope.
 TEST_CASE("a sliver whose area binary32 does not know has no bound") {
     const std::uint32_t only = 0;
     for (const int beside : {1, 4000}) {

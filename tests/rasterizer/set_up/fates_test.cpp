@@ -1,4 +1,5 @@
-// The model: a triangle's fate by definition, from its own vertices; the general way of set-up against the one for small triangles.
+// The model: a triangle's fate by definition, from its own vertices; the general way of set-up against the one for
+// small triangles.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <set>

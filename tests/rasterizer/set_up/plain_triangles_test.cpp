@@ -1,4 +1,5 @@
-// The model: set-up of one triangle after the other by the scalar reference, and edge functions in 64 bits at every centre of a box.
+// The model: set-up of one triangle after the other by the scalar reference, and edge functions in 64 bits at every
+// centre of a box.
 #include "rasterizer/set_up/plain_triangles.h"
 
 #include <catch2/catch.hpp>

@@ -194,8 +194,8 @@ TEST_CASE("set-up adds a triangle's offset to the depth of its three corners, an
 
 namespace {
 
-// A triangle in clip space (w is 1) and its offset in a frame of 64 x 64 pixels, a pixel, and the bits of the depths that softpipe,
-// llvmpipe and llvmpipe without fused multiply-add stored there in D32F.
+// A triangle in clip space (w is 1) and its offset in a frame of 64 x 64 pixels, a pixel, and the bits of the depths
+// that softpipe, llvmpipe and llvmpipe without fused multiply-add stored there in D32F.
 struct DrawnOffset {
     std::array<std::array<float, 3>, 3> corner;
     PolygonOffset offset;

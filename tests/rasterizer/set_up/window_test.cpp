@@ -106,7 +106,8 @@ TEST_CASE("half a pixel is taken off before the rounding, and y is measured from
 }
 
 TEST_CASE("half a pixel taken off first decides a position that rounds to the middle of two subpixels after it only") {
-    // Above 1024 the unit in the last place is 2^-13: 1024 + 3/32 - 2^-14 rounds up to a tie of sixteenths. Below it there is room.
+    // Above 1024 the unit in the last place is 2^-13: 1024 + 3/32 - 2^-14 rounds up to a tie of sixteenths. Below it
+    // there is room.
     const RasterState state = state_of({960, 0, 1088, 64});
     const auto snapped = [&](float x, ViewportArithmetic arithmetic) {
         const WindowTransform window{state, {.subpixel_bits = 4, .viewport = arithmetic}};

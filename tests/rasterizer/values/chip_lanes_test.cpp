@@ -1,5 +1,6 @@
-// The kernels of the chip's interpolators hand out what its definitions do. The model is the scalar set, which runs the definitions'
-// own text; window_z_test, color_weights_test and cut_coordinates_test prove that text by rationals and captures.
+// The kernels of the chip's interpolators hand out what its definitions do. The model is the scalar set, which runs the
+// definitions' own text; window_z_test, color_weights_test and cut_coordinates_test prove that text by rationals and
+// captures.
 #include "rasterizer/values/chip_lanes.h"
 
 #include <bit>

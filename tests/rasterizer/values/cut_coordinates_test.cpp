@@ -78,8 +78,8 @@ TEST_CASE("texture coordinates are three terms cut to a common unit, by weights 
     CHECK(wrong == 0);
 }
 
-// 640 x 480 pixels, 256 x 256 texels, as the captures' checkerboards: row 15 k has t = 8 k. The corner of t = 256 that is not in
-// the base takes the remainder or comes out low.
+// 640 x 480 pixels, 256 x 256 texels, as the captures' checkerboards: row 15 k has t = 8 k. The corner of t = 256 that
+// is not in the base takes the remainder or comes out low.
 TEST_CASE("a whole coordinate comes out a hair below itself where another vertex takes the remainder, as on the chip") {
     const std::array<SubpixelPoint, 3> upper_right{{{8, 8}, {10248, 8}, {10248, 7688}}};
     const std::array<float, 3> t{0, 0, 256};

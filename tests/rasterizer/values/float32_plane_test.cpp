@@ -85,7 +85,8 @@ namespace {
     return m;
 }
 
-// The share of fragments whose code changes when `change` is done to every triangle, which then lies `shift` pixels off.
+// The share of fragments whose code changes when `change` is done to every triangle, which then lies `shift` pixels
+// off.
 template <class Change>
 [[nodiscard]] double changed_share(DepthPath path, PlaneAnchor anchor, int shift, const Change& change) {
     constexpr int bits = 8;

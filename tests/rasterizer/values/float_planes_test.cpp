@@ -177,7 +177,8 @@ TEST_CASE("a fused multiply-add is the host's std::fma, to the bit") {
     CHECK(unfused > 1000);
 }
 
-// 1 + 2^-23 + 2^-24 -+ 2^-60: binary64 holds the middle of two binary32 alone, so what is left over decides, up or down.
+// 1 + 2^-23 + 2^-24 -+ 2^-60: binary64 holds the middle of two binary32 alone, so what is left over decides, up or
+// down.
 TEST_CASE("a fused multiply-add a hair beside the middle of two numbers goes to its own side, whatever the signs") {
     const float least = 1.0f + 0x1p-23f, next = 1.0f + 0x1p-22f;
     const float below = 1.0f - 0x1p-18f, above = 0x1p-24f * (1.0f + 0x1p-18f);  // their product: 2^-24 - 2^-60
@@ -191,8 +192,8 @@ TEST_CASE("a fused multiply-add a hair beside the middle of two numbers goes to 
     CHECK(fused_multiply_add(up, above, least) == next);
 }
 
-// 8815417 * 15964927 = 2^47 + 2^19 - 57. The sum 1 + 2^-24 + 2^-52 - 57 * 2^-71 rounds to an odd binary64 above the middle of two
-// binary32, and stays there: one step down it would be that middle, which goes to 1.
+// 8815417 * 15964927 = 2^47 + 2^19 - 57. The sum 1 + 2^-24 + 2^-52 - 57 * 2^-71 rounds to an odd binary64 above the
+// middle of two binary32, and stays there: one step down it would be that middle, which goes to 1.
 TEST_CASE("a fused multiply-add leaves a sum that is odd already where it is") {
     const float a = 8815417 * 0x1p-24f, b = 15964927 * 0x1p-47f;
     CHECK(fused_multiply_add(a, b, 1.0f) == 1.0f + 0x1p-23f);

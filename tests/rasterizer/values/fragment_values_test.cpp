@@ -115,7 +115,8 @@ TEST_CASE("three equal vertex values are that constant, whatever w does") {
     CHECK(wrong == 0);
 }
 
-// Red grows by one unit in the last place a pixel, so that every pixel's centre is half way between two numbers; green grows by two.
+// Red grows by one unit in the last place a pixel, so that every pixel's centre is half way between two numbers; green
+// grows by two.
 TEST_CASE("a value half way between two numbers is decided exactly once a fragment, one that is a number is not") {
     SetupTriangle t = window_triangle({{{0, 0}, {16 << 8, 0}, {0, 16 << 8}}}, 8);
     for (std::size_t i = 0; i < 3; ++i) t.attribute[i] = {1, 1, 1, 1, 0, 0};

@@ -9,8 +9,8 @@
 
 using namespace strata::rasterizer;
 
-// Of the last vector of 65 to 80 pixels all lie in row 5 but the last pixel, in row 6; the lanes behind them still say row 5. The
-// weights by themselves are what the kernel `weights` gives pixel by pixel.
+// Of the last vector of 65 to 80 pixels all lie in row 5 but the last pixel, in row 6; the lanes behind them still say
+// row 5. The weights by themselves are what the kernel `weights` gives pixel by pixel.
 TEST_CASE("a vector that the batch fills in part is not taken for a row by what its other lanes hold") {
     const Geometry geometry =
         window_geometry({window_triangle({{{3, 7}, {30000, 900}, {500, 28000}}}, 8, {0.125, 0.5, 0.75})}, 128, 128, {});

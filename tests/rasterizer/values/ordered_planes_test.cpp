@@ -1,4 +1,5 @@
-// The model: swiftshader-rasterizer.md 1.1, 1.4 and 2 from the vertices that were given, each operation a rational rounded once.
+// The model: swiftshader-rasterizer.md 1.1, 1.4 and 2 from the vertices that were given, each operation a rational
+// rounded once.
 #include "rasterizer/values/ordered_planes.h"
 
 #include <bit>

@@ -1,5 +1,5 @@
-// tests/rasterizer/values/quotient_triangles.h - random triangles whose depth is a quotient r / q of vertex values, as window
-// geometry.
+// tests/rasterizer/values/quotient_triangles.h - random triangles whose depth is a quotient r / q of vertex values, as
+// window geometry.
 #pragma once
 #include "rasterizer/values/depth_paths.h"
 #include "tests/rasterizer/rational.h"

@@ -1,5 +1,6 @@
-// Values that random triangles hardly meet: edge values outside of a triangle and beyond 2^34, areas beyond 2^36, terms of depth that no
-// sum can see, infinities and NaN. Models: rationals cut by the rules (rational.h); corners at which only one term is left.
+// Values that random triangles hardly meet: edge values outside of a triangle and beyond 2^34, areas beyond 2^36, terms
+// of depth that no sum can see, infinities and NaN. Models: rationals cut by the rules (rational.h); corners at which
+// only one term is left.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/nv20_arithmetic.h"

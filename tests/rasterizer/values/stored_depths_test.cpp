@@ -1,5 +1,5 @@
-// The model: a value that another draw hands out unrounded (reference_z, shader_z) or that rationals give, clamped to the depth range
-// and converted by the format's definition.
+// The model: a value that another draw hands out unrounded (reference_z, shader_z) or that rationals give, clamped to
+// the depth range and converted by the format's definition.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/values/fragment_values.h"

@@ -1,4 +1,5 @@
-// When rows may stand for batches, at the limits; and that they do there. Model: the scalar reference's batches and a plain loop.
+// When rows may stand for batches, at the limits; and that they do there. Model: the scalar reference's batches and a
+// plain loop.
 #include <catch2/catch.hpp>
 #include <vector>
 

@@ -1,5 +1,5 @@
-// A pass that draws rows leaves what fragments leave that are tested one after the other. The model is the batches of the
-// scalar reference and a plain loop over them.
+// A pass that draws rows leaves what fragments leave that are tested one after the other. The model is the batches of
+// the scalar reference and a plain loop over them.
 #include "rasterizer/walk/rows.h"
 
 #include <catch2/catch.hpp>

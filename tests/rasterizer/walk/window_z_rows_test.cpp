@@ -1,5 +1,6 @@
-// Rows of the chip's window z leave what fragments leave that are tested one after the other. The model is the batches of the scalar set,
-// which are WindowZ24's own text, and a plain loop over them; window_z_test proves that text by rationals.
+// Rows of the chip's window z leave what fragments leave that are tested one after the other. The model is the batches
+// of the scalar set, which are WindowZ24's own text, and a plain loop over them; window_z_test proves that text by
+// rationals.
 #include <catch2/catch.hpp>
 #include <vector>
 

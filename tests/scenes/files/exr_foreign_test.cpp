@@ -1,4 +1,5 @@
-// Files that other programs write: OpenImageIO and OpenEXR themselves write them here, of numbers that say their own place.
+// Files that other programs write: OpenImageIO and OpenEXR themselves write them here, of numbers that say their own
+// place.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>

@@ -1,4 +1,5 @@
-// zlib has no memory for a block: its two functions that OpenEXR calls are this program's here, which fail when a test says so.
+// zlib has no memory for a block: its two functions that OpenEXR calls are this program's here, which fail when a test
+// says so.
 #include <dlfcn.h>
 #include <zlib.h>
 

@@ -1,4 +1,5 @@
-// Model: the chunks of a PNG by ISO/IEC 15948, its check sums bit by bit, and its rows unpacked by zlib and unfiltered by 9.2.
+// Model: the chunks of a PNG by ISO/IEC 15948, its check sums bit by bit, and its rows unpacked by zlib and unfiltered
+// by 9.2.
 #include "scenes/images/png_encode.h"
 
 #include <zlib.h>

@@ -1,5 +1,5 @@
-// Model: glTF 2.0's table of sizes (3.6.2.4, with its alignment of matrix columns) and its formulas of 3.6.2.2; a quotient is
-// right if no neighbouring binary32 is nearer, which integers tell.
+// Model: glTF 2.0's table of sizes (3.6.2.4, with its alignment of matrix columns) and its formulas of 3.6.2.2; a
+// quotient is right if no neighbouring binary32 is nearer, which integers tell.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,5 @@
-// Model: plain arrays, filled by a loop, for every type of component at every stride and offset; limits met to the element.
+// Model: plain arrays, filled by a loop, for every type of component at every stride and offset; limits met to the
+// element.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
@@ -27,7 +28,8 @@ struct Layout {
     std::size_t stride, view_offset, offset, count;
 };
 
-// `count` positions of component T behind `offset` bytes, `stride` bytes apart (0: none is written); noise between them.
+// `count` positions of component T behind `offset` bytes, `stride` bytes apart (0: none is written); noise between
+// them.
 template <class T>
 Positions loaded(Component component, const Layout& layout, Positions& expected, std::mt19937& random) {
     const std::size_t step = layout.stride == 0 ? 3 * sizeof(T) : layout.stride;

@@ -1,4 +1,5 @@
-// Model: the rule of shadow_demo.h: planes and directions by their equations, what the light sees by projecting every vertex.
+// Model: the rule of shadow_demo.h: planes and directions by their equations, what the light sees by projecting every
+// vertex.
 #include "scenes/procedural/shadow_demo.h"
 
 #include <catch2/catch.hpp>

@@ -42,9 +42,9 @@ TEST_CASE("the teapot is as large as the published table says, stands upright an
 }
 
 TEST_CASE("neighbouring patches of the body, lid and bottom meet without cracks") {
-    // An edge is the set of its two ends, equal if all their coordinates are. Two triangles share it, save on the rims of body and
-    // lid (four patches each) and at both ends of handle and spout (two patches each): 4 + 4 + 2 * 2 + 2 * 2 = 16 rows
-    // of n open edges.
+    // An edge is the set of its two ends, equal if all their coordinates are. Two triangles share it, save on the rims
+    // of body and lid (four patches each) and at both ends of handle and spout (two patches each): 4 + 4 + 2 * 2 + 2 *
+    // 2 = 16 rows of n open edges.
     for (const int n : {4, 7, 16}) {
         const Mesh pot = make_teapot({}, n).list.meshes[0];
         std::map<std::set<Point>, int> edges;

@@ -1,4 +1,5 @@
-// The model: rational arithmetic over the corners (tests/support/exact_fragments.h), which shares no function with the code.
+// The model: rational arithmetic over the corners (tests/support/exact_fragments.h), which shares no function with the
+// code.
 #include "tools/lab/hard_cases/hard_exact.h"
 
 #include <algorithm>
@@ -93,8 +94,8 @@ TEST_CASE("no movement changes the rational answer at a pixel that is not open t
     CHECK(changed_open > 100);
 }
 
-// Two planes near depth 9/10, whose distance grows by 2^-23 from column to column on both sides of the middle: a movement
-// by 2^-20 of a depth reorders some columns there.
+// Two planes near depth 9/10, whose distance grows by 2^-23 from column to column on both sides of the middle: a
+// movement by 2^-20 of a depth reorders some columns there.
 TEST_CASE("a movement reorders planes only where the pixels are open to it, and reorders some") {
     const scenes::HardCase close{.name = "close",
                                  .hard = "",

@@ -1,5 +1,5 @@
-// The model: rasterizers made here whose faults are known: one that is the exact answer itself, and one whose planes are
-// binary32 numbers, anchored at the window's corner or at the triangle's own.
+// The model: rasterizers made here whose faults are known: one that is the exact answer itself, and one whose planes
+// are binary32 numbers, anchored at the window's corner or at the triangle's own.
 #include "tools/lab/hard_cases/hard_stability.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// tests/tools/hardware_check/archive_names.h - every name that the test suite on the chip can give its pictures, made as its
-// programs make them (abaire/nxdk_pgraph_tests, MIT), and what is said of each: drawn, or not modelled for a reason.
+// tests/tools/hardware_check/archive_names.h - every name that the test suite on the chip can give its pictures, made
+// as its programs make them (abaire/nxdk_pgraph_tests, MIT), and what is said of each: drawn, or not modelled for a
+// reason.
 #pragma once
 #include <cstdint>
 #include <string>

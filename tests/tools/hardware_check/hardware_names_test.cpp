@@ -1,5 +1,5 @@
-// What is said of every name of the archive, and what is drawn for it. A profile without any depth format is refused by every
-// surface, after the name is understood and before anything is drawn.
+// What is said of every name of the archive, and what is drawn for it. A profile without any depth format is refused by
+// every surface, after the name is understood and before anything is drawn.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/check.h"

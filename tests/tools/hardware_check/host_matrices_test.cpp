@@ -60,8 +60,8 @@ TEST_CASE("a view's axes are orthonormal, and its eye becomes the origin") {
     CHECK(view[2][2] > 0);  // the point ahead lies at positive z
 }
 
-// ProjAdjacentGeometry_0.5625: corners asked for 9/16 past a pixel come back beside that step of 1/16 pixel. Its columns and rows
-// say on which side, at world z 10 and 0 (chip-geometry.md 1.3).
+// ProjAdjacentGeometry_0.5625: corners asked for 9/16 past a pixel come back beside that step of 1/16 pixel. Its
+// columns and rows say on which side, at world z 10 and 0 (chip-geometry.md 1.3).
 TEST_CASE("points that the host un-projects come back on the side of a sixteenth that the chip shows") {
     const HostCamera camera = default_camera(65535.0f);
     const CompositeMatrix view = columns_of(look_at({0, 0, -7}, {0, 0, 0})),
@@ -106,8 +106,8 @@ TEST_CASE("a window point goes to the world and back, near where it was") {
     CHECK(again[2] == Approx(45).margin(0.1));  // of 65535
 }
 
-// The test makes the buffer a float one behind the back of what builds its matrices, which keep the scale of fixed depth: of 16-bit
-// floats every word of the floor is the greatest one, as the chip's are.
+// The test makes the buffer a float one behind the back of what builds its matrices, which keep the scale of fixed
+// depth: of 16-bit floats every word of the floor is the greatest one, as the chip's are.
 TEST_CASE("behind the fixed pipeline a float buffer holds depths of the fixed buffer's scale") {
     const auto picture = [](const char* name) {
         return *find_suite("W_buffering")->draw(name, *strata::pipeline::find_profile("geforce3")).picture;

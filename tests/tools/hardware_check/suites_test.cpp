@@ -1,6 +1,6 @@
-// The geforce3 profile against pictures of silicon: hardware_digests.txt holds, of every capture that is reproduced, the digest of
-// its pixels outside the box round its labels (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0). `strata hardware-check DIR
-// --digests` made it; the pictures themselves are not needed.
+// The geforce3 profile against pictures of silicon: hardware_digests.txt holds, of every capture that is reproduced,
+// the digest of its pixels outside the box round its labels (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0). `strata
+// hardware-check DIR --digests` made it; the pictures themselves are not needed.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
@@ -94,8 +94,9 @@ TEST_CASE(
     CHECK(digest_with(shadow, unquantized) != digest_with(shadow, geforce3()));
 }
 
-// Words at the left column of quads whose weights are exact there, as captures of the NV2A hold them, and world z as the test
-// suite steps it. Exact arithmetic gives 4 for the first, and 16633061, 16726379, 16746512 where the reciprocal's last bits show.
+// Words at the left column of quads whose weights are exact there, as captures of the NV2A hold them, and world z as
+// the test suite steps it. Exact arithmetic gives 4 for the first, and 16633061, 16726379, 16746512 where the
+// reciprocal's last bits show.
 TEST_CASE("window depths of the fixed pipeline are the words that the chip stored") {
     constexpr std::pair<float, int> at_24_bits[] = {{-6.0f, 8},
                                                     {-5.393292427062988f, 6367072},
@@ -107,7 +108,8 @@ TEST_CASE("window depths of the fixed pipeline are the words that the chip store
     for (const auto& [z, word] : at_24_bits) CHECK(static_cast<int>(chip_window_z(z, 16777215.0f)) == word);
 }
 
-// The texels of this picture differ from the chip's where a coordinate lies exactly on a cell's edge, so the list above lacks it.
+// The texels of this picture differ from the chip's where a coordinate lies exactly on a cell's edge, so the list above
+// lacks it.
 TEST_CASE("a square with a corner of w = -infinity covers the chip's pixels") {
     const Row row{"W_param", "prog_w_zero_inf__bitri_w-inf", "db40237f2459e2ebc4fd910187e4c6f7", {20, 25, 407, 416}};
     Drawing drawing = draw(*find_suite(row.suite), row.picture, geforce3(), textures);

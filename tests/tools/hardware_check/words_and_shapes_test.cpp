@@ -1,4 +1,5 @@
-// Model: tables of OpenGL's words typed a second time, vertices in the order of a GeForce3's QUADS, texels by their own bits.
+// Model: tables of OpenGL's words typed a second time, vertices in the order of a GeForce3's QUADS, texels by their own
+// bits.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -253,8 +254,8 @@ TEST_CASE("the test suite's camera puts world points where its matrix does") {
     CHECK(window_z(-6, 65535) == 0);
     CHECK(window_z(193, 65535) == Approx(65535).epsilon(1e-12));
     CHECK(window_z(0, 199) == Approx(200 * (1 - 1 / 7.0)));
-    // A floor's corners, by a camera that looks down by three in seven: the chip's words put them there to 1/16 pixel, three
-    // steps inside of the exact places.
+    // A floor's corners, by a camera that looks down by three in seven: the chip's words put them there to 1/16 pixel,
+    // three steps inside of the exact places.
     const float ahead = 7.0f * (1.0f / std::sqrt(58.0f)), start = 26.1299801f;
     const CompositeMatrix camera{
         {320.0f * chip_cotangent_x, 0, ahead * 320.0f, start * 320.0f}, {}, {}, {0, 0, ahead, start}};

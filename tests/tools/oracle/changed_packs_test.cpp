@@ -1,4 +1,5 @@
-// Model: a pack that is not as it was is read, or refused by one of our own exceptions that names a place; any other exception is a fault.
+// Model: a pack that is not as it was is read, or refused by one of our own exceptions that names a place; any other
+// exception is a fault.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

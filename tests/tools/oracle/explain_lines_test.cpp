@@ -1,5 +1,6 @@
-// Model: a machine of one pixel that does the lines of `explain` again, from their JSON alone: clears, copies, tests and blends in
-// integers over 255 and in binary32, written from fragment-stages.md 5 to 9. It must arrive at the picture of the usual run.
+// Model: a machine of one pixel that does the lines of `explain` again, from their JSON alone: clears, copies, tests
+// and blends in integers over 255 and in binary32, written from fragment-stages.md 5 to 9. It must arrive at the
+// picture of the usual run.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -180,7 +180,8 @@ TEST_CASE("PPM, PGM, TGA and BMP have the codes of their bytes, the upper row fi
     const Target pgm = read(".pgm", "P5 2 1 255\n\x05\xff"s);
     CHECK(pgm.is_grey);
     CHECK(pgm.codes == Codes{5, 255});
-    // 18 bytes of header: uncompressed (2) or in runs (10), 2 x 2 of 24 bits, the upper row first (0x20); blue, green, red.
+    // 18 bytes of header: uncompressed (2) or in runs (10), 2 x 2 of 24 bits, the upper row first (0x20); blue, green,
+    // red.
     const auto tga = [](char type, char bits, char order) {
         return "\0\0"s + type + "\0\0\0\0\0\0\0\0\0\2\0\2\0"s + bits + order;
     };

@@ -65,8 +65,8 @@ TEST_CASE("NaNs of a float target agree with each other and with no number") {
 }
 
 TEST_CASE("a value that explains fewer pixels, but more of which are covered, is said to do so") {
-    // Cut at the view volume, with the planes of triangles that are not: what geforce8_dx101 draws, but where nothing is drawn
-    // by a device that cuts.
+    // Cut at the view volume, with the planes of triangles that are not: what geforce8_dx101 draws, but where nothing
+    // is drawn by a device that cuts.
     DeviceProfile drawn = *pipeline::find_profile("geforce8_dx101");
     drawn.raster.subpixel_bits = 4;
     DeviceProfile covers = drawn;

@@ -111,7 +111,8 @@ TEST_CASE("a triangle that parts two reciprocals has a weight within 2^-22 of it
         const std::optional<SplitTriangle> t = split_triangle(dice);
         if (!t) continue;
         ++found;
-        // Twice the areas of the three triangles with the centre of pixel 3, 3 over w, in binary64: 2^-50 of a share at most is lost.
+        // Twice the areas of the three triangles with the centre of pixel 3, 3 over w, in binary64: 2^-50 of a share at
+        // most is lost.
         double part[3], sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;

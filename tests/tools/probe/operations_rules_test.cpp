@@ -1,4 +1,5 @@
-// Model: sRGB's formula by libm's pow and Mesa's least squares again; rationals of Boost.Multiprecision for comparisons, codes and roundings.
+// Model: sRGB's formula by libm's pow and Mesa's least squares again; rationals of Boost.Multiprecision for
+// comparisons, codes and roundings.
 #include <algorithm>
 #include <array>
 #include <bit>

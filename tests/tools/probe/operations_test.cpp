@@ -36,8 +36,8 @@ const Hypothesis& hypothesis_called(const Operation& o, const std::string& name)
     throw std::runtime_error("no hypothesis " + name);
 }
 
-// No representable number is nearer than `found`, and of two as near it is the even one. `above(m)` has the sign of the exact
-// value minus m, so that a root need not be drawn.
+// No representable number is nearer than `found`, and of two as near it is the even one. `above(m)` has the sign of the
+// exact value minus m, so that a root need not be drawn.
 template <class Position>
 bool is_nearest(float found, Position above) {
     const Rational low = (exact(found) + exact(std::nextafter(found, -INFINITY))) / 2;

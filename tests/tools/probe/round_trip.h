@@ -1,5 +1,5 @@
-// One profile's way through the kit and back: from its answers alone another profile, held against it on scenes of another
-// generator than the kit's.
+// One profile's way through the kit and back: from its answers alone another profile, held against it on scenes of
+// another generator than the kit's.
 #pragma once
 #include <fmt/format.h>
 
@@ -32,7 +32,8 @@ inline RoundTrip round_trip(const DeviceProfile& device, const std::vector<Item>
     return trip;
 }
 
-// Fields that have an effect and came back otherwise: of a trip whose pictures are equal, those that stand for each other.
+// Fields that have an effect and came back otherwise: of a trip whose pictures are equal, those that stand for each
+// other.
 inline std::string other_values_of(const RoundTrip& trip) {
     std::string text;
     for (const ProfileField* f : probed_fields()) {

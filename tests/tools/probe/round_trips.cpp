@@ -1,5 +1,6 @@
-// Random profiles from their answers alone: probe_round_trips [first=0] [count=200] [unseen=100]. A line a profile with the
-// fields that came back otherwise, true and found; exit status 1 if one of them draws one of 20 unseen scenes, from number `unseen`, otherwise.
+// Random profiles from their answers alone: probe_round_trips [first=0] [count=200] [unseen=100]. A line a profile with
+// the fields that came back otherwise, true and found; exit status 1 if one of them draws one of 20 unseen scenes, from
+// number `unseen`, otherwise.
 #include <cstdlib>
 #include <cstring>
 

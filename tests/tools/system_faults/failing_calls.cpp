@@ -1,8 +1,8 @@
 // tests/tools/system_faults/failing_calls.cpp - put before the C library (LD_PRELOAD), lets a call of the system fail.
 //
-// Rule     STRATA_FAIL=fsync:2:5 fails the second fsync with errno 5; fsync:2+:5 that one and all further ones. open counts
-//          where it may write, write where it is no standard stream. STRATA_CALLS=FILE gets a line a counted call: its name.
-//          STRATA_MOST_THREADS=2 refuses a third thread beside the first one while two are running.
+// Rule     STRATA_FAIL=fsync:2:5 fails the second fsync with errno 5; fsync:2+:5 that one and all further ones. open
+//          counts where it may write, write where it is no standard stream. STRATA_CALLS=FILE gets a line a counted
+//          call: its name. STRATA_MOST_THREADS=2 refuses a third thread beside the first one while two are running.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>

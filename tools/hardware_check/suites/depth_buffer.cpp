@@ -145,8 +145,8 @@ std::vector<Slope> world_slopes() {
     return slopes;
 }
 
-// Adds a slope's two triangles, (UL, UR, LR) and (UL, LR, LL). The order matters: weights depend on which corner of a triangle
-// comes first.
+// Adds a slope's two triangles, (UL, UR, LR) and (UL, LR, LL). The order matters: weights depend on which corner of a
+// triangle comes first.
 void add_slope(TriangleSoup& soup, const Slope& s) {
     const Box& b = s.where;
     const auto corner = [&](float x, float y, std::size_t k) { return at(x, y, s.z[k], s.color[k]); };
@@ -154,8 +154,9 @@ void add_slope(TriangleSoup& soup, const Slope& s) {
                     corner(b.left, b.bottom, 3)});
 }
 
-// The same of a slope in the world, as (UL, LR, LL) and (UL, UR, LR): the host un-projects the corners, and the fixed pipeline
-// projects them again. The test names its corners in another order than its colours: those of UR and LL are exchanged.
+// The same of a slope in the world, as (UL, LR, LL) and (UL, UR, LR): the host un-projects the corners, and the fixed
+// pipeline projects them again. The test names its corners in another order than its colours: those of UR and LL are
+// exchanged.
 void add_world_slope(TriangleSoup& soup, const Slope& s, const HostCamera& camera) {
     const CompositeMatrix to_window = columns_of(camera.composite);
     const auto corner = [&](float window_x, float window_y, std::size_t k, std::size_t color) {

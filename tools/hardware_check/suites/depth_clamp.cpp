@@ -1,6 +1,7 @@
-// Suite Depth_Clamp. depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>: which pixels a depth range
-// removes, one by one; the program adds the viewport's offset like the fixed pipeline. depth_equal[_WBuf]_Ofs<offset>: whether
-// a floor that is drawn twice, removing and clamping, has the same depths. chip-geometry.md 5.3.
+// Suite Depth_Clamp. depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>: which pixels a depth
+// range removes, one by one; the program adds the viewport's offset like the fixed pipeline.
+// depth_equal[_WBuf]_Ofs<offset>: whether a floor that is drawn twice, removing and clamping, has the same depths.
+// chip-geometry.md 5.3.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/suite.h"
@@ -89,8 +90,8 @@ Picture clamped_picture(const pipeline::DeviceProfile& profile, const Clamping& 
     return {.image = surface.color(), .bound = edge_texels};
 }
 
-// A floor that passes under the eye, drawn removing what lies before the range, then clamping, in red, with EQUAL. Through a w
-// buffer it is a hundred times larger, and begins before the window's lower border.
+// A floor that passes under the eye, drawn removing what lies before the range, then clamping, in red, with EQUAL.
+// Through a w buffer it is a hundred times larger, and begins before the window's lower border.
 Picture equal_picture(const pipeline::DeviceProfile& profile, bool w_buffer, float offset) {
     const float scale = w_buffer ? 100.0f : 1.0f, far = 200.0f * scale - offset, near = -20.0f + offset;
     const double x = 10 * scale, y = -2.5 * scale;

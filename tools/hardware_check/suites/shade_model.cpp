@@ -1,6 +1,6 @@
-// Suite Shade_model: [W_]<Prog|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become triangles,
-// and which vertex colours a flat one; lit by the fixed pipeline, textured, and with a w of its own at each vertex.
-// chip-fragment.md 3.3, chip-geometry.md 5.8.
+// Suite Shade_model: [W_]<Prog|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become
+// triangles, and which vertex colours a flat one; lit by the fixed pipeline, textured, and with a w of its own at each
+// vertex. chip-fragment.md 3.3, chip-geometry.md 5.8.
 #include <bit>
 #include <vector>
 
@@ -143,9 +143,9 @@ float own_w(std::size_t k) {
 // Texels a side of the checker.
 constexpr int texels = 64;
 
-// Point `k` in the window. The vertex program's arithmetic cuts: a value that is exactly on a step of 1/16 pixel comes out below
-// it (x = 0 at 319.9375), so the next smaller binary32 stands for it here. The fixed pipeline adds the viewport's offset, and
-// the test's own w scales the way to the eye.
+// Point `k` in the window. The vertex program's arithmetic cuts: a value that is exactly on a step of 1/16 pixel comes
+// out below it (x = 0 at 319.9375), so the next smaller binary32 stands for it here. The fixed pipeline adds the
+// viewport's offset, and the test's own w scales the way to the eye.
 ClipVertex window_vertex(const Primitive& primitive, std::size_t k, const Shading& s) {
     const double w = depth + eye_distance * (s.has_own_w ? double{own_w(k)} : 1.0), scale = 240.0 * cotangent / w;
     const double x = 320.0 + primitive.points[k][0] * scale, y = 240.0 - primitive.points[k][1] * scale;
@@ -170,8 +170,8 @@ TriangleSoup shaded(const Primitive& primitive, const Shading& s) {
     return soup;
 }
 
-// Flat pictures are equal. Of smooth ones at most one pixel is one unit off, where 256 times a weight lies next to an integer
-// (chip-fragment.md 3.3); two may be. A textured one may have the texel beyond a cell's edge there.
+// Flat pictures are equal. Of smooth ones at most one pixel is one unit off, where 256 times a weight lies next to an
+// integer (chip-fragment.md 3.3); two may be. A textured one may have the texel beyond a cell's edge there.
 Bound bound_of(const Shading& s) {
     if (s.is_textured) return {5, 255};
     return s.flat ? Bound{} : Bound{2, 1};

@@ -160,8 +160,8 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
     return soup;
 }
 
-// The camera that stands 50 above the floor and looks down by three in seven. The test makes the buffer a float one behind the
-// back of what builds its matrices: they have the scale of fixed depth for every format.
+// The camera that stands 50 above the floor and looks down by three in seven. The test makes the buffer a float one
+// behind the back of what builds its matrices: they have the scale of fixed depth for every format.
 CompositeMatrix looking_down(const BufferSetting& s) {
     const float units = s.is_16 ? 65535.0f : 16777215.0f;
     return columns_of(camera_of(look_at({0, 50, -7}, {0, 47, 0}), perspective_to_window(units)).composite);
@@ -187,8 +187,8 @@ const Drawing no_lines{std::nullopt, "lines are not modelled"};
 const Drawing unknown_quad{std::nullopt,
                            "which quad gives the w slope of this shape is not known (chip-float-depth.md 4.5)"};
 
-// What is open: the reciprocal of one sum, the slope of slivers, weights where w differs, and the last bits of a w slope
-// (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
+// What is open: the reciprocal of one sum, the slope of slivers, weights where w differs, and the last bits of a w
+// slope (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
 Bound bound_of(const BufferSetting& s) {
     if (s.is_w) return {250, s.has_slope ? 2u : 1u};
     // One triangle of the floor by the fixed pipeline: the last bit of its reciprocals.
@@ -197,8 +197,8 @@ Bound bound_of(const BufferSetting& s) {
     return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
 }
 
-// Every fragment passes, so the picture shows the texture alone, and a red line where a clip of its own begins. The test drew
-// yellow lines over it, from its text to the pixels whose depths the text tells.
+// Every fragment passes, so the picture shows the texture alone, and a red line where a clip of its own begins. The
+// test drew yellow lines over it, from its text to the pixels whose depths the text tells.
 Picture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup) {
     pipeline::Texture texture = checker(256, 8, 0xff00ffff, 0xff000000);
     texture.target = pipeline::TextureTarget::two_d;

@@ -1,5 +1,5 @@
-// Suite W_param: prog_w_zero_inf__<quad|bitri>_w<m>: which pixels a square covers whose w are negative, zero, infinite, or far
-// apart. chip-float-depth.md 8.
+// Suite W_param: prog_w_zero_inf__<quad|bitri>_w<m>: which pixels a square covers whose w are negative, zero, infinite,
+// or far apart. chip-float-depth.md 8.
 #include <bit>
 #include <limits>
 

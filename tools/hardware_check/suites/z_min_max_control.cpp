@@ -1,5 +1,5 @@
-// Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: what the depth range removes, fragments and whole
-// triangles, by z or by w. chip-float-depth.md 5.1.
+// Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: what the depth range removes, fragments and
+// whole triangles, by z or by w. chip-float-depth.md 5.1.
 #include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -69,15 +69,15 @@ constexpr Group groups[] = {{90, upper, growing, one,
                                  return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
                              }}};
 
-// The host's camera of the pictures by the fixed pipeline: three back, and an orthographic view from `near` to `far`, which the
-// chip's range has, too.
+// The host's camera of the pictures by the fixed pipeline: three back, and an orthographic view from `near` to `far`,
+// which the chip's range has, too.
 HostCamera orthographic_camera() {
     const HostMatrix back{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, -3, 1}}};
     return camera_of(back, orthographic_to_window(10, 100));
 }
 
-// A corner through the fixed pipeline: the host un-projects it and multiplies by w, and the chip divides by that again. Where w
-// is 0 all products are 0, and the corner stands in the window's.
+// A corner through the fixed pipeline: the host un-projects it and multiplies by w, and the chip divides by that again.
+// Where w is 0 all products are 0, and the corner stands in the window's.
 ClipVertex through_pipeline(const ClipVertex& v, const HostCamera& camera) {
     const HostVector world = unprojected_point(camera, {v.x, v.y, v.z, 1});
     const auto [x, y, z, w] =

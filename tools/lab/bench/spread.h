@@ -22,8 +22,9 @@ struct Spread {
 
 inline constexpr std::size_t least_runs = 4;  // that times are compared by
 
-// Whether two spreads differ by more than their own noise: at least four runs of each, and every run of the one is shorter than every run
-// of the other. Of jobs that take equally long, that happens once in 35 times or less: of the 70 orders of four and four runs, two look so.
+// Whether two spreads differ by more than their own noise: at least four runs of each, and every run of the one is
+// shorter than every run of the other. Of jobs that take equally long, that happens once in 35 times or less: of the 70
+// orders of four and four runs, two look so.
 [[nodiscard]] inline bool is_apart(const Spread& a, const Spread& b) noexcept {
     return std::min(a.runs, b.runs) >= least_runs && (a.greatest < b.least || b.greatest < a.least);
 }

@@ -1,4 +1,5 @@
-// tools/lab/cost/cost.cpp - strata cost: what each choice costs in accuracy and in time, measured from the truth of the scene.
+// tools/lab/cost/cost.cpp - strata cost: what each choice costs in accuracy and in time, measured from the truth of the
+// scene.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -1,8 +1,8 @@
 // tools/lab/cost/cost_card.h - how long the emulated card would take by its published rates.
 //
 // Rule     The time of a frame is the longest of three: vertices of all geometry passes, fragments of all passes (a
-//          full-screen pass has one a pixel), and bytes between stages and targets, each over the card's rate. The three
-//          overlap perfectly and nothing waits, so it is a least time.
+//          full-screen pass has one a pixel), and bytes between stages and targets, each over the card's rate. The
+//          three overlap perfectly and nothing waits, so it is a least time.
 // Source   reports.md 10.3 has every rate with its source and mark.
 // Tests    tests/tools/cost_card_test.cpp
 #pragma once
@@ -17,7 +17,8 @@ struct Card {
     double vertices_a_second = 0, fragments_a_second = 0, bytes_a_second = 0;
 };
 
-// The card that a profile emulates: a GeForce3's for a profile of 8-bit targets without programs, else a GeForce 8800 GTX.
+// The card that a profile emulates: a GeForce3's for a profile of 8-bit targets without programs, else a GeForce 8800
+// GTX.
 [[nodiscard]] const Card& card_of(bool has_fragment_programs);
 
 // The counted work of a frame; nothing of it depends on the machine that counted.

@@ -1,8 +1,9 @@
-// tools/lab/cost/cost_plan.h - the cells of `strata cost`: every knob that trades accuracy for work, one at a time from the defaults.
+// tools/lab/cost/cost_plan.h - the cells of `strata cost`: every knob that trades accuracy for work, one at a time from
+// the defaults.
 //
-// Rule     reports.md 10.1 lists the knobs and their values. Depth format times path, and algorithm or number of peels times
-//          colour format, are products. What a knob asks for and the profile lacks is opened on a copy of it, and named. Cells are
-//          numbered scene by scene, knob by knob.
+// Rule     reports.md 10.1 lists the knobs and their values. Depth format times path, and algorithm or number of peels
+//          times colour format, are products. What a knob asks for and the profile lacks is opened on a copy of it, and
+//          named. Cells are numbered scene by scene, knob by knob.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <optional>

@@ -19,7 +19,8 @@ namespace {
     return defaults;
 }
 
-// "1.25 times the time (1.20 to 1.31)" of the default's: the quotient of two ratios to the cheapest cell; or that the rounds of both overlap.
+// "1.25 times the time (1.20 to 1.31)" of the default's: the quotient of two ratios to the cheapest cell; or that the
+// rounds of both overlap.
 [[nodiscard]] std::string times_of(const CostRow& row, const CostRow& standard) {
     std::string text;
     if (row.usual && standard.usual) {

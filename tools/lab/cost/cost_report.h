@@ -1,7 +1,7 @@
 // tools/lab/cost/cost_report.h - what the rows of `strata cost` say to people: a table, the frontier, sentences.
 //
-// Rule     A point is on the frontier if no other point of the scene takes less or the same time and has less error, nor the
-//          same error in less time; of equal points the first. Every sentence is made of its row's figures.
+// Rule     A point is on the frontier if no other point of the scene takes less or the same time and has less error,
+//          nor the same error in less time; of equal points the first. Every sentence is made of its row's figures.
 // Tests    tests/tools/cost_report_test.cpp
 #pragma once
 #include <string>
@@ -20,8 +20,8 @@ struct CostPoint {
 // Numbers of the points on the frontier, cheapest first.
 [[nodiscard]] std::vector<std::size_t> frontier_of(const std::vector<CostPoint>& points);
 
-// A row a choice: knob, value, share of pixels that differ from the default's picture, RMSE, and times in those of the default, where they differ by
-// more than the noise of the rounds.
+// A row a choice: knob, value, share of pixels that differ from the default's picture, RMSE, and times in those of the
+// default, where they differ by more than the noise of the rounds.
 [[nodiscard]] Table choice_table(const std::vector<CostRow>& rows);
 // What all rows together say.
 [[nodiscard]] std::string found_sentence(const std::vector<CostRow>& rows);
@@ -36,7 +36,8 @@ struct CostPoint {
 [[nodiscard]] std::vector<CostPoint> points_of(const std::vector<CostRow>& rows, const std::string& scene,
                                                const std::string& column);
 
-// Error over time on logarithmic axes, the frontier drawn and its points named. An error of 0 stands on the lowest line.
+// Error over time on logarithmic axes, the frontier drawn and its points named. An error of 0 stands on the lowest
+// line.
 [[nodiscard]] std::string frontier_svg(const std::vector<CostPoint>& points, const std::string& title,
                                        const std::string& time_label);
 

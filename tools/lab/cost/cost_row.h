@@ -1,7 +1,8 @@
-// tools/lab/cost/cost_row.h - a cell as a line of results.jsonl and of timings.jsonl, and both together as a row of the report.
+// tools/lab/cost/cost_row.h - a cell as a line of results.jsonl and of timings.jsonl, and both together as a row of the
+// report.
 //
-// Rule     reports.md 10.2. A line holds no time; timings.jsonl holds nothing else. Of several timings of a cell the last
-//          counts: a sweep that was stopped may have measured it twice.
+// Rule     reports.md 10.2. A line holds no time; timings.jsonl holds nothing else. Of several timings of a cell the
+//          last counts: a sweep that was stopped may have measured it twice.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

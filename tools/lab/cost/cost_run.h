@@ -1,10 +1,12 @@
-// tools/lab/cost/cost_run.h - measures one cell of `strata cost`: its error from the truth, its counted work, its times.
+// tools/lab/cost/cost_run.h - measures one cell of `strata cost`: its error from the truth, its counted work, its
+// times.
 //
 // Rule     Errors and counts depend on the cell alone. Times are those of a clock from the scene in memory to finished
-//          pixels without audit, each round one of the default cell, one of this cell and one of it in literal execution, in
-//          turn; literal execution once, related to every round's default, if that takes over 2 s. A time is kept as its
-//          ratio to the default's of the same round. A cell has five rounds, and up to 25 while they last under 2 s in all:
-//          another process takes turns of milliseconds, which a long run has many of and a short one now and then.
+//          pixels without audit, each round one of the default cell, one of this cell and one of it in literal
+//          execution, in turn; literal execution once, related to every round's default, if that takes over 2 s. A time
+//          is kept as its ratio to the default's of the same round. A cell has five rounds, and up to 25 while they
+//          last under 2 s in all: another process takes turns of milliseconds, which a long run has many of and a short
+//          one now and then.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

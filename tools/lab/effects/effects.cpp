@@ -1,5 +1,5 @@
-// tools/lab/effects/effects.cpp - strata bench --per-effect: what a run simulates and why, what it costs, what leaving the
-// rest out saved.
+// tools/lab/effects/effects.cpp - strata bench --per-effect: what a run simulates and why, what it costs, what leaving
+// the rest out saved.
 #include "tools/lab/effects/effects.h"
 
 #include <fmt/format.h>

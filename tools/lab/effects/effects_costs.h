@@ -20,8 +20,8 @@ struct EffectTimes {
     Spread needed, all, as_asked;
 };
 
-// Fills EffectRow::seconds where it can be measured, and whether it is more than the noise of the runs. Costs are differences of measured
-// times; one below 0 is 0.
+// Fills EffectRow::seconds where it can be measured, and whether it is more than the noise of the runs. Costs are
+// differences of measured times; one below 0 is 0.
 [[nodiscard]] EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan);
 
 }  // namespace strata::tools

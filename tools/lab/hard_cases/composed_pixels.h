@@ -1,7 +1,8 @@
-// tools/lab/hard_cases/composed_pixels.h - the fragments and the composited sequence of each pixel that a frame shows something at.
+// tools/lab/hard_cases/composed_pixels.h - the fragments and the composited sequence of each pixel that a frame shows
+// something at.
 //
-// Rule     Pixels come in the frame's order. One without a visible fragment on which nothing was composited is left out, so a
-//          frame costs what it shows, however large it is.
+// Rule     Pixels come in the frame's order. One without a visible fragment on which nothing was composited is left
+//          out, so a frame costs what it shows, however large it is.
 // Tests    tests/tools/hard_cases/composited_test.cpp
 #pragma once
 #include <cstddef>

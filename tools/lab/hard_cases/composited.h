@@ -1,10 +1,11 @@
-// tools/lab/hard_cases/composited.h - what a peel composited, held against the fragments that it was given, pixel by pixel.
+// tools/lab/hard_cases/composited.h - what a peel composited, held against the fragments that it was given, pixel by
+// pixel.
 //
-// Rule     A pixel's sequence is what was composited UNDER, then what was composited OVER, last first. Its keys must not
-//          fall from near to far. An algorithm that keeps ties must show every visible fragment once; one that drops or
-//          mixes them, every key once. What an alpha test keeps from being a layer is not looked for.
-//          The figures are counted from traces and captured fragments alone. The audit has no part in them, so each of
-//          the two checks the other.
+// Rule     A pixel's sequence is what was composited UNDER, then what was composited OVER, last first. Its keys must
+//          not fall from near to far. An algorithm that keeps ties must show every visible fragment once; one that
+//          drops or mixes them, every key once. What an alpha test keeps from being a layer is not looked for. The
+//          figures are counted from traces and captured fragments alone. The audit has no part in them, so each of the
+//          two checks the other.
 // Tests    tests/tools/hard_cases/composited_test.cpp
 #pragma once
 #include <cstddef>

@@ -1,4 +1,5 @@
-// tools/lab/hard_cases/hard_cases.cpp - strata hard-cases: every algorithm on scenes that are hard for rasterizers and peels.
+// tools/lab/hard_cases/hard_cases.cpp - strata hard-cases: every algorithm on scenes that are hard for rasterizers and
+// peels.
 #include <fmt/format.h>
 
 #include <memory>

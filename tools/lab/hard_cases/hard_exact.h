@@ -1,12 +1,15 @@
-// tools/lab/hard_cases/hard_exact.h - the exact answer of a hard case that is looked at from some view, and where it hangs by a thread.
+// tools/lab/hard_cases/hard_exact.h - the exact answer of a hard case that is looked at from some view, and where it
+// hangs by a thread.
 //
-// Rule     Corners go through the view in binary64 and are not snapped; coverage is the exact sign of the edge functions
-//          (real_triangle.h); a fragment is visible from near to far, both included, and before the nearest opaque one.
-//          A pixel is open to a slack if, with every corner and depth as far off as the slack allows, a triangle may gain
-//          or lose the pixel's centre, or two depths, or a depth and the end of the range, may change their order.
-// Numbers  An edge function is bilinear in its two corners, so its change is bounded by them rigorously. A depth's change
-//          is bounded to first order, times 5/4. Binary64 itself is off by less than 2^-48 of depth and 2^-40 pixel, which
-//          every slack includes. Colours are those of a triangle's first corner: all corners of these cases have one.
+// Rule     Corners go through the view in binary64 and are not snapped; coverage is the exact sign of the edge
+//          functions (real_triangle.h); a fragment is visible from near to far, both included, and before the nearest
+//          opaque one. A pixel is open to a slack if, with every corner and depth as far off as the slack allows, a
+//          triangle may gain or lose the pixel's centre, or two depths, or a depth and the end of the range, may change
+//          their order.
+// Numbers  An edge function is bilinear in its two corners, so its change is bounded by them rigorously. A depth's
+//          change is bounded to first order, times 5/4. Binary64 itself is off by less than 2^-48 of depth and 2^-40
+//          pixel, which every slack includes. Colours are those of a triangle's first corner: all corners of these
+//          cases have one.
 // Tests    tests/tools/hard_cases/hard_exact_test.cpp: rational arithmetic
 #pragma once
 #include <array>

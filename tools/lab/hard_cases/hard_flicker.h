@@ -1,9 +1,9 @@
 // tools/lab/hard_cases/hard_flicker.h - what flips along a smooth camera path where the exact answer stays as it is.
 //
-// Rule     64 frames of the path (hard_moves.h), each beside the next. Where the exact answer of a pixel changes, or hangs
-//          by the rounding of binary64, nothing is counted. Elsewhere a pixel flips in order if the same fragments are
-//          visible in both frames, but layers change their order or number; it flips in coverage if other fragments are
-//          visible. With a fragment's exact depth for its stored one no pixel flips in order.
+// Rule     64 frames of the path (hard_moves.h), each beside the next. Where the exact answer of a pixel changes, or
+//          hangs by the rounding of binary64, nothing is counted. Elsewhere a pixel flips in order if the same
+//          fragments are visible in both frames, but layers change their order or number; it flips in coverage if other
+//          fragments are visible. With a fragment's exact depth for its stored one no pixel flips in order.
 // Tests    tests/tools/hard_cases/hard_flicker_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

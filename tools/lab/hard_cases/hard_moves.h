@@ -1,9 +1,11 @@
-// tools/lab/hard_cases/hard_moves.h - the same case a hair off: its coordinates moved, its triangles in another order, its camera on a path.
+// tools/lab/hard_cases/hard_moves.h - the same case a hair off: its coordinates moved, its triangles in another order,
+// its camera on a path.
 //
-// Rule     A move changes the coordinates of corners, all at once or one alone, by one unit in the last place or by 2^-20
-//          of themselves, up or down by a bit of splitmix64 of seed, mesh, corner and axis. Corners at one place of a
-//          mesh move as one, so that a closed surface stays closed. A camera path turns the camera about its axis by up
-//          to 2 atan(2^-6) and sideways by up to 2 atan(2^-7) and shifts it by up to 1/16, in steps that grow evenly.
+// Rule     A move changes the coordinates of corners, all at once or one alone, by one unit in the last place or by
+//          2^-20 of themselves, up or down by a bit of splitmix64 of seed, mesh, corner and axis. Corners at one place
+//          of a mesh move as one, so that a closed surface stays closed. A camera path turns the camera about its axis
+//          by up to 2 atan(2^-6) and sideways by up to 2 atan(2^-7) and shifts it by up to 1/16, in steps that grow
+//          evenly.
 // Numbers  Both angles are given by the tangent t of their half: (1 - t^2) / (1 + t^2) and 2 t / (1 + t^2) in binary64.
 // Source   splitmix64 (Steele, Lea, Flood 2014).
 // Tests    tests/tools/hard_cases/hard_moves_test.cpp

@@ -1,8 +1,8 @@
 // tools/lab/hard_cases/hard_page.h - the lines of a sweep as a page for people, with a picture a case.
 //
-// Rule     FOLDER/RESULTS.md and FOLDER/pictures/NAME.png: the exact A-buffer of the profile ideal. The page follows from the lines
-//          alone; it holds no time and no place. A frame of less than 256 pixels is enlarged by a whole number; one of
-//          more than 1024 is shown by the brightest pixel of each block, so that a thin line is seen.
+// Rule     FOLDER/RESULTS.md and FOLDER/pictures/NAME.png: the exact A-buffer of the profile ideal. The page follows
+//          from the lines alone; it holds no time and no place. A frame of less than 256 pixels is enlarged by a whole
+//          number; one of more than 1024 is shown by the brightest pixel of each block, so that a thin line is seen.
 // Tests    tests/tools/hard_cases/hard_page_test.cpp
 #pragma once
 #include <string>

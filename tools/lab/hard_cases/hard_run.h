@@ -3,11 +3,10 @@
 // Rule     Each algorithm runs once by default settings. That run is audited and its fragments are counted again
 //          (composited.h). Then it runs in every other way that no bit may depend on: literally, on two threads, with
 //          all effects simulated, on each instruction set. Picture, depths, passes, audit and diagnostics must be those
-//          of the first run. Where triangles times layers exceed 2^20, a run that rasterizes every pass takes seconds: there
-//          the literal run is the one with all effects. A frame of more than 2^24 pixels is for algorithms of one
+//          of the first run. Where triangles times layers exceed 2^20, a run that rasterizes every pass takes seconds:
+//          there the literal run is the one with all effects. A frame of more than 2^24 pixels is for algorithms of one
 //          geometry pass, and the other ways are one: literally, on two threads, with all effects, without vector
-//          instructions.
-//          Verdict, the first that holds:
+//          instructions. Verdict, the first that holds:
 //            failed    a NaN, a bit that another way of running changes, fragments lost or repeated without a
 //                      diagnostic of exactly as many pixels, or a picture beyond the case's bound for no such reason
 //            breaks    fragments lost, repeated, mixed or misplaced, as a diagnostic says

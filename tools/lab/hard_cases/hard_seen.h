@@ -1,4 +1,5 @@
-// tools/lab/hard_cases/hard_seen.h - what a renderer shows at each pixel: which triangles, in which layers, of which colour; and how two such pictures differ.
+// tools/lab/hard_cases/hard_seen.h - what a renderer shows at each pixel: which triangles, in which layers, of which
+// colour; and how two such pictures differ.
 //
 // Rule     A fragment's place is the number of its layer from near to far; two fragments of one layer share it, and one
 //          that was never composited has none. Between two pictures a fragment is gained or lost if only one of them

@@ -1,4 +1,5 @@
-// tools/lab/hard_cases/hard_stability.h - what a machine's picture makes of a movement that the exact answer hardly notices.
+// tools/lab/hard_cases/hard_stability.h - what a machine's picture makes of a movement that the exact answer hardly
+// notices.
 //
 // Rule     The case is drawn once as it is and once for each move (hard_moves.h): eight seeds for each size, and each
 //          coordinate alone where the case has at most eight triangles. What changes is counted (hard_seen.h), for the
@@ -9,10 +10,10 @@
 //            beyond             elsewhere: nothing may change there, and what is shown must be the exact answer.
 //          Then the triangles are permuted: of pixels that composite no two fragments of one depth none may change.
 //          The verdict, the first that holds:
-//            unstable  something changes or is wrong beyond, or a permutation moves what it must not, and nothing says so
-//            breaks    the same, but a diagnostic names misplaced fragments, or the device steps its planes
-//            degrades  something changes within the device; or the algorithm has no order, but rounds sums by it
-//            stable    nothing changes but within the move
+//            unstable something changes or is wrong beyond, or a permutation moves what it must not, and nothing says
+//            so breaks the same, but a diagnostic names misplaced fragments, or the device steps its planes degrades
+//            something changes within the device; or the algorithm has no order, but rounds sums by it stable nothing
+//            changes but within the move
 // Tests    tests/tools/hard_cases/hard_stability_test.cpp
 #pragma once
 #include <array>

@@ -1,8 +1,9 @@
-// tools/lab/hard_cases/hard_sweep.h - every chosen hard case by every algorithm on every device and depth format: the work of a sweep.
+// tools/lab/hard_cases/hard_sweep.h - every chosen hard case by every algorithm on every device and depth format: the
+// work of a sweep.
 //
-// Rule     A cell is a combination, in the order case, profile, depth format, algorithm; the last changes fastest. A line
-//          has every key, null where a refused combination has nothing to say. Lines depend on neither threads, shards
-//          nor interruptions (sweep.h).
+// Rule     A cell is a combination, in the order case, profile, depth format, algorithm; the last changes fastest. A
+//          line has every key, null where a refused combination has nothing to say. Lines depend on neither threads,
+//          shards nor interruptions (sweep.h).
 // Tests    tests/tools/hard_cases/hard_sweep_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
-// tools/lab/hard_cases/hard_truth.h - the picture that a hard case ought to give, by the device's own fragments and colours.
+// tools/lab/hard_cases/hard_truth.h - the picture that a hard case ought to give, by the device's own fragments and
+// colours.
 //
 // Rule     A pixel's visible fragments are composited in binary64 over the opaque picture, ordered by the exact plane's
 //          depth rounded once to binary32, whatever the device's depth format is. So a format that cannot tell two

@@ -31,9 +31,9 @@ using Verdicts = std::vector<hc::Comparison>;
 
 bool has(hc::Subjects set, Subject subject) { return (set >> static_cast<unsigned>(subject) & 1) != 0; }
 
-// True if a picture of this suite, read like this, shows what the subject can change. Depth pictures never tell of colours,
-// nor colours of written depths, whatever the suite's set says; and where depths are interpolated as they are, their words
-// tell nothing of coordinates.
+// True if a picture of this suite, read like this, shows what the subject can change. Depth pictures never tell of
+// colours, nor colours of written depths, whatever the suite's set says; and where depths are interpolated as they are,
+// their words tell nothing of coordinates.
 bool can_tell(const hc::Suite& suite, hc::Reading reading, Subject subject) {
     const bool shows_depth = reading == hc::Reading::depth16 || reading == hc::Reading::depth24;
     if (subject == (shows_depth ? Subject::color : Subject::window_depth)) return false;

@@ -1,7 +1,7 @@
 // tools/lab/hardware_check/hardware_page.h - what a hardware check found as a page of --report.
 //
-// Rule     The outcome in a sentence, the table of suites, a picture of every difference (those beyond their bound first, with the chip's
-//          picture before it), then the pictures that are not equal and why.
+// Rule     The outcome in a sentence, the table of suites, a picture of every difference (those beyond their bound
+//          first, with the chip's picture before it), then the pictures that are not equal and why.
 // Tests    tests/tools/hardware_check_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <vector>

@@ -35,8 +35,8 @@ class CellRunner {
     [[nodiscard]] std::vector<Cell> expanded(const std::vector<Cell>& cells);
     // Reads what the cell names, so that a wrong name or file is told before anything runs. Throws InputError.
     void check(const Cell& cell);
-    // The camera's if the cell names one; the scene's own view if it has one and the cell names no orbit; else the orbit's, with the
-    // planes that the cell's range asks for.
+    // The camera's if the cell names one; the scene's own view if it has one and the cell names no orbit; else the
+    // orbit's, with the planes that the cell's range asks for.
     [[nodiscard]] CellView view(const Cell& cell);
     // Measures the cell. A profile that refuses it is told in the result.
     [[nodiscard]] CellResult run(const Cell& cell);

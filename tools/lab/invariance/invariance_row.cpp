@@ -16,8 +16,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// The columns of results.csv: everything that says what was measured, and of what was found what a table in print needs. results.jsonl has
-// all keys.
+// The columns of results.csv: everything that says what was measured, and of what was found what a table in print
+// needs. results.jsonl has all keys.
 constexpr std::array columns{"cell",
                              "scene",
                              "width",

@@ -1,4 +1,5 @@
-// tools/lab/invariance/invariance_summary.h - what the lines of a sweep say to people: a sentence, what all cells share, and a row a cell.
+// tools/lab/invariance/invariance_summary.h - what the lines of a sweep say to people: a sentence, what all cells
+// share, and a row a cell.
 //
 // Rule     A row and a label name every knob whose value is not the same in all lines, so that no two are alike.
 // Tests    tests/tools/invariance_row_test.cpp

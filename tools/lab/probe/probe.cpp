@@ -1,4 +1,5 @@
-// tools/lab/probe/probe.cpp - strata probe: the kit that measures a device, and its answers by a device that is a profile.
+// tools/lab/probe/probe.cpp - strata probe: the kit that measures a device, and its answers by a device that is a
+// profile.
 #include <fmt/format.h>
 
 #include <memory>

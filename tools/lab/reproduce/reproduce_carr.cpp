@@ -52,8 +52,8 @@ Run run(const scenes::Scene& scene, const pipeline::View& view, const std::strin
 // Two decimals, or "-" where there is nothing to divide by.
 std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
 
-// How many times as fast as the baseline; "noise" where the times do not tell: their runs overlap, or, where one of them is of a single long
-// run, they are within a factor of 2.
+// How many times as fast as the baseline; "noise" where the times do not tell: their runs overlap, or, where one of
+// them is of a single long run, they are within a factor of 2.
 std::string times_faster(const Spread& baseline, const Spread& own) {
     const double times = baseline.median / own.median;
     const bool is_single = baseline.runs == 1 || own.runs == 1;

@@ -58,7 +58,8 @@ std::string html(const Sheet& sheet) {
     return text + fmt::format("</tbody></table></div>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
 }
 
-// The page needs no other file than its pictures, and has the report's style. {0} is the title, {2} the paper's address, {3} a sentence.
+// The page needs no other file than its pictures, and has the report's style. {0} is the title, {2} the paper's
+// address, {3} a sentence.
 constexpr auto head = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{0}</title><style>
 {1}</style></head><body>

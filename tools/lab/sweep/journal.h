@@ -1,8 +1,8 @@
 // tools/lab/sweep/journal.h - the lines of a sweep on disk: appended one by one, taken up again after a kill.
 //
-// Rule     A line is a JSON object whose last key, `line_digest`, is the XXH3-128 of the line's text before it. A line of
-//          another digest, or of none, was changed since it was written, and counts for nothing. A last line without its
-//          newline was torn by a kill. Each line is on the disk (fsync) before the next cell runs.
+// Rule     A line is a JSON object whose last key, `line_digest`, is the XXH3-128 of the line's text before it. A line
+//          of another digest, or of none, was changed since it was written, and counts for nothing. A last line without
+//          its newline was torn by a kill. Each line is on the disk (fsync) before the next cell runs.
 // Tests    tests/tools/sweep_journal_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -24,9 +24,9 @@ struct Found {
     Lines lines;                         // those that are whole, without their digests
     std::vector<std::size_t> numbers{};  // of each in the file, from 1
     std::vector<std::size_t> changed{};  // the numbers of lines that are not what was written
-    bool in_order =
-        true;  // lines_of_cells found each cell behind those before it: a killed run may have measured one between others
-    bool torn = false;  // the file has a last line without newline
+    bool in_order = true;  // lines_of_cells found each cell behind those before it: a killed run may have measured one
+                           // between others
+    bool torn = false;     // the file has a last line without newline
     // The length of the file up to its last newline, where appending goes on.
     std::size_t whole_bytes = 0;
 };
@@ -34,8 +34,8 @@ struct Found {
 // Empty if there is no such file.
 [[nodiscard]] Found read_journal(const std::string& path);
 
-// What the lines of a journal must be: `cells` are the shard's, `described[i]` is all that is known of cells[i] before it
-// runs, `keys` are those of a whole line.
+// What the lines of a journal must be: `cells` are the shard's, `described[i]` is all that is known of cells[i] before
+// it runs, `keys` are those of a whole line.
 struct Expected {
     std::vector<std::size_t> cells;
     Lines described;

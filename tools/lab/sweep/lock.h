@@ -1,7 +1,7 @@
 // tools/lab/sweep/lock.h - one run at a time writes to a journal.
 //
-// Rule     A run holds the lock file `.NAME.lock` beside the journal NAME (flock). The system lets go of the lock when the
-//          process ends, however it ends: a lock file that is not held means nothing.
+// Rule     A run holds the lock file `.NAME.lock` beside the journal NAME (flock). The system lets go of the lock when
+//          the process ends, however it ends: a lock file that is not held means nothing.
 // Tests    tests/tools/sweep_lock_test.cpp
 #pragma once
 #include <string>

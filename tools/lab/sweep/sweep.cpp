@@ -140,8 +140,8 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
     if (!in_order) scenes::write_file(results, text_of(lines));
 }
 
-// A folder of results may come from someone else. What is cut, appended to or filled must be in it: a journal that is a link would be
-// cut where the link leads.
+// A folder of results may come from someone else. What is cut, appended to or filled must be in it: a journal that is a
+// link would be cut where the link leads.
 void refuse_links(const std::string& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();

@@ -18,7 +18,8 @@ struct Measured {
     double seconds = 0;
 };
 
-// What a page says of all lines, above pictures and the table of the cells: a sentence, a table with its name, further sentences.
+// What a page says of all lines, above pictures and the table of the cells: a sentence, a table with its name, further
+// sentences.
 struct Findings {
     std::string sentence;
     Table table{};

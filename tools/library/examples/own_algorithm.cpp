@@ -1,5 +1,6 @@
-// An algorithm of one's own with a fragment program and state: each fragment's premultiplied colour is weighed by a table over its depth
-// and added to the sum. The table is the state; it is read by several threads at once, and never written while they run.
+// An algorithm of one's own with a fragment program and state: each fragment's premultiplied colour is weighed by a
+// table over its depth and added to the sum. The table is the state; it is read by several threads at once, and never
+// written while they run.
 #include <strata/pipeline/region/region.h>
 #include <strata/strata.h>
 

@@ -1,4 +1,5 @@
-// Compares what a renderer left in memory with the reference; here the memory holds the reference with one pixel changed.
+// Compares what a renderer left in memory with the reference; here the memory holds the reference with one pixel
+// changed.
 #include <strata/strata.h>
 
 #include <cstdio>

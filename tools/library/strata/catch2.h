@@ -1,8 +1,8 @@
 // strata/catch2.h - for tests with Catch2: REQUIRE_THAT(picture, strata::MatchesReference("teapot.exr")).
 //
-// Rule     Takes the Picture of a program under test and a file, or a picture with a name. The message of a failure says the kinds of
-//          mistakes, the first pixel of each, and where the pictures are (strata/compare.h). Catch2 2 and 3; the project's own
-//          tests run with 2.13.
+// Rule     Takes the Picture of a program under test and a file, or a picture with a name. The message of a failure
+//          says the kinds of mistakes, the first pixel of each, and where the pictures are (strata/compare.h). Catch2 2
+//          and 3; the project's own tests run with 2.13.
 #pragma once
 #if __has_include(<catch2/matchers/catch_matchers.hpp>)
 #include <catch2/matchers/catch_matchers.hpp>

@@ -1,7 +1,7 @@
 // strata/diagnose.h - which known mistake, or which two, made a picture of a scene that another renderer drew.
 //
-// Rule     Machines with one mistake each draw the scene at the candidate's size; they are ranked by the pixels that are the candidate's
-//          (tools/oracle/mistakes/diagnosis.h). "None that is known" is an answer.
+// Rule     Machines with one mistake each draw the scene at the candidate's size; they are ranked by the pixels that
+//          are the candidate's (tools/oracle/mistakes/diagnosis.h). "None that is known" is an answer.
 // Cost     About a hundred pictures of the scene, and up to as many pairs again: meant for small scenes.
 // Tests    tests/tools/library/diagnose_test.cpp
 #pragma once
@@ -32,7 +32,8 @@ struct Diagnosed {
     [[nodiscard]] std::string json() const;
 };
 
-// The candidate's size stands for that of `options`. InputError for a candidate without a target, Refused for what the device lacks.
+// The candidate's size stands for that of `options`. InputError for a candidate without a target, Refused for what the
+// device lacks.
 [[nodiscard]] Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm& algorithm,
                                  const DeviceProfile& profile, const RenderOptions& options = {},
                                  const Tolerances& tolerances = {});

@@ -1,7 +1,8 @@
-// strata/gtest.h - for tests with GoogleTest: EXPECT_THAT(picture, strata::MatchesReference("teapot.exr")), or without gmock
-// EXPECT_TRUE(strata::matches_reference(picture, "teapot.exr")).
+// strata/gtest.h - for tests with GoogleTest: EXPECT_THAT(picture, strata::MatchesReference("teapot.exr")), or without
+// gmock EXPECT_TRUE(strata::matches_reference(picture, "teapot.exr")).
 //
-// Rule     As strata/catch2.h: the message of a failure says the kinds of mistakes, the first pixel of each, and where the pictures are.
+// Rule     As strata/catch2.h: the message of a failure says the kinds of mistakes, the first pixel of each, and where
+//          the pictures are.
 #pragma once
 #include <gtest/gtest.h>
 #if __has_include(<gmock/gmock-matchers.h>)

@@ -1,7 +1,8 @@
 // strata/picture.h - pictures between the library and a program's own memory, with every bit.
 //
-// Rule     A picture is one or more targets with codes as they are stored (tools/oracle/picture.h). Memory is little endian, rows from the top
-//          unless the layout says otherwise, with or without padding behind each row. Nothing is scaled, multiplied by alpha or decoded.
+// Rule     A picture is one or more targets with codes as they are stored (tools/oracle/picture.h). Memory is little
+//          endian, rows from the top unless the layout says otherwise, with or without padding behind each row. Nothing
+//          is scaled, multiplied by alpha or decoded.
 // Tests    tests/tools/library/memory_test.cpp
 #pragma once
 #include <cstddef>
@@ -38,7 +39,8 @@ using pipeline::Image;
 // How many bytes a channel takes in memory: 1 of 8-bit codes, 2 of halves and D16, else 4.
 [[nodiscard]] std::size_t channel_bytes(const Image& image) noexcept;
 enum class Rows : std::uint8_t { top_down, bottom_up };
-// Writes the codes of every channel into `memory`; row_bytes 0: rows without padding. InputError unless it is large enough.
+// Writes the codes of every channel into `memory`; row_bytes 0: rows without padding. InputError unless it is large
+// enough.
 void to_memory(const Image& image, std::span<std::byte> memory, Rows rows = Rows::top_down, std::size_t row_bytes = 0);
 // The same in memory of its own, without padding.
 [[nodiscard]] std::vector<std::byte> to_memory(const Image& image, Rows rows = Rows::top_down);

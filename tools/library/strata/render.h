@@ -1,8 +1,9 @@
-// strata/render.h - a scene by an algorithm on a device: the picture, its layers, its fragments, every pass, and what happened at a pixel.
+// strata/render.h - a scene by an algorithm on a device: the picture, its layers, its fragments, every pass, and what
+// happened at a pixel.
 //
-// Rule     A combination that the device cannot run gives no picture: a Rendering of it is_refused(), and whatever is asked of it throws
-//          Refused with the missing feature; every other function here throws at once. Input of no device throws InputError, which
-//          names the field. Calls on several threads do not disturb each other.
+// Rule     A combination that the device cannot run gives no picture: a Rendering of it is_refused(), and whatever is
+//          asked of it throws Refused with the missing feature; every other function here throws at once. Input of no
+//          device throws InputError, which names the field. Calls on several threads do not disturb each other.
 // Tests    tests/tools/library/render_test.cpp
 #pragma once
 #include <memory>
@@ -74,7 +75,8 @@ struct Layer {
                                       const DeviceProfile& profile, const RenderOptions& options = {});
 
 // An algorithm of the caller's own, on the devices that have what its passes use: `body` is run on regions of the frame
-// (pipeline/region/region.h), of several threads at once and some of them twice. With `whole_frame` it runs once, on one thread.
+// (pipeline/region/region.h), of several threads at once and some of them twice. With `whole_frame` it runs once, on
+// one thread.
 [[nodiscard]] Algorithm own_algorithm(std::string name, std::function<void(pipeline::Region&)> body,
                                       bool whole_frame = false);
 

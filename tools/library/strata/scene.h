@@ -1,7 +1,9 @@
-// strata/scene.h - what is drawn: a glTF file, a built-in scene, or triangles from a program's own memory; and the camera.
+// strata/scene.h - what is drawn: a glTF file, a built-in scene, or triangles from a program's own memory; and the
+// camera.
 //
-// Rule     Triangles are drawn in the order in which they are added. Without a camera, positions of added triangles are clip space (x, y and z
-//          from -1 to 1, w = 1), and a loaded scene is seen by its own view or by the orbit of `strata render`.
+// Rule     Triangles are drawn in the order in which they are added. Without a camera, positions of added triangles are
+//          clip space (x, y and z from -1 to 1, w = 1), and a loaded scene is seen by its own view or by the orbit of
+//          `strata render`.
 // Tests    tests/tools/library/scene_test.cpp
 #pragma once
 #include <array>
@@ -21,8 +23,8 @@ using pipeline::View;
 using scenes::LookAt;
 using scenes::SceneOptions;
 
-// An attribute of the vertices in the caller's memory: `count` times so many floats, whose beginnings lie `stride_bytes` apart (0: one
-// behind the other). It is read while add() runs, and may begin at any byte.
+// An attribute of the vertices in the caller's memory: `count` times so many floats, whose beginnings lie
+// `stride_bytes` apart (0: one behind the other). It is read while add() runs, and may begin at any byte.
 struct VertexArray {
     const void* first = nullptr;
     std::size_t count = 0;  // vertices
@@ -49,7 +51,8 @@ struct Triangles {
 class Scene {
   public:
     Scene() = default;
-    // As the command takes it: a .gltf, .glb, .obj, .ply, .stl or .off file, or a built-in scene such as "teapot". InputError.
+    // As the command takes it: a .gltf, .glb, .obj, .ply, .stl or .off file, or a built-in scene such as "teapot".
+    // InputError.
     explicit Scene(const std::string& spec, const SceneOptions& options = {});
 
     // Copies them. InputError names the field ("triangles 'door': colors.count: expected 3 or none, found 2").

@@ -1,8 +1,8 @@
 // strata/version.h - which version of the library a program is compiled with. CHANGELOG.md says what differs.
 //
-// Rule     Semantic versions. Before 1.0 a minor version may change what programs see: names of the library stand in the inline namespace
-//          of their minor version, so that objects compiled with two of them do not link as if they were one. A result bit changes
-//          with a minor version alone, and CHANGELOG.md says which.
+// Rule     Semantic versions. Before 1.0 a minor version may change what programs see: names of the library stand in
+//          the inline namespace of their minor version, so that objects compiled with two of them do not link as if
+//          they were one. A result bit changes with a minor version alone, and CHANGELOG.md says which.
 #pragma once
 #include <string_view>
 

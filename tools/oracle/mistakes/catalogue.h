@@ -1,8 +1,10 @@
-// tools/oracle/mistakes/catalogue.h - the deliberately wrong machines that a diagnosis tries, each one field or one line of a right one.
+// tools/oracle/mistakes/catalogue.h - the deliberately wrong machines that a diagnosis tries, each one field or one
+// line of a right one.
 //
-// Rule     The order is that of the lists: of several mistakes that make one picture the first is named. A mistake that cannot be made
-//          on an experiment (no texture to turn over, no stencil to wrap) says so.
-// Tests    tests/tools/oracle/mistakes/catalogue_test.cpp: each shows in a scene of the suite, and no two are alike in all of them
+// Rule     The order is that of the lists: of several mistakes that make one picture the first is named. A mistake that
+//          cannot be made on an experiment (no texture to turn over, no stencil to wrap) says so.
+// Tests    tests/tools/oracle/mistakes/catalogue_test.cpp: each shows in a scene of the suite, and no two are alike in
+//          all of them
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -156,8 +156,8 @@ bool is_allowed(const Finding& f) {
     return !f.mistakes.empty() && std::ranges::all_of(f.mistakes, &Mistake::is_allowed);
 }
 
-// Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code: of options of a
-// right machine first. Where the right machine is as near, a code is no evidence of a mistake.
+// Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code:
+// of options of a right machine first. Where the right machine is as near, a code is no evidence of a mistake.
 void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
     if (d.findings.front().agreeing == d.pixels) return;
     const auto take = [&](auto is_fitting) {
@@ -348,7 +348,8 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
     std::ranges::stable_sort(pairs, [](const TwoSuspects& x, const TwoSuspects& y) {
         return std::pair{x.against, y.known} < std::pair{y.against, x.known};
     });
-    // Where nothing is drawn, all who draw nothing fit, and two mistakes more easily than one. What became of the background says more.
+    // Where nothing is drawn, all who draw nothing fit, and two mistakes more easily than one. What became of the
+    // background says more.
     pairs.resize(result.is_blank ? 0 : std::min(pairs.size(), most_pairs));
     pairs.insert(pairs.begin(), finished.begin(), finished.end());
     std::vector<std::optional<Finding>> found(pairs.size());

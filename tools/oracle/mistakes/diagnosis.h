@@ -1,16 +1,16 @@
 // tools/oracle/mistakes/diagnosis.h - which wrong machine made a picture.
 //
-// Rule     Every mistake's own picture is compared with the candidate, pixel by pixel and code by code; a finding's rank is the number of
-//          pixels that agree. The right machine comes before all mistakes that explain no more than it does, and a mistake before
-//          those behind it in the catalogue; options of machine_options.h, where there are any, come before all mistakes. A mistake whose
-//          picture is the right one here is no finding. If no single one explains every
-//          pixel, pairs are tried: first all that end in a mistake of the finished picture, then those that
-//          contradict the candidate least where only one of the two shows; none for a candidate of one colour everywhere without
-//          passes, which is no evidence of two.
-//          Where none explains every pixel to the last code, one that explains half of them so and all within one code counts as nearly
-//          explaining them, unless the right machine does.
-//          A candidate's passes, where it has any, decide between those who leave the same picture; a machine whose passes differ
-//          from the candidate's no later than the right machine's do is not the one that made it.
+// Rule     Every mistake's own picture is compared with the candidate, pixel by pixel and code by code; a finding's
+//          rank is the number of pixels that agree. The right machine comes before all mistakes that explain no more
+//          than it does, and a mistake before those behind it in the catalogue; options of machine_options.h, where
+//          there are any, come before all mistakes. A mistake whose picture is the right one here is no finding. If no
+//          single one explains every pixel, pairs are tried: first all that end in a mistake of the finished picture,
+//          then those that contradict the candidate least where only one of the two shows; none for a candidate of one
+//          colour everywhere without passes, which is no evidence of two. Where none explains every pixel to the last
+//          code, one that explains half of them so and all within one code counts as nearly explaining them, unless the
+//          right machine does. A candidate's passes, where it has any, decide between those who leave the same picture;
+//          a machine whose passes differ from the candidate's no later than the right machine's do is not the one that
+//          made it.
 // Tests    tests/tools/oracle/mistakes/diagnosis_test.cpp
 #pragma once
 #include <functional>
@@ -71,8 +71,8 @@ class Lineup {
                                      const ShowProgress& progress = {},
                                      const std::vector<PassPicture>* passes = nullptr) const;
 
-    // The machine with those of `mistakes` that can be made on this scene. It fits if the candidate's picture is its own, or is so within
-    // one code where the right machine's is not, and its passes do not contradict.
+    // The machine with those of `mistakes` that can be made on this scene. It fits if the candidate's picture is its
+    // own, or is so within one code where the right machine's is not, and its passes do not contradict.
     struct Judged {
         Finding finding{};
         bool fits = false;

@@ -11,7 +11,8 @@ namespace strata::oracle {
 // "colours multiplied by their alpha twice (premultiplied_twice); and: ..."; "the right machine" for none.
 [[nodiscard]] std::string sentence_of(const std::vector<const Mistake*>& mistakes);
 
-// `comparison`: of the right picture and the candidate. The verdict in the first line, then the next best findings; where the right machine did not make the picture, what compare says of it.
+// `comparison`: of the right picture and the candidate. The verdict in the first line, then the next best findings;
+// where the right machine did not make the picture, what compare says of it.
 [[nodiscard]] std::string to_text(const Diagnosis& diagnosis, const Comparison& comparison);
 // One object; every key is always there.
 [[nodiscard]] std::string to_json(const Diagnosis& diagnosis, const Comparison& comparison);

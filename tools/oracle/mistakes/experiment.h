@@ -1,7 +1,7 @@
 // tools/oracle/mistakes/experiment.h - a run that is about to be made, as values that a mistake may change.
 //
-// Rule     A mistake changes one field of the scene, of the machine or of the options, one step of the algorithm's own run (an
-//          alteration), or the finished picture. It never brings an algorithm of its own.
+// Rule     A mistake changes one field of the scene, of the machine or of the options, one step of the algorithm's own
+//          run (an alteration), or the finished picture. It never brings an algorithm of its own.
 #pragma once
 #include <functional>
 #include <memory>

@@ -23,7 +23,8 @@ auto made(auto&& run) -> std::optional<decltype(run())> {
 
 using Targets = std::vector<Target>;
 
-// The target that is published, as what happens to the finished picture leaves it: a port may do that in its last pass. Under its own name.
+// The target that is published, as what happens to the finished picture leaves it: a port may do that in its last pass.
+// Under its own name.
 Targets finished(const PassShown& last, const PassShown& published, const Experiment& e) {
     Targets targets;
     for (const NamedImage& target : last.targets) {

@@ -1,8 +1,9 @@
 // tools/oracle/mistakes/laboratory.h - makes pictures of one scene: the right one, and those of machines with mistakes.
 //
-// Rule     A picture has the colours as stored, and the nearest depth as stored where the caller wants depths. A wrong machine may never
-//          end: it gets the passes of the limit that the caller knows; else twice those of the right run, and eight, or as
-//          many, where the right run is endless itself. What a machine refuses, or cannot run, is no picture.
+// Rule     A picture has the colours as stored, and the nearest depth as stored where the caller wants depths. A wrong
+//          machine may never end: it gets the passes of the limit that the caller knows; else twice those of the right
+//          run, and eight, or as many, where the right run is endless itself. What a machine refuses, or cannot run, is
+//          no picture.
 // Tests    tests/tools/oracle/mistakes/laboratory_test.cpp
 #pragma once
 #include <optional>

@@ -46,7 +46,8 @@ void add_blends(std::vector<Mistake>& all) {
             return true;
         }));
     }
-    // One colour at all corners is that colour at every fragment, as a uniform is: flatness stands before all that has slopes.
+    // One colour at all corners is that colour at every fragment, as a uniform is: flatness stands before all that has
+    // slopes.
     using rasterizer::EqualColors;
     for (const EqualColors rule : enum_values<EqualColors>) {
         const auto word = enum_names<EqualColors>[static_cast<std::size_t>(rule)];

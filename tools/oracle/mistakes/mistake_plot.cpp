@@ -1,4 +1,5 @@
-// tools/oracle/mistakes/mistake_plot.cpp - how many mistakes each scene of the suite shows, as a drawing: a bar a scene.
+// tools/oracle/mistakes/mistake_plot.cpp - how many mistakes each scene of the suite shows, as a drawing: a bar a
+// scene.
 #include <fmt/format.h>
 
 #include <algorithm>

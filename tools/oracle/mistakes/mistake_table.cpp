@@ -107,7 +107,8 @@ std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns) {
 
 namespace {
 
-// Where a mistake is named first: the first such scene, and in how many; of a declared look_alike, whose name is named instead.
+// Where a mistake is named first: the first such scene, and in how many; of a declared look_alike, whose name is named
+// instead.
 std::string first_scene(const std::vector<TableColumn>& columns, std::size_t mistake) {
     const auto scenes = named_in(columns, mistake);
     if (!scenes.empty()) return fmt::format("{} ({} in all)", scenes.front()->name, scenes.size());

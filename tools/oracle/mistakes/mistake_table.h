@@ -1,7 +1,8 @@
-// tools/oracle/mistakes/mistake_table.h - which mistake shows in which scene of the suite, and what a diagnosis says there.
+// tools/oracle/mistakes/mistake_table.h - which mistake shows in which scene of the suite, and what a diagnosis says
+// there.
 //
-// Rule     The picture of each mistake is diagnosed like anybody's. Two mistakes are told apart if their pictures of some scene differ, or
-//          if one of them can be made there and shows, and the other one cannot be made.
+// Rule     The picture of each mistake is diagnosed like anybody's. Two mistakes are told apart if their pictures of
+//          some scene differ, or if one of them can be made there and shows, and the other one cannot be made.
 // Tests    tests/tools/oracle/mistakes/catalogue_test.cpp
 #pragma once
 #include <string>
@@ -43,8 +44,8 @@ struct LookAlikes {
 // Mistakes that no column names.
 [[nodiscard]] std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns);
 
-// A page in Markdown: what was found, the table, the scenes with their commands, the mistakes in words. `plot`: the file beside the page
-// that holds the drawing; empty: none.
+// A page in Markdown: what was found, the table, the scenes with their commands, the mistakes in words. `plot`: the
+// file beside the page that holds the drawing; empty: none.
 [[nodiscard]] std::string to_page(const std::vector<TableColumn>& columns, const std::string& plot);
 // That drawing, an SVG file: how many mistakes each scene shows, a bar a scene.
 [[nodiscard]] std::string to_svg(const std::vector<TableColumn>& columns);

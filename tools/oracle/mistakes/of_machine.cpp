@@ -26,8 +26,8 @@ bool takes_color(Experiment& e, Format format) {
     return true;
 }
 
-// Clip x and y move by so many pixels' share of w, to the right and up: behind the vertex stage, so that no product of it rounds otherwise. A
-// device that fuses the viewport's sums fuses those of its shaders, too.
+// Clip x and y move by so many pixels' share of w, to the right and up: behind the vertex stage, so that no product of
+// it rounds otherwise. A device that fuses the viewport's sums fuses those of its shaders, too.
 bool moves(Experiment& e, double right_px, double up_px) {
     const auto x = static_cast<float>(2 * right_px / e.options.width);
     const auto y = static_cast<float>(2 * up_px / e.options.height);

@@ -1,4 +1,5 @@
-// tools/oracle/mistakes/of_programs.cpp - mistakes in fragment programs: what a pass's program is given, and what it gives out.
+// tools/oracle/mistakes/of_programs.cpp - mistakes in fragment programs: what a pass's program is given, and what it
+// gives out.
 #include <algorithm>
 
 #include "peeling/programs/min_max.h"

@@ -58,8 +58,9 @@ bool has_quotient_depth(const Experiment& e) {
     return peeling::takes_quotient({.path = e.algorithm->stores.value_or(own), .reference = compared});
 }
 
-// Attributes run linearly over the window; positions and depths stay as they are to the last bit. What is cut is linear in clip space:
-// values times w are so where the values are linear over the window. Vertices that no cut made get their own values back.
+// Attributes run linearly over the window; positions and depths stay as they are to the last bit. What is cut is linear
+// in clip space: values times w are so where the values are linear over the window. Vertices that no cut made get their
+// own values back.
 void make_affine(Experiment& e) {
     using rasterizer::ClipVertex;
     const auto times = [](ClipVertex& v, float factor) {
@@ -105,7 +106,8 @@ bool has_slopes(const Experiment& e) {
 
 enum class Weighting : std::uint8_t { affine, unnormalised };
 
-// The light that fell on a vertex times its colour: what the material was multiplied by. Its own colour says nothing where it is 0.
+// The light that fell on a vertex times its colour: what the material was multiplied by. Its own colour says nothing
+// where it is 0.
 Rgba without_material(const rasterizer::ClipVertex& v, const Material& material) {
     Rgba color{0, 0, 0, 0};
     for (std::size_t c = 0; c < 4; ++c)
@@ -116,8 +118,8 @@ Rgba without_material(const rasterizer::ClipVertex& v, const Material& material)
     return color;
 }
 
-// The scene behind its vertex stage, with w divided out of all positions: whatever is interpolated then runs linearly over the window.
-// Scenes with a corner at or behind the eye have no such form.
+// The scene behind its vertex stage, with w divided out of all positions: whatever is interpolated then runs linearly
+// over the window. Scenes with a corner at or behind the eye have no such form.
 bool loses_perspective(Experiment& e, Weighting weighting) {
     const rasterizer::TriangleSoup soup = pipeline::transform(*e.list, e.view, {});
     const auto& vertices = soup.vertices;

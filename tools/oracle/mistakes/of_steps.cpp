@@ -1,4 +1,5 @@
-// tools/oracle/mistakes/of_steps.cpp - mistakes in the steps of an algorithm: clears, copies, queries and the state of its passes.
+// tools/oracle/mistakes/of_steps.cpp - mistakes in the steps of an algorithm: clears, copies, queries and the state of
+// its passes.
 #include <algorithm>
 
 #include "peeling/registry.h"
@@ -83,7 +84,8 @@ void wrap(StencilFace& face) {
         *op = *op == StencilOp::incr ? StencilOp::incr_wrap : *op == StencilOp::decr ? StencilOp::decr_wrap : *op;
 }
 
-// Pairs that an algorithm swaps keep the roles that they have in its first iteration: in every second iteration each stands for the other.
+// Pairs that an algorithm swaps keep the roles that they have in its first iteration: in every second iteration each
+// stands for the other.
 class NoPingPong {
   public:
     explicit NoPingPong(std::shared_ptr<Names> names) : names_{std::move(names)} {}

@@ -1,8 +1,8 @@
 // tools/oracle/mistakes/pass_evidence.h - how far the passes of a machine are those of a candidate, target by target.
 //
-// Rule     Targets are paired by the number of the pass and their names; one is alike if all of its codes are. What one side alone has is
-//          not compared. A target is far off if a code is further away than the rounding of another way to the same values explains: 64 codes of
-//          binary32, 16 of 24 bits, 2 of fp16, 1 of fewer bits.
+// Rule     Targets are paired by the number of the pass and their names; one is alike if all of its codes are. What one
+//          side alone has is not compared. A target is far off if a code is further away than the rounding of another
+//          way to the same values explains: 64 codes of binary32, 16 of 24 bits, 2 of fp16, 1 of fewer bits.
 // Tests    tests/tools/oracle/mistakes/pass_evidence_test.cpp
 #pragma once
 #include <cstdint>
@@ -26,8 +26,8 @@ struct PassAgreement {
     friend bool operator==(const PassAgreement&, const PassAgreement&) = default;
 };
 
-// Whether a machine's passes are the candidate's, to the last code or nearly, where the right machine's first are not: nearly is also a
-// twentieth of the pixels that are far off there, as an edge of another rounding leaves them.
+// Whether a machine's passes are the candidate's, to the last code or nearly, where the right machine's first are not:
+// nearly is also a twentieth of the pixels that are far off there, as an edge of another rounding leaves them.
 [[nodiscard]] bool explains_origin(const PassAgreement& machine, const PassAgreement& right);
 
 // Takes a machine's passes one after the other.

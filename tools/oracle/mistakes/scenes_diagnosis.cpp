@@ -14,7 +14,8 @@ using Mistakes = std::vector<const Mistake*>;
 
 constexpr std::size_t most_of_a_scene = 24;  // machines of one scene that are judged in all the others
 
-// Those who are named in a scene, or explain all of its pixels there; the right machine first. In the order of the scenes' findings.
+// Those who are named in a scene, or explain all of its pixels there; the right machine first. In the order of the
+// scenes' findings.
 std::vector<Mistakes> hypotheses(const std::vector<Diagnosis>& scenes) {
     std::vector<Mistakes> all{{}};
     std::set<Mistakes> known{{}};

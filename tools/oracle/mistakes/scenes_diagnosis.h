@@ -1,9 +1,11 @@
-// tools/oracle/mistakes/scenes_diagnosis.h - which wrong machine made all pictures of a port, one of each of several scenes.
+// tools/oracle/mistakes/scenes_diagnosis.h - which wrong machine made all pictures of a port, one of each of several
+// scenes.
 //
-// Rule     Every scene is diagnosed by itself. A machine that is named in one of them, or explains all of its pixels there, is judged in all the others: what fits
-//          the most scenes is named, of several the one with fewer mistakes, then the one whose passes agree further. In a scene in
-//          which a mistake cannot be made, or hides, the right machine stands for it. Half of the pixels of all scenes that are not the right
-//          machine's have to be explained to the last code, and all within one.
+// Rule     Every scene is diagnosed by itself. A machine that is named in one of them, or explains all of its pixels
+//          there, is judged in all the others: what fits the most scenes is named, of several the one with fewer
+//          mistakes, then the one whose passes agree further. In a scene in which a mistake cannot be made, or hides,
+//          the right machine stands for it. Half of the pixels of all scenes that are not the right machine's have to
+//          be explained to the last code, and all within one.
 // Tests    tests/tools/oracle/mistakes/scenes_diagnosis_test.cpp
 #pragma once
 #include <string>

@@ -1,7 +1,7 @@
 // tools/oracle/mistakes/suite.h - the standard set of small scenes: each known mistake shows in at least one of them.
 //
-// Rule     An entry is a command: a built-in scene, an algorithm, a profile and the options that a picture depends on. Frames are small, so
-//          that a port's author runs all of them at once and looks at every pixel.
+// Rule     An entry is a command: a built-in scene, an algorithm, a profile and the options that a picture depends on.
+//          Frames are small, so that a port's author runs all of them at once and looks at every pixel.
 // Tests    tests/tools/oracle/mistakes/catalogue_test.cpp
 #pragma once
 #include <functional>

@@ -1,4 +1,5 @@
-// tools/oracle/mistakes/telling.h - which scene of the suite tells mistakes apart that leave one picture of another scene.
+// tools/oracle/mistakes/telling.h - which scene of the suite tells mistakes apart that leave one picture of another
+// scene.
 //
 // Tests    tests/tools/oracle/mistakes/telling_test.cpp
 #pragma once

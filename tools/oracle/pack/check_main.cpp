@@ -1,5 +1,5 @@
-// tools/oracle/pack/check_main.cpp - strata_pack_check PACK...: checks golden packs on every instruction set that there is, without the
-// command's libraries. For builds by other compilers; check_elsewhere.sh calls it.
+// tools/oracle/pack/check_main.cpp - strata_pack_check PACK...: checks golden packs on every instruction set that there
+// is, without the command's libraries. For builds by other compilers; check_elsewhere.sh calls it.
 #include <fmt/format.h>
 
 #include <exception>

@@ -1,7 +1,8 @@
-// tools/oracle/pack/compare_packs.h - how a candidate differs from a pack: the end, and the first pass that went another way.
+// tools/oracle/pack/compare_packs.h - how a candidate differs from a pack: the end, and the first pass that went
+// another way.
 //
-// Rule     Each algorithm that the candidate has anything of is compared: its picture, its layers, and every target of every pass. The first
-//          pass that differs beyond the tolerance is named; a table has them all.
+// Rule     Each algorithm that the candidate has anything of is compared: its picture, its layers, and every target of
+//          every pass. The first pass that differs beyond the tolerance is named; a table has them all.
 // Tests    tests/tools/oracle/pack_pictures_test.cpp
 #pragma once
 #include "tools/oracle/compare.h"

@@ -1,6 +1,8 @@
-// tools/oracle/pack/draw_json.h - the objects of "draws" in a pack: triangles as passes draw them, in clip space and snapped.
+// tools/oracle/pack/draw_json.h - the objects of "draws" in a pack: triangles as passes draw them, in clip space and
+// snapped.
 //
-// Rule     tools/oracle/PACK.md. The arrays are those of the machine itself: pipeline::transform and rasterizer::set_up.
+// Rule     tools/oracle/PACK.md. The arrays are those of the machine itself: pipeline::transform and
+//          rasterizer::set_up.
 // Tests    tests/tools/oracle/pack_draws_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
-// tools/oracle/pack/exr_copies.h - the expected targets of a pack once more as EXR files, for readers of pictures rather than arrays.
+// tools/oracle/pack/exr_copies.h - the expected targets of a pack once more as EXR files, for readers of pictures
+// rather than arrays.
 //
 // Rule     tools/oracle/PACK.md, "EXR copies": beside the arrays, not in the manifest, and equal to them in every code.
 // Tests    tests/tools/oracle/exr_copies_test.cpp

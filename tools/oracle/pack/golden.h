@@ -1,6 +1,8 @@
-// tools/oracle/pack/golden.h - golden packs: derived from a scene and its state, written, read, and derived again to be checked.
+// tools/oracle/pack/golden.h - golden packs: derived from a scene and its state, written, read, and derived again to be
+// checked.
 //
-// Rule     tools/oracle/PACK.md is the format. One derivation serves writing and checking; only what takes its files differs.
+// Rule     tools/oracle/PACK.md is the format. One derivation serves writing and checking; only what takes its files
+//          differs.
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <cstdint>
@@ -42,8 +44,8 @@ struct PackFault {
     std::string file, sentence{};  // "byte 1234, row 3, column 5, channel 1: expected 17, found 18"
 };
 
-// Empty for a pack as it was written. Files are compared with what the manifest says of them, then with what is derived again.
-// Derived on the instruction set `simd`, which this processor has.
+// Empty for a pack as it was written. Files are compared with what the manifest says of them, then with what is derived
+// again. Derived on the instruction set `simd`, which this processor has.
 [[nodiscard]] std::vector<PackFault> check_pack(const std::string& path, Simd simd = Simd::best);
 
 }  // namespace strata::oracle

@@ -1,5 +1,5 @@
-// tools/oracle/pack/manifest_value.h - the results of a manifest as another program may have changed them: a key may be missing, but
-// what is there has its type.
+// tools/oracle/pack/manifest_value.h - the results of a manifest as another program may have changed them: a key may be
+// missing, but what is there has its type.
 //
 // Tests    tests/tools/oracle/changed_packs_test.cpp
 #pragma once

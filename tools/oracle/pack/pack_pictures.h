@@ -1,4 +1,5 @@
-// tools/oracle/pack/pack_pictures.h - what a golden pack expects and what a candidate holds of it, as pictures to compare.
+// tools/oracle/pack/pack_pictures.h - what a golden pack expects and what a candidate holds of it, as pictures to
+// compare.
 //
 // Rule     tools/oracle/PACK.md, "A candidate": names are the pack's; what a candidate has not is left out.
 // Tests    tests/tools/oracle/pack_pictures_test.cpp

@@ -1,7 +1,7 @@
 // tools/oracle/pack/state_json.h - the object "state" of a pack: all that options choose.
 //
-// Rule     tools/oracle/PACK.md. Options that leave every bit alone (threads, tiles, execution) are not in it; those that a pack cannot
-//          hold (clip planes, a second list, a window's corner) throw InputError when it is written.
+// Rule     tools/oracle/PACK.md. Options that leave every bit alone (threads, tiles, execution) are not in it; those
+//          that a pack cannot hold (clip planes, a second list, a window's corner) throw InputError when it is written.
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
-// tools/oracle/pack/target_json.h - a target in a pack: its codes as an array, and digests of the whole, of channels and of tiles.
+// tools/oracle/pack/target_json.h - a target in a pack: its codes as an array, and digests of the whole, of channels
+// and of tiles.
 //
 // Rule     tools/oracle/PACK.md. A target that has not changed since it was last written keeps its file.
 // Tests    tests/tools/oracle/golden_test.cpp

@@ -1,12 +1,14 @@
-// tools/oracle/reduce/reduce.h - a failing scene made small: the fewest triangles, the smallest frame, the simplest state that still differ.
+// tools/oracle/reduce/reduce.h - a failing scene made small: the fewest triangles, the smallest frame, the simplest
+// state that still differ.
 //
-// Rule     A scene fails if the candidate's picture of it has a pixel that the right picture has not, and which differs in the kind (compare.h) of
-//          most pixels that differ in the whole scene: a reduction does not slip from one mistake to another. A scene that the candidate
-//          fails to draw is neither right nor wrong: it is not taken. First the frame is cut to a window around
-//          one differing pixel, with the triangles that cover it: the smallest window that still fails counts. Then triangles are left out
-//          by halves, quarters, ... until no single one can be left out; then rows and columns of the frame; then
-//          the state goes back to its defaults, a field at a time; and all of it again until nothing is left to take away.
-//          Tolerances of codes hold at every step, budgets of pixels for the whole scene alone: a cut frame has fewer pixels.
+// Rule     A scene fails if the candidate's picture of it has a pixel that the right picture has not, and which differs
+//          in the kind (compare.h) of most pixels that differ in the whole scene: a reduction does not slip from one
+//          mistake to another. A scene that the candidate fails to draw is neither right nor wrong: it is not taken.
+//          First the frame is cut to a window around one differing pixel, with the triangles that cover it: the
+//          smallest window that still fails counts. Then triangles are left out by halves, quarters, ... until no
+//          single one can be left out; then rows and columns of the frame; then the state goes back to its defaults, a
+//          field at a time; and all of it again until nothing is left to take away. Tolerances of codes hold at every
+//          step, budgets of pixels for the whole scene alone: a cut frame has fewer pixels.
 // Source   Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input", algorithm ddmin.
 // Tests    tests/tools/oracle/reduce/reduce_test.cpp
 #pragma once
@@ -20,11 +22,12 @@
 
 namespace strata::oracle {
 
-// Draws a scene; nothing where it could not be drawn. Of `Golden` the scene, its own view, the profile, the options and the first algorithm count.
+// Draws a scene; nothing where it could not be drawn. Of `Golden` the scene, its own view, the profile, the options and
+// the first algorithm count.
 using Candidate = std::function<std::optional<Picture>(const Golden& scene)>;
 
-// What a window of the frame becomes: a frame of its own, or the scissor's rectangle in the whole frame, for what shows in frames of that
-// size alone; then pixels outside of it are not compared.
+// What a window of the frame becomes: a frame of its own, or the scissor's rectangle in the whole frame, for what shows
+// in frames of that size alone; then pixels outside of it are not compared.
 enum class Frame : std::uint8_t { cut, whole };
 
 struct ReduceRules {
@@ -51,7 +54,8 @@ struct Reduction {
 // What a pixel of the picture holds where nothing is drawn: a small frame may have no such pixel. Throws Refused.
 [[nodiscard]] Background background_of(const Golden& scene);
 
-// Nothing if the candidate draws the scene right, or within the tolerances; InputError if it draws no picture of it, or one of another size. `on_run` is called before each run of the candidate.
+// Nothing if the candidate draws the scene right, or within the tolerances; InputError if it draws no picture of it, or
+// one of another size. `on_run` is called before each run of the candidate.
 [[nodiscard]] std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
                                               const std::function<void(const Golden&)>& on_run = {},
                                               const ReduceRules& rules = {});

@@ -1,4 +1,5 @@
-// tools/oracle/verdict/account.h - what is said of a picture: a structure under a hypothesis, and how it fares at every pixel.
+// tools/oracle/verdict/account.h - what is said of a picture: a structure under a hypothesis, and how it fares at every
+// pixel.
 //
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once

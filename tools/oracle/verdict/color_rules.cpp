@@ -1,4 +1,5 @@
-// tools/oracle/verdict/color_rules.cpp - rules that change layers' colours, add them up, or change what lies behind them.
+// tools/oracle/verdict/color_rules.cpp - rules that change layers' colours, add them up, or change what lies behind
+// them.
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +10,9 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// Of a weighted average by rule.n: how a fragment's straight colour counts.
-// 0 and 1: Bavoil and Myers 2008; 2: Mol* 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and without;
-// 5: their equation 9 of window depths; 6: LearnOpenGL, Weighted, Blended.
+// Of a weighted average by rule.n: how a fragment's straight colour counts. 0 and 1: Bavoil and Myers 2008; 2: Mol*
+// 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and without; 5: their
+// equation 9 of window depths; 6: LearnOpenGL, Weighted, Blended.
 float within(float weight) noexcept { return std::min(std::max(weight, 0.01f), 3000.0f); }
 float power(float x, int n) noexcept { return n == 1 ? x : x * power(x, n - 1); }
 float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {

@@ -53,7 +53,8 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
         return k;
     }
     k.inverse = 1 / k.scale;
-    // A quotient of codes is off by less than half of the least distance of two of them; a blend in binary32 by its error.
+    // A quotient of codes is off by less than half of the least distance of two of them; a blend in binary32 by its
+    // error.
     const double error = operands_are_codes ? 0x1p-30 : k.scale * single_error;
     switch (rounding) {
         case Rounding::nearest: k.minus = k.plus = 0.5 + error; break;
@@ -127,7 +128,8 @@ Compositor::Means Compositor::means_of(const End& end, double slack) {
     m.source = conversion(end.storage, end.source);
     m.blend = keeper(end.storage, end.rounding, has_stored_source(end.source));
     m.weight = m.blend;
-    // UNDER multiplies three codes where its sources are straight; and what is let through may be kept as coverage, which is cut the other way.
+    // UNDER multiplies three codes where its sources are straight; and what is let through may be kept as coverage,
+    // which is cut the other way.
     const bool has_three = end.source == Source::stored || end.source == Source::stored_either_way;
     m.under = keeper(end.storage, end.rounding, has_stored_source(end.source) && !has_three);
     if (m.weight.cuts) m.weight = keeper(end.storage, Rounding::nearest, false), m.weight.minus = m.weight.plus = 1;
@@ -319,7 +321,8 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
         if (c < 3 && stack.finish == Finish::decoded) return result_.kept(decoded(clamped(exact)), magnitude);
         return result_.kept(stack.is_linear && c < 3 ? encoded(exact) : exact, magnitude);
     };
-    // What is let through may be read as 1 less the coverage, which is off by half a unit in the last place of 1 each time.
+    // What is let through may be read as 1 less the coverage, which is off by half a unit in the last place of 1 each
+    // time.
     const auto read = [&](Interval through) { return result_.has_codes ? through : through.widened(0x1p-23); };
     const bool converts = converts_ || stack.finish != Finish::as_is;
     Reach reach;

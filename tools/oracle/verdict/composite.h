@@ -1,12 +1,15 @@
-// tools/oracle/verdict/composite.h - the values that a pixel can have if a list of layers is composited as a hypothesis says.
+// tools/oracle/verdict/composite.h - the values that a pixel can have if a list of layers is composited as a hypothesis
+// says.
 //
-// Rule     `reach` holds every result of every implementation that the hypothesis describes: sources, blends and conversions take all
-//          values that their rounding allows, colours and alpha all within the slack. Channels are bounded one by one.
-// Numbers  Intervals of binary64 with outward rounding (interval.h). Blends in binary32 are off by at most 2^-22 of the sum of their terms:
-//          at most five operations, 2^-24 each. Codes are whole numbers times 1 / (2^n - 1), rounded once.
+// Rule     `reach` holds every result of every implementation that the hypothesis describes: sources, blends and
+//          conversions take all values that their rounding allows, colours and alpha all within the slack. Channels are
+//          bounded one by one.
+// Numbers  Intervals of binary64 with outward rounding (interval.h). Blends in binary32 are off by at most 2^-22 of the
+//          sum of their terms: at most five operations, 2^-24 each. Codes are whole numbers times 1 / (2^n - 1),
+//          rounded once.
 // Source   GL 4.6 17.3.6; fragment-stages.md 8 and 9; algorithms.md 4 (UNDER), 5 (both ends).
-// Tests    tests/tools/oracle/verdict/composite_test.cpp: every 8-bit source and target of one layer and of two; random lists by a model of
-//          each rounding
+// Tests    tests/tools/oracle/verdict/composite_test.cpp: every 8-bit source and target of one layer and of two; random
+//          lists by a model of each rounding
 #pragma once
 #include <array>
 #include <cmath>
@@ -63,7 +66,8 @@ struct Stack {
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 
-// Where a picture of floats is put together of what accumulators keep in codes, it has no other values than front + weight * back of these.
+// Where a picture of floats is put together of what accumulators keep in codes, it has no other values than front +
+// weight * back of these.
 struct Sums {
     double front_unit = 0,
            back_unit = 0;  // of a code; of the back 0 where it is a float. No front unit: nothing is known
@@ -97,8 +101,8 @@ struct Keeper {
     bool cuts = false;               // whole codes below the exact result, moved by the two numbers above
     double relative = 0, least = 0;  // floats
     enum class Half : std::uint8_t { none, nearest, cut };
-    Half half = Half::
-        none;  // what is off by the two numbers above becomes the nearest number of binary16, or the one before it
+    Half half = Half::none;  // what is off by the two numbers above becomes the nearest number of binary16, or the one
+                             // before it
 
     [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
         if (!has_codes && half != Half::none) {

@@ -170,7 +170,8 @@ class Meetings {
     Drawings moved_;
 };
 
-// The list with neighbours exchanged whose depths may: each pair alone, then all that begin at an even or at an odd number.
+// The list with neighbours exchanged whose depths may: each pair alone, then all that begin at an even or at an odd
+// number.
 void add_exchanged(const OtherList& given, const Meetings& meetings, std::vector<OtherList>& others) {
     const std::size_t n = given.visible.size();
     const auto exchanged = [&](std::size_t first, std::size_t last, std::size_t step) {
@@ -191,7 +192,8 @@ void add_exchanged(const OtherList& given, const Meetings& meetings, std::vector
         for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) exchanged(first, n, 2);
 }
 
-// The list with the farthest visible fragment hidden, or the nearest hidden one visible, where it nearly meets the opaque surface.
+// The list with the farthest visible fragment hidden, or the nearest hidden one visible, where it nearly meets the
+// opaque surface.
 void add_at_opaque(const OtherList& given, const Meetings& meetings, std::vector<OtherList>& others) {
     if (!given.has_opaque) return;
     if (!given.visible.empty() && meetings.may_meet(given.visible.back(), given.opaque)) {

@@ -1,12 +1,15 @@
-// tools/oracle/verdict/coverages.h - what of a pixel may be otherwise on a rasterizer that snaps or breaks ties otherwise.
+// tools/oracle/verdict/coverages.h - what of a pixel may be otherwise on a rasterizer that snaps or breaks ties
+// otherwise.
 //
-// Rule     The scene is drawn again with every rule for ties and moved by 1/16 pixel in the four diagonal directions: no right rasterizer with four bits of
-//          subpixels or more covers what none of these covers. The fragments of one instance and facing come from one drawing, so that of two triangles
-//          beside an edge one covers the pixel, neither both nor none; those of others may come from another one. Colours are off by
-//          what they change by in these drawings, their spread; neighbours whose depths come so much nearer to each other may change places,
-//          and one that meets the opaque surface may lie on either side of it. At one depth to the bit neither holds: there are rules for ties.
-// Numbers  Colours of fragments that the drawing as given lacks are taken where they were moved to; they are off by a code, or by as much as drawings
-//          differ.
+// Rule     The scene is drawn again with every rule for ties and moved by 1/16 pixel in the four diagonal directions:
+//          no right rasterizer with four bits of subpixels or more covers what none of these covers. The fragments of
+//          one instance and facing come from one drawing, so that of two triangles beside an edge one covers the pixel,
+//          neither both nor none; those of others may come from another one. Colours are off by what they change by in
+//          these drawings, their spread; neighbours whose depths come so much nearer to each other may change places,
+//          and one that meets the opaque surface may lie on either side of it. At one depth to the bit neither holds:
+//          there are rules for ties.
+// Numbers  Colours of fragments that the drawing as given lacks are taken where they were moved to; they are off by a
+//          code, or by as much as drawings differ.
 // Tests    tests/tools/oracle/verdict/coverages_test.cpp
 #pragma once
 #include <vector>

@@ -1,8 +1,9 @@
-// tools/oracle/verdict/edits.h - what a wrong picture composited at each of its pixels: the mistakes that give their values.
+// tools/oracle/verdict/edits.h - what a wrong picture composited at each of its pixels: the mistakes that give their
+// values.
 //
-// Rule     Mistakes are held against pixels under the verdict's hypothesis, the findings first, then the leads; a pixel belongs to the first that
-//          gives its value and changes its layers. Of one pixel all are told that make other layers of it, and where no rule gives its value, which
-//          of its layers, in which order, would.
+// Rule     Mistakes are held against pixels under the verdict's hypothesis, the findings first, then the leads; a pixel
+//          belongs to the first that gives its value and changes its layers. Of one pixel all are told that make other
+//          layers of it, and where no rule gives its value, which of its layers, in which order, would.
 // Tests    tests/tools/oracle/verdict/edits_test.cpp
 #pragma once
 #include <optional>

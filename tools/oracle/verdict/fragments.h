@@ -1,8 +1,11 @@
-// tools/oracle/verdict/fragments.h - every transparent fragment of a scene, pixel by pixel, near to far, and what lies behind them.
+// tools/oracle/verdict/fragments.h - every transparent fragment of a scene, pixel by pixel, near to far, and what lies
+// behind them.
 //
-// Rule     A pixel's list has its visible fragments by depth code, equal codes in the order of submission; then its hidden ones, those at or
-//          behind the opaque surface, likewise. Lists come tile by tile, each tile once; tiles without a fragment come, too.
-// Numbers  44 bytes a fragment. Tiles are kept while they fit into the memory that is stated, and drawn again for each walk where they do not.
+// Rule     A pixel's list has its visible fragments by depth code, equal codes in the order of submission; then its
+//          hidden ones, those at or behind the opaque surface, likewise. Lists come tile by tile, each tile once; tiles
+//          without a fragment come, too.
+// Numbers  44 bytes a fragment. Tiles are kept while they fit into the memory that is stated, and drawn again for each
+//          walk where they do not.
 // Tests    tests/tools/oracle/verdict/fragments_test.cpp
 #pragma once
 #include <cstdint>
@@ -56,7 +59,8 @@ struct TileLists {
 
 class SceneFragments {
   public:
-    // Draws the scene. `bytes`: what may be kept. Throws Refused and InputError as a renderer does. What `input` refers to must live as long.
+    // Draws the scene. `bytes`: what may be kept. Throws Refused and InputError as a renderer does. What `input` refers
+    // to must live as long.
     SceneFragments(const RunInput& input, std::uint64_t bytes);
 
     [[nodiscard]] int width() const noexcept { return behind_.width; }

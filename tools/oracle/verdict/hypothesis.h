@@ -1,8 +1,9 @@
 // tools/oracle/verdict/hypothesis.h - how an implementation may keep and round the colours that it composites.
 //
-// Rule     A hypothesis holds for a whole picture. It names the order of blending, how colours are kept at each end, and what the picture
-//          is stored in. It says nothing of which fragments are composited: that is the structure.
-// Source   GL 4.6 17.3.6 and Direct3D 11.3 17 leave formats, roundings and the source's precision to the implementation.
+// Rule     A hypothesis holds for a whole picture. It names the order of blending, how colours are kept at each end,
+//          and what the picture is stored in. It says nothing of which fragments are composited: that is the structure.
+// Source   GL 4.6 17.3.6 and Direct3D 11.3 17 leave formats, roundings and the source's precision to the
+//          implementation.
 // Tests    tests/tools/oracle/verdict/composite_test.cpp
 #pragma once
 #include <cstdint>
@@ -82,8 +83,8 @@ struct HypothesisFamily {
 };
 using Families = std::vector<HypothesisFamily>;
 
-// All that are tried for a picture of this storage, once with each slack, in increasing order. Definite ones have one rounding and one format an end, as a
-// device or a program may; loose ones may round anyhow beside that.
+// All that are tried for a picture of this storage, once with each slack, in increasing order. Definite ones have one
+// rounding and one format an end, as a device or a program may; loose ones may round anyhow beside that.
 enum class Looseness : std::uint8_t { definite, loose };
 [[nodiscard]] Families families(Storage result, const std::vector<double>& slacks, Looseness looseness);
 // One of each order, which holds what any other one of the families does.

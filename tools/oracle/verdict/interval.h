@@ -1,8 +1,9 @@
 // tools/oracle/verdict/interval.h - all values that a number may have, and arithmetic that never loses one of them.
 //
 // Rule     An operation's result holds every exact result of operands out of the intervals. Ends are rounded outward.
-// Numbers  Binary64 rounds to nearest: an exact result lies within 2^-53 of the rounded one, relative to it, or within 2^-1075 where that is
-//          subnormal. `below` and `above` step 2^-52 and 2^-1000 aside, so they are beyond it after any one operation.
+// Numbers  Binary64 rounds to nearest: an exact result lies within 2^-53 of the rounded one, relative to it, or within
+//          2^-1075 where that is subnormal. `below` and `above` step 2^-52 and 2^-1000 aside, so they are beyond it
+//          after any one operation.
 // Tests    tests/tools/oracle/verdict/interval_test.cpp: rationals decide
 #pragma once
 #include <algorithm>
@@ -38,8 +39,8 @@ struct Interval {
     return {below(low), above(high)};
 }
 
-// A share `a`, within [0, 1], of `s` and the rest of `d`: a s + (1 - a) d. It is linear in each of the three, so the ends of the result belong
-// to ends of the operands; taken as one, it is narrower than the sum of two products.
+// A share `a`, within [0, 1], of `s` and the rest of `d`: a s + (1 - a) d. It is linear in each of the three, so the
+// ends of the result belong to ends of the operands; taken as one, it is narrower than the sum of two products.
 [[nodiscard]] inline Interval mixed(Interval a, Interval s, Interval d) noexcept {
     const auto end = [](double share, double from, double onto) { return share * from + (1 - share) * onto; };
     const double low = std::min(end(a.low, s.low, d.low), end(a.high, s.low, d.low));

@@ -103,7 +103,8 @@ namespace {
 struct Cost {
     double wrong = 0, bits = 0;
     bool is_as_given = true;  // every pixel
-    // Where no hypothesis holds, a wrong pixel weighs more: what makes it wrong is a mistake, which has a reason of its own.
+    // Where no hypothesis holds, a wrong pixel weighs more: what makes it wrong is a mistake, which has a reason of its
+    // own.
     [[nodiscard]] double total(const Pricing& pricing) const noexcept { return bits + 4 * wrong * pricing.of_wrong(); }
 };
 

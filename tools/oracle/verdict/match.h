@@ -1,6 +1,8 @@
-// tools/oracle/verdict/match.h - does a structure under a hypothesis reach a candidate's pixels: one, some, or all of a picture.
+// tools/oracle/verdict/match.h - does a structure under a hypothesis reach a candidate's pixels: one, some, or all of a
+// picture.
 //
-// Rule     Pixels whose fragments lie at one depth are tried by every rule for ties; the picture has to keep to one of them.
+// Rule     Pixels whose fragments lie at one depth are tried by every rule for ties; the picture has to keep to one of
+//          them.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
 #include <optional>
@@ -48,8 +50,8 @@ enum class Wrong : std::uint8_t { some, none };
 [[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
                                 Sample& examples);
 
-// The best account of the whole picture with these rules, if one holds for every pixel: under `likely`, if that holds. Pixels that speak against one are
-// added to the sample.
+// The best account of the whole picture with these rules, if one holds for every pixel: under `likely`, if that holds.
+// Pixels that speak against one are added to the sample.
 [[nodiscard]] std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules,
                                                  const SceneFragments& scene, const Colors& candidate, Sample& sample,
                                                  const std::optional<Hypothesis>& likely = {});

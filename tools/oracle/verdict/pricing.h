@@ -1,9 +1,11 @@
-// tools/oracle/verdict/pricing.h - what a picture costs in bits if a hypothesis is to tell it: the measure by which hypotheses are chosen.
+// tools/oracle/verdict/pricing.h - what a picture costs in bits if a hypothesis is to tell it: the measure by which
+// hypotheses are chosen.
 //
-// Rule     A pixel costs what its interval leaves open: the logarithm of the number of values in it. A wrong pixel costs all its digits, four times:
-//          what makes it wrong is a mistake, which has a reason of its own, and no port is to be accused for a narrow account's sake.
-//          That is the principle of the shortest description: one that leaves much open everywhere does not excuse a few wrong pixels, and
-//          one that leaves nothing open does not accuse a port that rounds in its own way.
+// Rule     A pixel costs what its interval leaves open: the logarithm of the number of values in it. A wrong pixel
+//          costs all its digits, four times: what makes it wrong is a mistake, which has a reason of its own, and no
+//          port is to be accused for a narrow account's sake. That is the principle of the shortest description: one
+//          that leaves much open everywhere does not excuse a few wrong pixels, and one that leaves nothing open does
+//          not accuse a port that rounds in its own way.
 // Numbers  Bits are whole multiples of 2^-16, so that threads may add them up in any order.
 // Source   J. Rissanen, 1978, Modeling by shortest data description.
 #pragma once

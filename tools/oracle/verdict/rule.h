@@ -1,7 +1,9 @@
-// tools/oracle/verdict/rule.h - what a port may do to a pixel's layers instead of compositing them: one mistake, the same at every pixel.
+// tools/oracle/verdict/rule.h - what a port may do to a pixel's layers instead of compositing them: one mistake, the
+// same at every pixel.
 //
-// Rule     A rule is a value: a kind and its parameters. StackMaker applies it to a pixel's list; `holds` for a whole picture is judge.h's affair.
-//          Numbers of layers count from the near end from 0, or from the far end where the kind says so.
+// Rule     A rule is a value: a kind and its parameters. StackMaker applies it to a pixel's list; `holds` for a whole
+//          picture is judge.h's affair. Numbers of layers count from the near end from 0, or from the far end where the
+//          kind says so.
 // Tests    tests/tools/oracle/verdict/search_test.cpp
 #pragma once
 #include <cstdint>
@@ -13,13 +15,14 @@ namespace strata::oracle::verdict {
 enum class RuleKind : std::uint8_t {
     right,
     // How many layers. n: their number
-    nearest_alone,   // the nearest n
-    farthest_alone,  // the farthest n
-    ends_alone,      // the nearest n and the farthest n, as n passes of a dual peel leave them
-    nearest_lost,    // all but the nearest n
-    farthest_lost,   // all but the farthest n
-    rest_averaged,  // the nearest n, behind them one layer: the average of the others, with their alpha together; value: 1 with the mean alpha for each
-    rest_as_submitted,         // the nearest n, behind them the others as they were submitted
+    nearest_alone,      // the nearest n
+    farthest_alone,     // the farthest n
+    ends_alone,         // the nearest n and the farthest n, as n passes of a dual peel leave them
+    nearest_lost,       // all but the nearest n
+    farthest_lost,      // all but the farthest n
+    rest_averaged,      // the nearest n, behind them one layer: the average of the others, with their alpha together;
+                        // value: 1 with the mean alpha for each
+    rest_as_submitted,  // the nearest n, behind them the others as they were submitted
     ends_rest_as_submitted,    // the nearest n, the others as they were submitted, the farthest n
     first_submitted,           // the first n submitted, sorted
     last_submitted,            // the last n submitted, sorted
@@ -55,7 +58,8 @@ enum class RuleKind : std::uint8_t {
     reversed,
     near_reversed,  // the near half, as a peel from both ends divides them
     far_reversed,
-    submitted_moved,  // n: 0 the first submitted before all others, 1 the last; 2 the first behind all others, 3 the last
+    submitted_moved,  // n: 0 the first submitted before all others, 1 the last; 2 the first behind all others, 3 the
+                      // last
     by_centroid,      // by depths of triangles; n: which point of them (setting.h)
     alphas_as_submitted,    // sorted, but alphas stay in the order of submission
     colors_as_submitted,    // the same of colours
@@ -112,7 +116,8 @@ enum class RuleKind : std::uint8_t {
     not_attenuated,   // layers are added as they are, the background attenuated
     behind_squared,   // what lies behind the front accumulator is attenuated twice
     behind_inverted,  // by what is not let through
-    few_bits,  // n: bits of the accumulator's colours, times 256 those of what is let through, times 65536 of the picture, too
+    few_bits,  // n: bits of the accumulator's colours, times 256 those of what is let through, times 65536 of the
+               // picture, too
     // Colours, of what `scope` says
     alpha_squared,
     alpha_inverted,

@@ -1,4 +1,5 @@
-// tools/oracle/verdict/sample.h - pixels of a scene with their fragments and the candidate's colours: some, chosen evenly, or those that are added.
+// tools/oracle/verdict/sample.h - pixels of a scene with their fragments and the candidate's colours: some, chosen
+// evenly, or those that are added.
 //
 // Rule     The choice depends on pixels' places alone, so it is the same in every run and on every machine.
 #pragma once
@@ -11,7 +12,8 @@
 
 namespace strata::oracle::verdict {
 
-// The colours of a candidate, row by row from the top: values of red, green, blue and alpha; grey stands for three channels.
+// The colours of a candidate, row by row from the top: values of red, green, blue and alpha; grey stands for three
+// channels.
 class Colors {
   public:
     explicit Colors(const Target& target);

@@ -41,8 +41,8 @@ bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
     });
 }
 
-// Whether one of the hypotheses holds for all pixels under the rules, and of codes for most of them without another rasterizer's help. Right pixels
-// that the rules leave alone are right under them, too.
+// Whether one of the hypotheses holds for all pixels under the rules, and of codes for most of them without another
+// rasterizer's help. Right pixels that the rules leave alone are right under them, too.
 bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, const Setting& setting) {
     struct Left {
         const Compositor* compositor = nullptr;
@@ -84,8 +84,8 @@ std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts,
     return left;
 }
 
-// Two of them, of different kinds, in the order in which they are applied. The rules worth a partner are those that explain the most wrong pixels
-// alone, and then those that change any.
+// Two of them, of different kinds, in the order in which they are applied. The rules worth a partner are those that
+// explain the most wrong pixels alone, and then those that change any.
 std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts, const Hypothesis& closest,
                             const Setting& setting) {
     constexpr std::size_t most_looked_at = 64, most_worth = 60;
@@ -132,8 +132,8 @@ std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, 
     return some;
 }
 
-// The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the others wrong: what makes
-// these wrong is no rounding.
+// The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the
+// others wrong: what makes these wrong is no rounding.
 Families possible(const Families& all, const Parted& parts, const Hypothesis& closest) {
     const Pricing pricing{closest.result.storage};
     constexpr std::size_t most_looked_at = 300;
@@ -219,7 +219,8 @@ std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& par
     return sorted;
 }
 
-// Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells enough.
+// Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells
+// enough.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
                            const Sample& sample, std::size_t most_tried) {
@@ -241,7 +242,8 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         Sample own = sample.thinned(few_sampled);
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
         auto one = account_for(own_families, rules, scene, candidate, own, likely);
-        // A rule that changes hardly anything that tells is no explanation: among so many rules one fits a few pixels by chance.
+        // A rule that changes hardly anything that tells is no explanation: among so many rules one fits a few pixels
+        // by chance.
         if (one && one->changed - one->undecided >= least_decided &&
             one->bits <= most_open * static_cast<double>(one->changed) + 6 * static_cast<double>(one->at_edges) +
                              static_cast<double>(one->pixels))
@@ -270,7 +272,8 @@ std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rule
     return are_reached;
 }
 
-// One after the other the rules that explain the most of what those before them do not, less the right pixels that speak against them.
+// One after the other the rules that explain the most of what those before them do not, less the right pixels that
+// speak against them.
 std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
                            const Setting& setting) {
     constexpr std::size_t most_leads = 6, most_looked_at = 1024;
@@ -329,7 +332,8 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
     if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
     const std::vector<Rules> all =
         most_rules > 1 ? pairs_of(rules, parts, closest.account.hypothesis, scene.setting()) : singles(rules);
-    // What holds for the right pixels first; but a mistake may show at all of them, and another hypothesis call some of them right.
+    // What holds for the right pixels first; but a mistake may show at all of them, and another hypothesis call some of
+    // them right.
     std::vector<Checked> found;
     const Families likely = possible(definite, parts, closest.account.hypothesis);
     const auto find = [&](const Families& some, std::size_t most) {

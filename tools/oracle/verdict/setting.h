@@ -1,7 +1,9 @@
-// tools/oracle/verdict/setting.h - what of a scene is the same at all pixels and counts for the order in which a port may draw it.
+// tools/oracle/verdict/setting.h - what of a scene is the same at all pixels and counts for the order in which a port
+// may draw it.
 //
-// Rule     Engines sort instances by the depth of some point of each, far first, and draw back faces before front faces, of each instance or of all.
-//          A drawing order is a number: of the points below three times, then of the faces.
+// Rule     Engines sort instances by the depth of some point of each, far first, and draw back faces before front
+//          faces, of each instance or of all. A drawing order is a number: of the points below three times, then of the
+//          faces.
 // Tests    tests/tools/oracle/verdict/setting_test.cpp
 #pragma once
 #include <array>

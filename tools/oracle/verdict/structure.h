@@ -1,7 +1,9 @@
-// tools/oracle/verdict/structure.h - which fragments of a pixel are composited, and in which order: layers over a background.
+// tools/oracle/verdict/structure.h - which fragments of a pixel are composited, and in which order: layers over a
+// background.
 //
-// Rule     A right structure has all visible fragments of a pixel, near to far. Of fragments at one depth peels keep the first, the last, all or a
-//          mixture (keys-and-counts.md 2.2); each is right, and a picture goes by one of them. A wrong one comes from a rule (rule.h).
+// Rule     A right structure has all visible fragments of a pixel, near to far. Of fragments at one depth peels keep
+//          the first, the last, all or a mixture (keys-and-counts.md 2.2); each is right, and a picture goes by one of
+//          them. A wrong one comes from a rule (rule.h).
 // Tests    tests/tools/oracle/verdict/structure_test.cpp, search_test.cpp
 #pragma once
 #include <span>

@@ -13,7 +13,8 @@ class SceneFragments;
 // Whether a rule means the same on any scene: not one of a scene's own instances or materials.
 [[nodiscard]] bool is_of_any_scene(const std::vector<Rule>& rules) noexcept;
 
-// Whether an 8-bit port that goes by one of them differs from one that goes by any other, and from a right one, beyond rounding.
+// Whether an 8-bit port that goes by one of them differs from one that goes by any other, and from a right one, beyond
+// rounding.
 [[nodiscard]] bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all);
 
 }  // namespace strata::oracle::verdict

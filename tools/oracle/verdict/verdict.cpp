@@ -112,7 +112,8 @@ std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const C
     return std::nullopt;
 }
 
-// A right account that leaves little open needs no other one beside it: a code, of floats as much or a few bits a pixel.
+// A right account that leaves little open needs no other one beside it: a code, of floats as much or a few bits a
+// pixel.
 bool leaves_little_open(const Checked& right) {
     const bool is_in_codes = has_codes(right.account.hypothesis.result.storage);
     if (!is_in_codes && right.bits <= 4 * static_cast<double>(right.covered)) return true;
@@ -131,7 +132,8 @@ Sample deepest(const Sample& sample, std::size_t most) {
     return some;
 }
 
-// What explains the picture in fewer bits than a right account that leaves much open: then the room that it leaves is no evidence.
+// What explains the picture in fewer bits than a right account that leaves much open: then the room that it leaves is
+// no evidence.
 std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
                                  const Checked& right, const Sample& even) {
     constexpr std::size_t most = 512;
@@ -144,8 +146,8 @@ std::vector<Checked> told_better(const SceneFragments& scene, const Colors& cand
     return better;
 }
 
-// The right structure's account that tells the picture in the fewest bits, wrong pixels and all. A hypothesis is chosen by some pixels, and again with some of
-// those that turn out wrong.
+// The right structure's account that tells the picture in the fewest bits, wrong pixels and all. A hypothesis is chosen
+// by some pixels, and again with some of those that turn out wrong.
 Checked closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
                         const Sample& even, Sample& examples) {
     constexpr std::size_t few_sampled = 300;
@@ -168,7 +170,8 @@ Checked closest_account(const SceneFragments& scene, const Colors& candidate, co
     return *std::move(best);
 }
 
-// The rectangle that has all wrong pixels, if it is a small part of the picture: the tile of a power of two that it lies in, where there is one.
+// The rectangle that has all wrong pixels, if it is a small part of the picture: the tile of a power of two that it
+// lies in, where there is one.
 std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int width, int height) {
     constexpr std::size_t least = 16;  // pixels: fewer tell no mistake from another one
     if (wrong.size() < least) return std::nullopt;

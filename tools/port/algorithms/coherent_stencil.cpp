@@ -1,5 +1,6 @@
-// tools/port/algorithms/coherent_stencil.cpp - runs of fragments that arrive in depth order, found by counting in the stencil buffer.
-// Carr, Mech and Miller 2008, section 5; algorithms.md 10. Passes: 1 + 6 an iteration, its end by a query of the first.
+// tools/port/algorithms/coherent_stencil.cpp - runs of fragments that arrive in depth order, found by counting in the
+// stencil buffer. Carr, Mech and Miller 2008, section 5; algorithms.md 10. Passes: 1 + 6 an iteration, its end by a
+// query of the first.
 #include <fmt/format.h>
 
 #include <memory>
@@ -36,8 +37,8 @@ void main() {{
 }}
 )";
 
-// The end of the run: the least of what arrived earlier, what interrupts it, and the opaque surface. A colour holds it: a
-// depth of 24 bits that is read and written through gl_FragDepth comes back as another code.
+// The end of the run: the least of what arrived earlier, what interrupts it, and the opaque surface. A colour holds it:
+// a depth of 24 bits that is read and written through gl_FragDepth comes back as another code.
 constexpr auto reached_text = R"(
 uniform sampler2D previous_depth;
 uniform sampler2D breaker_depth;
@@ -114,7 +115,8 @@ void start(const CoherentTargets& t, const DepthStencil& to, float depth, const 
     glClearBufferfv(GL_DEPTH, 0, &depth);
 }
 
-// One test of depth and stencil for both faces. Operations: where the stencil test fails, the depth test fails, both pass.
+// One test of depth and stencil for both faces. Operations: where the stencil test fails, the depth test fails, both
+// pass.
 struct Test {
     GLenum depth, stencil;
     GLint reference;

@@ -1,5 +1,6 @@
-// tools/port/algorithms/depth_units.cpp - one layer a pass, the second depth test by a shadow compare; layers are composited at the end.
-// Everitt 2001, Listing 1 with the depth texture of its shadow mapping; algorithms.md 2. Passes: N + 1.
+// tools/port/algorithms/depth_units.cpp - one layer a pass, the second depth test by a shadow compare; layers are
+// composited at the end. Everitt 2001, Listing 1 with the depth texture of its shadow mapping; algorithms.md 2. Passes:
+// N + 1.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,8 +11,8 @@ namespace strata::port {
 
 namespace {
 
-// The compare of the depth texture answers whether the fragment lies behind the layer peeled before. Its coordinates are
-// the middle of the fragment's own texel.
+// The compare of the depth texture answers whether the fragment lies behind the layer peeled before. Its coordinates
+// are the middle of the fragment's own texel.
 constexpr auto peel_text = R"(
 uniform sampler2DShadow peeled_depth;
 layout(location = 0) out vec4 layer;

@@ -1,4 +1,5 @@
-// tools/port/algorithms/frame.h - what every algorithm starts and ends with: the opaque scene, and the finished picture.
+// tools/port/algorithms/frame.h - what every algorithm starts and ends with: the opaque scene, and the finished
+// picture.
 #pragma once
 #include "tools/port/algorithms/job.h"
 
@@ -22,8 +23,8 @@ class Opaque {
     void copy_color_to(const Handle& framebuffer) const;
     [[nodiscard]] GLuint color() const { return color_.name(); }
     [[nodiscard]] GLuint depth() const { return depth_.name(); }
-    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface, z as it is stored. The sampler opaque_depth is the
-    // program's affair, and so is stored() where depths are no floats.
+    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface, z as it is stored. The sampler opaque_depth
+    // is the program's affair, and so is stored() where depths are no floats.
     [[nodiscard]] std::string hidden_text() const;
 
   private:
@@ -34,7 +35,8 @@ class Opaque {
     Handle color_, depth_, framebuffer_, program_;
 };
 
-// The last quad: the front over what stands behind it. `through` is GLSL for the share of that which is seen through `front`.
+// The last quad: the front over what stands behind it. `through` is GLSL for the share of that which is seen through
+// `front`.
 class Finish {
   public:
     Finish(const JobInput& input, const std::string& through);
@@ -50,9 +52,9 @@ class Finish {
 // Reads a finished target of the frame's format as the port hands it over.
 [[nodiscard]] Image read_picture(GLuint texture, const JobInput& input);
 
-// GLSL: `float stored(float z)`, a depth as the driver stores and reads it back: code times the binary32 reciprocal of the
-// greatest code, which for d24 is another float than the quotient. Compared raw, a fragment would lie behind itself and
-// the peel would never end.
+// GLSL: `float stored(float z)`, a depth as the driver stores and reads it back: code times the binary32 reciprocal of
+// the greatest code, which for d24 is another float than the quotient. Compared raw, a fragment would lie behind itself
+// and the peel would never end.
 [[nodiscard]] std::string stored_text(const Format& depth);
 
 }  // namespace strata::port

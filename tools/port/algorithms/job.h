@@ -53,13 +53,13 @@ void show_pass(Record* record, Size size, const std::string& kind, std::initiali
 // One algorithm that is ready to run: only `draw` is timed.
 struct Job {
     std::string name;
-    // From the first clear to finished pixels in client memory; returns the geometry passes, at most `max_passes`. `record`
-    // may be nullptr.
+    // From the first clear to finished pixels in client memory; returns the geometry passes, at most `max_passes`.
+    // `record` may be nullptr.
     std::function<int(Image& picture, int max_passes, Record* record)> draw;
 };
 
-// depth, front_to_back, dual, weighted_average (by repeated squaring; and by GLSL's pow), coherent_stencil, depth_units, and
-// the sums of weighted averages.
+// depth, front_to_back, dual, weighted_average (by repeated squaring; and by GLSL's pow), coherent_stencil,
+// depth_units, and the sums of weighted averages.
 [[nodiscard]] const std::vector<std::string>& job_names();
 
 // Makes all targets and programs of the algorithm, which keeps a reference to the scene. Throws

@@ -21,7 +21,8 @@ void main() {{
 }}
 )";
 
-// The power by repeated squaring from the lowest bit of n, as algorithms.md 7 writes it: pow() is another function on every driver.
+// The power by repeated squaring from the lowest bit of n, as algorithms.md 7 writes it: pow() is another function on
+// every driver.
 constexpr auto average_text = R"(
 uniform sampler2D sums;
 uniform sampler2D count;
@@ -76,7 +77,8 @@ struct AverageTargets {
               {"sums", "count", "behind_target"})} {}
 };
 
-// The geometry pass: what stands before the opaque surfaces, whose depth is binary32, is added up in any order; or everything.
+// The geometry pass: what stands before the opaque surfaces, whose depth is binary32, is added up in any order; or
+// everything.
 enum class Adds : std::uint8_t { visible, all };
 void accumulate(const AverageTargets& t, Adds adds) {
     const GpuScene& scene = t.input.scene;

@@ -1,5 +1,5 @@
-// tools/port/beside/main.cpp - strata_port_beside: a scene by the port, one line of JSON a job; fragments and pictures compared with
-// Strata's on request.
+// tools/port/beside/main.cpp - strata_port_beside: a scene by the port, one line of JSON a job; fragments and pictures
+// compared with Strata's on request.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -113,7 +113,8 @@ ordered_json measure(const Job& job, const Options& options, Image& pixels) {
     return {{"algorithm", job.name}, {"geometry_passes", passes}, {"seconds", seconds}};
 }
 
-// Peels that end after 1, 2, 3 ... geometry passes on both sides: their pictures hold every layer as soon as it is there.
+// Peels that end after 1, 2, 3 ... geometry passes on both sides: their pictures hold every layer as soon as it is
+// there.
 ordered_json compare_each_pass(const Job& job, const Options& options, const Subject& subject,
                                const pipeline::DeviceProfile& profile, int passes) {
     Image pixels;

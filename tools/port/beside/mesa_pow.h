@@ -1,7 +1,7 @@
 // tools/port/beside/mesa_pow.h - GLSL's pow, exp2 and log2 as llvmpipe computes them.
 //
-// Rule     pow(x, y) = exp2(log2(x) * y), 0 for x = 0. Both are polynomials whose even and odd terms are summed apart, every step
-//          a * b + c fused where the processor has FMA. Division is IEEE's.
+// Rule     pow(x, y) = exp2(log2(x) * y), 0 for x = 0. Both are polynomials whose even and odd terms are summed apart,
+//          every step a * b + c fused where the processor has FMA. Division is IEEE's.
 // Source   mesa-rasterizers.md 2.10.
 // Tests    tools/bench/driver_differences.py: weighted averages that end in pow, pixel by pixel
 #pragma once

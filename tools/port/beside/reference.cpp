@@ -91,7 +91,8 @@ FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipel
 
 namespace {
 
-// A target that one pass adds to: by the blender, or by the tiles that a profile keeps in binary32 (fragment-stages.md 9.5).
+// A target that one pass adds to: by the blender, or by the tiles that a profile keeps in binary32 (fragment-stages.md
+// 9.5).
 class Sums {
   public:
     Sums(const rasterizer::Rect& frame, const pipeline::DeviceProfile& profile, pipeline::Format format)
@@ -191,7 +192,8 @@ Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, 
     options.audit = false;
     options.nearest_depth = depth;
     peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
-    // weighted_average finds the nearest binary32 depths in one pass; codes of fixed point are those that a peel stores.
+    // weighted_average finds the nearest binary32 depths in one pass; codes of fixed point are those that a peel
+    // stores.
     const std::string finder = formats.depth == d32f ? "weighted_average" : "front_to_back";
     const std::string name = depth ? finder : job;
     auto result = renderer.render(*peeling::find_algorithm(name));

@@ -1,6 +1,7 @@
 // tools/port/probe/kit.h - a kit of scenes as `strata probe -o KIT` writes it, by a reader of the port's own.
 //
-// Rule     KIT/kit.json (../../probe/DESIGN.md): floats are the 8 hexadecimal digits of their bits, so that no decimal is read.
+// Rule     KIT/kit.json (../../probe/DESIGN.md): floats are the 8 hexadecimal digits of their bits, so that no decimal
+//          is read.
 #pragma once
 #include <array>
 #include <nlohmann/json.hpp>

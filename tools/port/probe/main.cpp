@@ -1,4 +1,5 @@
-// tools/port/probe/main.cpp - strata_port_probe: a kit of scenes drawn by OpenGL, the answers written as a candidate pack.
+// tools/port/probe/main.cpp - strata_port_probe: a kit of scenes drawn by OpenGL, the answers written as a candidate
+// pack.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -72,7 +73,8 @@ void answer_items(const Kit& kit, bool alpha_tested, const fs::path& folder) {
     }
 }
 
-// OpenGL 3.3 core has no alpha test: what has one is drawn in a context with what is deprecated, where the driver gives one.
+// OpenGL 3.3 core has no alpha test: what has one is drawn in a context with what is deprecated, where the driver gives
+// one.
 void answer_alpha_tests(const Kit& kit, const std::string& driver, const fs::path& folder, ordered_json& missing) {
     if (std::ranges::none_of(kit.items, has_alpha_test)) return;
     try {

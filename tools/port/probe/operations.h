@@ -1,4 +1,5 @@
-// tools/port/probe/operations.h - the kit's operations by OpenGL: a fragment reads four words of its texel and writes four.
+// tools/port/probe/operations.h - the kit's operations by OpenGL: a fragment reads four words of its texel and writes
+// four.
 //
 // Rule     ../../probe/DESIGN.md says what a kit and a pack have of them.
 #pragma once

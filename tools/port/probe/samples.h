@@ -1,4 +1,5 @@
-// tools/port/probe/samples.h - what a device does with several samples a pixel: where they lie, and which ones triangles cover.
+// tools/port/probe/samples.h - what a device does with several samples a pixel: where they lie, and which ones
+// triangles cover.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,7 +18,8 @@ class SampledTarget {
 
     // Samples a pixel: at least as many as were asked for.
     [[nodiscard]] int samples() const noexcept { return samples_; }
-    // x and y of each sample in pixels, from the pixel's corner at the least window coordinates; multiples of 1/16 on most devices.
+    // x and y of each sample in pixels, from the pixel's corner at the least window coordinates; multiples of 1/16 on
+    // most devices.
     [[nodiscard]] nlohmann::ordered_json positions() const;
     // The codes of one sample of each pixel.
     [[nodiscard]] Image color(int sample) const;
@@ -31,8 +33,9 @@ class SampledTarget {
     Handle color_, depth_, framebuffer_;
 };
 
-// Draws those of the kit's scenes that blend nothing and have no alpha test, with so many samples a pixel and both orientations, into
-// FOLDER/ORIENTATION/SCENE/sample.K.color.npy and .depth.npy. Returns {"samples": n, "positions": [[x, y], ...]}.
+// Draws those of the kit's scenes that blend nothing and have no alpha test, with so many samples a pixel and both
+// orientations, into FOLDER/ORIENTATION/SCENE/sample.K.color.npy and .depth.npy. Returns {"samples": n, "positions":
+// [[x, y], ...]}.
 [[nodiscard]] nlohmann::ordered_json answer_samples(const Kit& kit, const Painter& painter, int samples,
                                                     const std::string& folder);
 

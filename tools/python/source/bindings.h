@@ -1,7 +1,8 @@
 // source/bindings.h - the parts of the extension, and how values cross between the library and Python.
 //
-// Rule     The interpreter's lock is released while the library works. What holds 32-bit codes of one word a channel (binary32, D24, D32F,
-//          integers) becomes an array that shares the library's memory; narrower codes are packed once.
+// Rule     The interpreter's lock is released while the library works. What holds 32-bit codes of one word a channel
+//          (binary32, D24, D32F, integers) becomes an array that shares the library's memory; narrower codes are packed
+//          once.
 #pragma once
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -35,10 +36,12 @@ template <class Owner>
 }
 [[nodiscard]] py::array as_array(oracle::Target&& target);
 
-// A picture of an array with one, three or four channels; `meaning` is "color", "depth" or "" (by the array's shape and type).
+// A picture of an array with one, three or four channels; `meaning` is "color", "depth" or "" (by the array's shape and
+// type).
 [[nodiscard]] Picture picture_of_array(const py::array& array, const std::string& meaning);
 
-// RenderOptions from keywords, of which `origin` is the profile's; TypeError for a name that is none, InputError for a value that is none.
+// RenderOptions from keywords, of which `origin` is the profile's; TypeError for a name that is none, InputError for a
+// value that is none.
 [[nodiscard]] RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile);
 
 void bind_scene(py::module_& module);

@@ -161,8 +161,8 @@ int status_of(oracle::Verdict verdict) {
     return verdict == right || verdict == other_options || verdict == right_structure ? 0 : 1;
 }
 
-// A machine's picture to the last code speaks for itself. All else may be a right port that rounds otherwise, or a mistake that no machine
-// of the catalogue has: the layers say so. Algorithms that approximate have no right layers.
+// A machine's picture to the last code speaks for itself. All else may be a right port that rounds otherwise, or a
+// mistake that no machine of the catalogue has: the layers say so. Algorithms that approximate have no right layers.
 void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     const oracle::Finding& best = found.findings.front();
     const bool is_exact = best.agreeing == found.pixels && !found.passes_contradict &&

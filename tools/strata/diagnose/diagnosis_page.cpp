@@ -31,8 +31,8 @@ void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
                           std::to_string(found.differing) + " of which differ from the right picture");
 }
 
-// The first line is the verdict; the others say why, up to the comparison, and but for the best findings: those have tables. A line further in
-// belongs to the one before it.
+// The first line is the verdict; the others say why, up to the comparison, and but for the best findings: those have
+// tables. A line further in belongs to the one before it.
 void add_lines(PlainPage& page, const std::string& text) {
     std::istringstream lines(text);
     std::string sentence;

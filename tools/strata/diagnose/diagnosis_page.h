@@ -1,4 +1,5 @@
-// tools/strata/diagnose/diagnosis_page.h - the page of a diagnosis: the verdict, why, what else was tried, and both pictures.
+// tools/strata/diagnose/diagnosis_page.h - the page of a diagnosis: the verdict, why, what else was tried, and both
+// pictures.
 #pragma once
 #include <string>
 

@@ -1,4 +1,5 @@
-// tools/strata/diagnose/mistakes.h - strata diagnose --list: the catalogue that diagnose tries, and the suite that shows it.
+// tools/strata/diagnose/mistakes.h - strata diagnose --list: the catalogue that diagnose tries, and the suite that
+// shows it.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>

@@ -38,8 +38,8 @@ struct ReduceOptions {
     double seconds = 600;  // of one run of the command
 };
 
-// A folder that goes with everything in it, at the latest when a signal ends the process. Its path is one word of a shell in every kind
-// of quotes, so that it may take the place of a word in a line.
+// A folder that goes with everything in it, at the latest when a signal ends the process. Its path is one word of a
+// shell in every kind of quotes, so that it may take the place of a word in a line.
 class OwnFolder {
   public:
     OwnFolder() {
@@ -82,7 +82,8 @@ std::string fault_of(const EndOfCommand& end, double seconds, bool has_picture) 
     return has_picture ? "" : "exit status 0 and no picture";
 }
 
-// Runs the command on a pack of the scene. A command that fails has drawn nothing, whatever it left; of the user's own pack that is an error.
+// Runs the command on a pack of the scene. A command that fails has drawn nothing, whatever it left; of the user's own
+// pack that is an error.
 class Runner {
   public:
     explicit Runner(const ReduceOptions& options) : options_{options} {}

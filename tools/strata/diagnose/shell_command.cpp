@@ -36,8 +36,8 @@ class Pipe {
     int ends_[2];
 };
 
-// The shell's process number, which is its group's. The shell waits for a line of its input before it runs the command: until then a
-// signal may end this process before it knows the group.
+// The shell's process number, which is its group's. The shell waits for a line of its input before it runs the command:
+// until then a signal may end this process before it knows the group.
 pid_t start(const std::string& line, const Pipe& go) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);

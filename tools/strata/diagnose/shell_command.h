@@ -1,7 +1,7 @@
 // tools/strata/diagnose/shell_command.h - a command of the user's, run by the shell until it ends or its time is over.
 //
-// Rule     It is a process group of its own, reads nothing and shows nothing. When its shell has ended, or the time is over, or a signal
-//          ends this process, the whole group gets SIGKILL.
+// Rule     It is a process group of its own, reads nothing and shows nothing. When its shell has ended, or the time is
+//          over, or a signal ends this process, the whole group gets SIGKILL.
 // Tests    tests/tools/reduce_command_test.cpp
 #pragma once
 #include <string>

@@ -1,5 +1,5 @@
-// tools/strata/manual/manual.h - what is written about commands and options, all of it made from their declarations: help in groups, pages for
-// man, completions for shells.
+// tools/strata/manual/manual.h - what is written about commands and options, all of it made from their declarations:
+// help in groups, pages for man, completions for shells.
 // Tests    tests/tools/manual_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>

@@ -1,4 +1,5 @@
-// tools/strata/options/machine_options.cpp - options of the device, its state and the order of triangles: bits depend on them.
+// tools/strata/options/machine_options.cpp - options of the device, its state and the order of triangles: bits depend
+// on them.
 #include <algorithm>
 #include <array>
 #include <cmath>

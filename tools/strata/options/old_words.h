@@ -1,7 +1,8 @@
-// tools/strata/options/old_words.h - how commands and options were spelled in version 0.1.0, for those who type them still.
+// tools/strata/options/old_words.h - how commands and options were spelled in version 0.1.0, for those who type them
+// still.
 //
-// Rule     Words are replaced before they are parsed. An option that has another name now gives a warning, a command that has become a part
-//          of another one does not. Both go with version 0.3.
+// Rule     Words are replaced before they are parsed. An option that has another name now gives a warning, a command
+//          that has become a part of another one does not. Both go with version 0.3.
 // Tests    tests/tools/old_words_test.cpp
 #pragma once
 #include <string>

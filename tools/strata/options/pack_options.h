@@ -1,4 +1,5 @@
-// tools/strata/options/pack_options.h - a pack as the SCENE of a command: its state stands for options that are not given.
+// tools/strata/options/pack_options.h - a pack as the SCENE of a command: its state stands for options that are not
+// given.
 #pragma once
 #include <string>
 
@@ -6,8 +7,8 @@
 
 namespace strata::tools {
 
-// Size, formats, orders, colour space and profile of the pack become those of `options`; nothing for a scene that is no pack. It is
-// called when SCENE is parsed, before the options that change what it sets.
+// Size, formats, orders, colour space and profile of the pack become those of `options`; nothing for a scene that is no
+// pack. It is called when SCENE is parsed, before the options that change what it sets.
 void take_pack_state(RunOptions& options, const std::string& scene);
 
 }  // namespace strata::tools

@@ -1,4 +1,5 @@
-// tools/strata/options/resource_options.cpp - how a command runs, what it may take and where results go: no bit depends on it.
+// tools/strata/options/resource_options.cpp - how a command runs, what it may take and where results go: no bit depends
+// on it.
 #include <algorithm>
 
 #include "tools/strata/messages.h"

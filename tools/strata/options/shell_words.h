@@ -1,7 +1,8 @@
-// tools/strata/options/shell_words.h - words as a POSIX shell writes and reads them: a name with a blank or a $ in it stays one word.
+// tools/strata/options/shell_words.h - words as a POSIX shell writes and reads them: a name with a blank or a $ in it
+// stays one word.
 //
-// Rule     A word of letters, digits and @%+=:,./_- is itself, any other one stands in single quotes; a single quote within is '\''.
-//          Source   POSIX.1-2017, Shell Command Language 2.2. Tests    tests/tools/recorded_command_test.cpp
+// Rule     A word of letters, digits and @%+=:,./_- is itself, any other one stands in single quotes; a single quote
+//          within is '\''. Source POSIX.1-2017, Shell Command Language 2.2. Tests tests/tools/recorded_command_test.cpp
 #pragma once
 #include <algorithm>
 #include <optional>

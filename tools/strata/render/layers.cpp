@@ -46,8 +46,9 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
     return deep;
 }
 
-// The layers from near to far. A peel from both ends gives them as it takes them, the last ones perhaps without a fragment; they are
-// called by their end and their pass, and what is behind everything comes last. They are taken out of the result.
+// The layers from near to far. A peel from both ends gives them as it takes them, the last ones perhaps without a
+// fragment; they are called by their end and their pass, and what is behind everything comes last. They are taken out
+// of the result.
 std::vector<scenes::OutputColor> take_layers(const Finished& finished) {
     std::vector<scenes::OutputColor> front, back;
     for (auto& layer : finished.result.frame.layers) {

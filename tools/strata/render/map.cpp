@@ -28,7 +28,8 @@ std::vector<double> complexity(const Columns& columns) {
     return numbers;
 }
 
-// By the code of the exact depth. Two codes may share a float, so that the order of depths does not put equal codes side by side.
+// By the code of the exact depth. Two codes may share a float, so that the order of depths does not put equal codes
+// side by side.
 std::vector<double> ties(const Columns& columns) {
     std::vector<double> numbers;
     std::vector<std::uint32_t> codes;

@@ -1,8 +1,10 @@
-// tools/strata/render/map.h - what `render --map` draws in a picture's place: where many fragments lie, where ties, where an algorithm is wrong.
+// tools/strata/render/map.h - what `render --map` draws in a picture's place: where many fragments lie, where ties,
+// where an algorithm is wrong.
 //
-// Rule     A pixel's number is its count of fragments; its fragments at the depth (the code of the buffer) of another one of it, or of
-//          its opaque surface; or the largest difference of a channel from the exact A-buffer's, in 255ths. The greatest number of the frame is white, 0 is
-//          black, between them red and yellow. The numbers are those of the report's maps.
+// Rule     A pixel's number is its count of fragments; its fragments at the depth (the code of the buffer) of another
+//          one of it, or of its opaque surface; or the largest difference of a channel from the exact A-buffer's, in
+//          255ths. The greatest number of the frame is white, 0 is black, between them red and yellow. The numbers are
+//          those of the report's maps.
 // Tests    tests/tools/map_test.cpp
 #pragma once
 #include <vector>

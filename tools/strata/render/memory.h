@@ -1,8 +1,9 @@
 // tools/strata/render/memory.h - is there memory for a picture? Asked before it is drawn.
 //
 // Rule     What a run takes is what the program holds already, what its frame will (peeling/memory_need.h) and what the
-//          writer of its file will. The limit is --max-memory, or without it what the machine has free: the kernel's own estimate
-//          (MemAvailable of /proc/meminfo), and no more than the control group allows. A machine that tells neither has no limit.
+//          writer of its file will. The limit is --max-memory, or without it what the machine has free: the kernel's
+//          own estimate (MemAvailable of /proc/meminfo), and no more than the control group allows. A machine that
+//          tells neither has no limit.
 // Tests    tests/tools/max_memory_test.cpp
 #pragma once
 #include <cstdint>

@@ -21,7 +21,8 @@ struct Session {
     pipeline::View view;
 };
 
-// A camera of the scene, or of a file, which is in `folder` unless that is empty. CLI::ValidationError where there is neither.
+// A camera of the scene, or of a file, which is in `folder` unless that is empty. CLI::ValidationError where there is
+// neither.
 [[nodiscard]] pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect,
                                         const std::string& folder = "");
 

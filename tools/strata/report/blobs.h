@@ -1,7 +1,8 @@
 // tools/strata/report/blobs.h - arrays of numbers within a page: byte planes, zlib's deflate, base64.
 //
-// Rule     The words of an array are little endian, and all their lowest bytes come first, then all the next ones: neighbours in a picture
-//          have the same high bytes, so the planes are small. A blob's number is its place in the page.
+// Rule     The words of an array are little endian, and all their lowest bytes come first, then all the next ones:
+//          neighbours in a picture have the same high bytes, so the planes are small. A blob's number is its place in
+//          the page.
 // Tests    tests/tools/report_test.cpp unpacks them again
 #pragma once
 #include <cstdint>

@@ -1,7 +1,9 @@
-// tools/strata/report/plain_page.h - a page of text, tables and pictures in one file, in the report's style: what --report of a command writes.
+// tools/strata/report/plain_page.h - a page of text, tables and pictures in one file, in the report's style: what
+// --report of a command writes.
 //
-// Rule     One file of at most 8 MiB that opens from a disk and loads nothing. Headings of tables sort them, by mouse and by keyboard; the
-//          page says all that it has to say without its script. What is left out to stay within 8 MiB stands at the end.
+// Rule     One file of at most 8 MiB that opens from a disk and loads nothing. Headings of tables sort them, by mouse
+//          and by keyboard; the page says all that it has to say without its script. What is left out to stay within 8
+//          MiB stands at the end.
 // Tests    tests/tools/plain_page_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <CLI/CLI.hpp>
@@ -28,7 +30,8 @@ class PlainPage {
         std::string words;
     };
     void legend(const std::vector<Swatch>& swatches);  // of the picture before it
-    // A bar of colours that lead from one to the next in even steps, and numbers below it, each at its share of the way.
+    // A bar of colours that lead from one to the next in even steps, and numbers below it, each at its share of the
+    // way.
     struct Mark {
         double share;  // 0 to 1
         std::string words;

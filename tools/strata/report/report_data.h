@@ -1,7 +1,8 @@
-// tools/strata/report/report_data.h - everything that a page shows of a scene: a JSON document, and the blobs that it points at.
+// tools/strata/report/report_data.h - everything that a page shows of a scene: a JSON document, and the blobs that it
+// points at.
 //
-// Rule     The page holds at most `most_bytes`. What does not fit is left out, and `left_out` says what: fragments behind the nearest K of
-//          every pixel; whole histories outside a rectangle. Pictures are always whole.
+// Rule     The page holds at most `most_bytes`. What does not fit is left out, and `left_out` says what: fragments
+//          behind the nearest K of every pixel; whole histories outside a rectangle. Pictures are always whole.
 // Tests    tests/tools/report_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
-// tools/strata/report/survey.h - what the page shows of each algorithm beside its picture: which pass took which fragment, and which test
-// killed most at each pixel.
+// tools/strata/report/survey.h - what the page shows of each algorithm beside its picture: which pass took which
+// fragment, and which test killed most at each pixel.
 //
-// Rule     One literal run with an observer. A fragment is known by its pixel and the number of its triangle; what a pass takes by a key
-//          alone are all fragments of that key there (dual peeling merges them).
+// Rule     One literal run with an observer. A fragment is known by its pixel and the number of its triangle; what a
+//          pass takes by a key alone are all fragments of that key there (dual peeling merges them).
 // Tests    tests/tools/report_test.cpp holds them against `strata explain`
 #pragma once
 #include <cstdint>

@@ -112,7 +112,8 @@ TEST_CASE("a picture in which nothing is drawn is no evidence of two mistakes") 
     CHECK(found.is_blank);
     const std::string text = to_text(found, compare(bench.laboratory.right(), blank));
     CHECK_THAT(text, Catch::StartsWith("none that is known: the picture has one colour everywhere: "));
-    // Zero in every channel, as a target that was never written: two mistakes would explain it, and so would many others.
+    // Zero in every channel, as a target that was never written: two mistakes would explain it, and so would many
+    // others.
     std::ranges::fill(codes, 0);
     CHECK(lineup.diagnose(blank).verdict == Verdict::none_of_mine);
     codes[codes.size() / 2] ^= 1;

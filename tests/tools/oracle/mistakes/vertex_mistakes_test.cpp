@@ -1,5 +1,5 @@
-// Model: colours of one triangle in binary64, linear over its window positions; the last corner's own bits; window positions of
-// another viewport.
+// Model: colours of one triangle in binary64, linear over its window positions; the last corner's own bits; window
+// positions of another viewport.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>

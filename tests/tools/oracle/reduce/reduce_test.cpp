@@ -1,5 +1,5 @@
-// Model: a renderer with a mistake that is known; a scene is as small as it gets if it fails, and no longer fails without any one of
-// its triangles.
+// Model: a renderer with a mistake that is known; a scene is as small as it gets if it fails, and no longer fails
+// without any one of its triangles.
 #include "tools/oracle/reduce/reduce.h"
 
 #include <catch2/catch.hpp>

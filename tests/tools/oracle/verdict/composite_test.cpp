@@ -26,7 +26,8 @@ Stack one_layer(int s, int a, int d) {
             .background = {value(d), value(d), value(d), 1}};
 }
 
-// How many of all sources, alphas and targets, the latter `step` apart, one layer brings to anything but the code that integers give.
+// How many of all sources, alphas and targets, the latter `step` apart, one layer brings to anything but the code that
+// integers give.
 std::uint64_t strays_of_one_layer(Rounding rounding, int step, int (*model)(int t)) {
     const Compositor compositor{of_codes(Order::over, Source::stored, rounding)};
     std::uint64_t strays = 0;

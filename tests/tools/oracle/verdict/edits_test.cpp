@@ -13,7 +13,8 @@ namespace {
 
 constexpr int side = 32;
 
-// A picture that lacks each list's second layer in its left half, and its nearest one in its right half; beside it where the nearest is lost.
+// A picture that lacks each list's second layer in its left half, and its nearest one in its right half; beside it
+// where the nearest is lost.
 struct TwoMistakes {
     OpenedScene opened{"showroom", side, side};
     std::vector<std::size_t> layers{};  // of each pixel

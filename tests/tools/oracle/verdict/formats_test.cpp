@@ -28,7 +28,8 @@ std::vector<Formats> all_of(const std::string& algorithm) {
     return all;
 }
 
-// Under a hypothesis that leaves nothing to units in the last place but what binary32 has, and without another rasterizer's help.
+// Under a hypothesis that leaves nothing to units in the last place but what binary32 has, and without another
+// rasterizer's help.
 bool is_right(const SceneFragments& fragments, const oracle::Target& picture) {
     const Colors colors{picture};
     Sample sample = sampled(fragments, colors, 512);

@@ -1,4 +1,5 @@
-// Model: Renderer::fragments, which lists a frame's fragments in the order of submission by another way; hidden and sorted here.
+// Model: Renderer::fragments, which lists a frame's fragments in the order of submission by another way; hidden and
+// sorted here.
 #include "tools/oracle/verdict/fragments.h"
 
 #include <algorithm>

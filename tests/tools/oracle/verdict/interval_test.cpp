@@ -14,7 +14,8 @@ using Whole = boost::multiprecision::int256_t;
 // n / 2^40.
 double small(std::int64_t n) { return static_cast<double>(n) * 0x1p-40; }
 
-// Whether low <= n / 2^80 <= high, exactly: x 2^80 has no fraction for the values here but those below 2^-80, which are cut toward the safe side.
+// Whether low <= n / 2^80 <= high, exactly: x 2^80 has no fraction for the values here but those below 2^-80, which are
+// cut toward the safe side.
 bool encloses(const Interval& x, const Whole& n) {
     return Whole{std::ceil(std::ldexp(x.low, 80))} <= n && n <= Whole{std::floor(std::ldexp(x.high, 80))};
 }

@@ -1,5 +1,6 @@
-// tests/tools/oracle/verdict/port_model.h - a port as a program would be written: layers composited step by step in the formats that a hypothesis
-// names. It shares no function and no constant with the product; where a port is free, a seed decides.
+// tests/tools/oracle/verdict/port_model.h - a port as a program would be written: layers composited step by step in the
+// formats that a hypothesis names. It shares no function and no constant with the product; where a port is free, a seed
+// decides.
 #pragma once
 #include <array>
 #include <cmath>

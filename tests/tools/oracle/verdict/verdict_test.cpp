@@ -1,4 +1,5 @@
-// Model: pictures of the machine itself are right by definition; pictures changed by hand are wrong where they were changed.
+// Model: pictures of the machine itself are right by definition; pictures changed by hand are wrong where they were
+// changed.
 #include "tools/oracle/verdict/verdict.h"
 
 #include <catch2/catch.hpp>

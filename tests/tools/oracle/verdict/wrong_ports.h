@@ -1,5 +1,5 @@
-// tests/tools/oracle/verdict/wrong_ports.h - pictures of ports that composite other fragments than they should: lists of Renderer::fragments, changed
-// by a function of the test, blended step by step by port_model.h.
+// tests/tools/oracle/verdict/wrong_ports.h - pictures of ports that composite other fragments than they should: lists
+// of Renderer::fragments, changed by a function of the test, blended step by step by port_model.h.
 #pragma once
 #include <functional>
 
