@@ -22,4 +22,7 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", "--install", build], check=True)
 
 
-setuptools.setup(ext_modules=[setuptools.Extension("strata._strata", [])], cmdclass={"build_ext": CMakeBuild})
+# All that is made on the way goes to the repository's build folder: what an earlier version left beside the sources would be in the wheel, too.
+base = pathlib.Path(__file__).resolve().parents[2] / "build" / "python-package"
+base.mkdir(parents=True, exist_ok=True)
+setuptools.setup(options={"build": {"build_base": str(base)}, "egg_info": {"egg_base": str(base)}}, ext_modules=[setuptools.Extension("strata._strata", [])], cmdclass={"build_ext": CMakeBuild})

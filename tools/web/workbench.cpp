@@ -183,7 +183,7 @@ Workbench::Json Workbench::layers(const Json& question) {
         for (std::size_t c = 0; c < 4; ++c) values_[c + 1].push_back(fragment.color[c]);
     }
     return {{"first", place_of(columns_.first)}, {"code", place_of(numbers_[0])}, {"primitive", place_of(numbers_[1])},
-            {"arrival", place_of(numbers_[2])},  {"z", place_of(values_[0])},     {"red", place_of(values_[1])},
+            {"order", place_of(numbers_[2])},    {"z", place_of(values_[0])},     {"red", place_of(values_[1])},
             {"green", place_of(values_[2])},     {"blue", place_of(values_[3])},  {"alpha", place_of(values_[4])}};
 }
 

@@ -103,7 +103,7 @@ function showFragments() {
   const p = pixel.y * shown.q.size[0] + pixel.x, bits = layers ? new Uint32Array(layers.z.buffer) : null;
   const rows = [["layer", "triangle", "arrives", "depth", "bits of z", "code", "red", "green", "blue", "alpha"]];
   for (let f = layers.first[p]; f < layers.first[p + 1]; ++f)
-    rows.push([f - layers.first[p], layers.primitive[f], layers.arrival[f], layers.z[f].toPrecision(9), hex(bits[f]), hex(layers.code[f]),
+    rows.push([f - layers.first[p], layers.primitive[f], layers.order[f], layers.z[f].toPrecision(9), hex(bits[f]), hex(layers.code[f]),
       ...[layers.red, layers.green, layers.blue, layers.alpha].map((c) => c[f].toPrecision(7))]);
   at("fragments").replaceChildren(...rows.map((row, i) => {
     const line = document.createElement("tr");

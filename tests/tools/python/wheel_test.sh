@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# wheel_test.sh STRATA FOLDER: makes a wheel of tools/python below FOLDER, installs it into a new environment, and calls it from there: its pictures
+# have the digests that the program STRATA prints. Exit status 77 (skipped) where one of Debian's packages is missing.
+set -euo pipefail
+source=$(realpath "$(dirname "$0")/../../..")
+strata=$(realpath "$1")
+rm -rf "$2/wheel" "$2/fresh"
+mkdir -p "$2/wheel" "$2/fresh"
+folder=$(realpath "$2")
+python=/usr/bin/python3  # Debian's, which has Debian's packages
+for package in pybind11-dev python3-dev python3-numpy python3-venv python3-wheel; do
+    if [ "$(dpkg-query -W -f '${db:Status-Status}' $package 2>/dev/null)" != installed ]; then
+        echo "SKIPPED: the wheel needs Debian's package $package"
+        exit 77
+    fi
+done
+fail() { echo "wheel_test.sh: $*" >&2; exit 1; }
+
+STRATA_PYTHON_BUILD=$folder/extension "$python" -m pip wheel --no-index --no-deps --no-build-isolation "$source/tools/python" \
+    -w "$folder/wheel" >"$folder/wheel.log" 2>&1 || { tail -n 40 "$folder/wheel.log" >&2; fail "pip wheel failed"; }
+wheels=("$folder"/wheel/*.whl)
+[ ${#wheels[@]} = 1 ] && [ -f "${wheels[0]}" ] || fail "expected one wheel, found ${wheels[*]}"
+
+"$python" -m venv --system-site-packages "$folder/fresh/environment"  # Debian's numpy
+"$folder/fresh/environment/bin/pip" install --quiet --no-index --no-deps "${wheels[0]}"
+# What the wheel was made of is gone before it is called.
+rm -rf "$folder/extension"
+cd "$folder/fresh"
+"$strata" render teapot --size 64x48 --algorithm dual,weighted_average --no-audit --stats stats.json -q -o there.png
+env -i PATH="$PATH" environment/bin/python -I - "$folder/fresh" <<'PYTHON'
+import json
+import pathlib
+import sys
+
+import strata
+
+folder = pathlib.Path(sys.argv[1])
+assert folder in pathlib.Path(strata.__file__).parents, strata.__file__
+for row in json.loads((folder / "stats.json").read_text()):
+    picture = strata.render(strata.Scene("teapot"), row["algorithm"], profile="geforce8", width=64, height=48)
+    assert picture.digest == row["digest"]["color"], (row["algorithm"], picture.digest, row["digest"])
+    assert strata.compare(picture, picture).equal
+assert [array.shape for array in strata.read(str(folder / "there.dual.png")).arrays.values()] == [(48, 64, 4)]
+for name in ("_strata.pyi", "py.typed", "pytest_plugin.py"):
+    assert (pathlib.Path(strata.__file__).parent / name).is_file(), name
+try:
+    strata.Scene("no-such-scene")
+    raise AssertionError("expected an error for an unknown scene")
+except strata.InputError as error:
+    assert "no-such-scene" in str(error), error
+PYTHON
+environment/bin/pip uninstall --quiet --yes strata
+echo "$(basename "${wheels[0]}"): $(($(stat -c %s "${wheels[0]}") / 1024)) KiB, installed, called and removed"
