@@ -48,7 +48,7 @@ STATE = {"alpha_test", "depth_test", "stencil_test", "raster.*"}
 # It holds what this must find.
 WRONG_ON_PURPOSE = {"tests/lint/faults.py"}
 FEWEST_CITATIONS = 300
-RESULTS = ("RESULTS.md", "MISTAKES.md", "BLIND.md", "gallery.md")  # pages of results, written by programs
+RESULTS = ("RESULTS.md", "MISTAKES.md", "BLIND.md", "gallery.md", "PERFORMANCE.md", "PEELS.md", "DIFFERENCES.md")  # written by programs
 MOST_WORDS = 600  # of such a page: the rows belong into build/
 
 

@@ -103,8 +103,7 @@ class Table:
     def __init__(self, driver):
         self.driver, self.rows, self.renderer = driver, [], ""
         self.pixels = self.fragments = self.clipped = self.wrong = 0
-        self.differ = {job: 0 for job in ["coverage", *JOBS]}
-
+        self.differ = {"coverage": 0}  # by job that was drawn
     def add(self, scene, size, formats, jobs, coverage):
         found = {job["algorithm"]: job for job in jobs}
         self.fragments += coverage["fragments"]
@@ -113,7 +112,7 @@ class Table:
         for name, job in found.items():
             pictures = 1 + job["each_pass"]["pictures"]
             self.pixels += coverage["pixels"] * pictures
-            self.differ[name] += job["strata"]["differ"] + job["each_pass"]["differ"]
+            self.differ[name] = self.differ.get(name, 0) + job["strata"]["differ"] + job["each_pass"]["differ"]
         self.wrong += coverage["differ"] + sum(found[job]["strata"]["differ"] + found[job]["each_pass"]["differ"] for job in found)
         name = f"{pathlib.Path(scene[0]).name}, {scene[1]}"
         self.rows.append([name, size, " ".join(formats), str(coverage["fragments"]), str(coverage["clipped"]), str(coverage["differ"]),
@@ -121,7 +120,7 @@ class Table:
 
     def text(self):
         head = ["scene", "size", "formats", "fragments", "cut triangles", "coverage", *JOBS]
-        total = ["all", "", "", str(self.fragments), str(self.clipped), *(str(self.differ[k]) for k in ["coverage", *JOBS])]
+        total = ["all", "", "", str(self.fragments), str(self.clipped), *(str(self.differ.get(key, "-")) for key in ["coverage", *JOBS])]
         lines = [f"## {self.driver}", f"{self.renderer}: {len(self.rows)} scenes, {self.pixels:,} pixels of pictures compared.", ""]
         lines += ["| " + " | ".join(row) + " |" for row in [head, ["---"] * 3 + ["---:"] * (len(head) - 3), *self.rows, total]]
         return "\n".join(lines) + "\n"
@@ -137,15 +136,21 @@ def jobs_of(driver, scene, formats, index):
 
 
 def page(tables):
+    """Totals alone; the rows of all scenes go to build/bench/differences.txt."""
+    head = ["driver", "scenes", "pixels compared", "coverage", *JOBS]
+    rows = [[table.driver, str(len(table.rows)), f"{table.pixels:,}", *(str(table.differ.get(key, "-")) for key in ["coverage", *JOBS])] for table in tables]
     return "\n".join([
-        "# Pixels that Strata draws unlike Mesa's drivers", "",
-        "Made by `tools/bench/driver_differences.py`. A column holds the number of pixels of which any bit differs: the count of fragments of a",
-        f"pixel (coverage), the nearest depth, and the last picture of a peel with those after 1 to {MOST_PASSES} geometry passes, so that every layer is",
-        "seen by itself. Formats are those of the colours and depths of all targets; dual's depths are binary32, and the average's sums half",
-        "floats in all but rgba32f. The last column is the average as most ports write it, with GLSL's pow, beside a model of llvmpipe's pow",
-        "(mesa-rasterizers.md 2.10) on Strata's sums. OpenGL has no stencil beside D16; scenes of hundreds of iterations are left out.",
-        "softpipe's colours are drawn in the scenes of rgba8 with d32f alone.",
-        "", *(table.text() for table in tables)])
+        "# Pixels that differ from Mesa's drivers", "",
+        "Made by `tools/bench/driver_differences.py`, which writes a row for each scene to `build/bench/differences.txt`. A column counts the pixels of which",
+        "any bit differs: the number of fragments of a pixel (coverage), the nearest depth, and the final picture of an algorithm together with the pictures",
+        f"after 1 to {MOST_PASSES} geometry passes, so that every layer is compared by itself.", "",
+        *("| " + " | ".join(row) + " |" for row in [head, ["---"] + ["---:"] * (len(head) - 1), *rows]), "",
+        *(f"{table.driver}: {table.renderer}" for table in tables), "",
+        "- Scenes: bunny, dragon, teapot, planes, beams and random triangles, cut on every side of the view among them, in five sizes.",
+        "- Formats: rgba8, rgba16f and rgba32f with d16, d24 and d32f. The depths of dual are binary32; the sums of the average are binary16 except in rgba32f.",
+        "- weighted_average_pow is the average with GLSL's pow, compared with a model of llvmpipe's pow (mesa-rasterizers.md 2.10) on Strata's sums.",
+        "- OpenGL has no stencil buffer with D16, and scenes with hundreds of iterations are left out of coherent_stencil.",
+        "- softpipe is slow: its colours are compared in the scenes of rgba8 with d32f only.", ""])
 
 
 def main():
@@ -172,6 +177,9 @@ def main():
                 table.add(scene, size, formats, jobs, coverage)
                 print(driver, *table.rows[-1], sep="  ", file=sys.stderr, flush=True)
             tables.append(table)
+    rows = ROOT / "build/bench/differences.txt"
+    rows.parent.mkdir(parents=True, exist_ok=True)
+    rows.write_text("\n".join(table.text() for table in tables))
     pathlib.Path(options.out).write_text(page(tables))
     return 1 if any(table.wrong for table in tables) else 0
 

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""How long every peel takes beside the a_buffer of the same run: by device, format, layers and limits.
+"""The time of every peel over the time of a_buffer in the same run: by device, format, layers and limits.
 
     tools/bench/peels.py [--slices 64,256] [--size 512x512] [--orders near] [--models ../shared/models] [--formats rgba8] [--repeat 3]
 
-Standard library alone. A row is a job on one thread. Jobs of a profile, format and limit run by turns, `--repeat` frames a turn; a job's time is
-that of its quickest frames (the tenth part), which other work on the machine disturbs least. Its ratio is over a_buffer's of the same profile, format and run. `most` is what the ratio is to keep to; the exit status is 1 if one does not. Where an
-algorithm's own listing needs half as many iterations as there are layers, each over all that is left, `most` is in visits: fragments that
-its programs may run on for each fragment of the stack, which is iterations times what one of them keeps.
+Writes PEELS.md, and a row for each job to build/bench/peels.txt. Needs the standard library only. A job runs on one thread. Jobs of a profile, format
+and limit run by turns, `--repeat` frames per turn; a job's time is the slowest of its quickest tenth of frames, which other work on the machine
+disturbs least. Its ratio is over the time of a_buffer with the same profile and format in the same run. The exit status is 1 if a ratio exceeds its
+bound. coherent_* have no bound on planes: far to near their listings need n / 2 or n iterations for n layers, each over all that is left.
 """
 import argparse
 import json
 import os
 import pathlib
+import shlex
 import statistics
 import subprocess
 import sys
@@ -21,10 +22,8 @@ FORMATS = {"geforce3": ["rgba8"], "geforce8": ["rgba8", "rgba16f", "rgba32f"], "
            "ideal": ["rgba8", "rgba16f", "rgba32f"]}
 PEELS = ["front_to_back", "dual", "dual_independent", "depth_units", "shadow_map_depth_replace", "layer_peel", "coherent_stencil",
          "coherent_blend", "coherent_ideal", "stencil_routed_k_buffer", "hybrid", "batched"]
-MOST_ON_SLICES, MOST_ON_MODELS = 2.5, {"batched": 3.0, "stencil_routed_k_buffer": 3.0}
-# FragmentWaves a fragment, iterations times what one keeps: coherent_stencil and coherent_blend keep eight at most for the two layers of an
-# iteration (as long as the stencil counts all, up to 255 layers in one place), coherent_ideal five for its layer.
-MOST_VISITS = {"coherent_stencil": 4, "coherent_blend": 4, "coherent_ideal": 5}
+MOST_ON_SLICES, MOST_ON_MODELS = 4.0, {"batched": 3.0, "stencil_routed_k_buffer": 3.0}  # of models: 2.0 for all others
+UNBOUNDED_ON_SLICES = {"coherent_stencil", "coherent_blend", "coherent_ideal"}
 LIMIT = 20  # of the rows with --max-passes
 
 
@@ -95,76 +94,88 @@ def jobs(options, scene, size, profile, color_format, extra):
     return {algorithm: quick_ms(own) for algorithm, own in seconds.items()}
 
 
-def visits(options, scene, size, profile, color_format, extra, algorithm):
-    """Fragments that the algorithm's programs run on, for each fragment of the list."""
-    command = [*bench_command(options, scene, size, profile, color_format, extra), "--algorithm", f"unsorted,{algorithm}", "--repeat", "1",
-               "--warm-up", "0", "--counters", "--json"]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"peels.py: {' '.join(command)} ended with exit status {done.returncode}: {done.stderr.strip()}")
-    once, job = json.loads(done.stdout)["jobs"]
-    return job["visited"] / once["fragments"]
-
-
 def scenes_of(options):
     for slices in filter(None, options.slices.split(",")):
         for order in options.orders.split(","):
-            yield f"volume-beam:slices={slices},order={order}", options.size, [], MOST_ON_SLICES, {}, MOST_VISITS
+            yield f"{slices} planes", f"volume-beam:slices={slices},order={order}", options.size, [], {name: None for name in UNBOUNDED_ON_SLICES}, MOST_ON_SLICES
     for model in ("bunny", "dragon") if options.models else ():
         path = pathlib.Path(options.models) / f"{model}.glb"
         if path.exists():
-            yield str(path), options.model_size, ["--alpha", "0.5"], 2.0, MOST_ON_MODELS, {}
+            yield model, str(path), options.model_size, ["--alpha", "0.5"], MOST_ON_MODELS, 2.0
         else:
             print(f"peels.py: no {path}: its rows are missing", file=sys.stderr)
 
 
-def finding(limit, found):
-    """A sentence on all rows of a limit; `found`: by algorithm, pairs of a ratio and whether it is kept."""
-    named = sorted((statistics.median(ratio for ratio, _ in pairs), algorithm, all(kept for _, kept in pairs)) for algorithm, pairs in found.items())
-    said = {kept: ", ".join(f"{algorithm} {median:.1f}" for median, algorithm, keeps in named if keeps == kept) for kept in (True, False)}
-    what = "Peeled to the last layer" if limit == "all" else f"Ended after {limit} passes"
-    return (f"{what}, {'no peel keeps' if not said[True] else said[True] + ' keep'} the bound in every row (medians over a_buffer); "
-            f"beyond it in some: {said[False] or 'none'}.")
+def measure(options):
+    """Rows of scene, profile, format, passes, algorithm, milliseconds, milliseconds of a_buffer, bound or None."""
+    for name, scene, size, extra, own_bounds, most in scenes_of(options):
+        for profile in options.profiles.split(","):
+            for color_format in [f for f in FORMATS.get(profile, ["rgba8"]) if f in options.formats.split(",")]:
+                for limit in options.limits.split(","):
+                    passes = [] if limit == "all" else ["--max-passes", limit]
+                    times = jobs(options, scene, size, profile, color_format, extra + passes)
+                    base = times.pop("a_buffer")
+                    for algorithm, ms in times.items():
+                        row = [name, profile, color_format, limit, algorithm, ms, base, own_bounds.get(algorithm, most)]
+                        print(*row, file=sys.stderr, flush=True)
+                        yield row
 
 
-def print_summary(ratios):
-    """`ratios`: by algorithm and limit, pairs of a ratio and whether it is kept."""
-    print()
-    for limit in dict.fromkeys(limit for _, limit in ratios):
-        print(finding(limit, {algorithm: pairs for (algorithm, own), pairs in ratios.items() if own == limit}))
-    print("\n## By algorithm\n\n| job | passes | rows | least | median | greatest | kept |\n|" + "---|" * 7)
-    for (algorithm, limit), found in ratios.items():
-        values = [ratio for ratio, _ in found]
-        print(f"| {algorithm} | {limit} | {len(found)} | {min(values):.2f} | {statistics.median(values):.2f} | {max(values):.2f} | "
-              f"{sum(kept for _, kept in found)} |")
+def is_kept(row):
+    *_, ms, base, most = row
+    return most is None or ms <= most * base
+
+
+def table(head, rows):
+    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows]) + "\n"
+
+
+def page(options, rows):
+    """Medians over a_buffer by algorithm and scene, of peels to the last layer; with a limit beside."""
+    columns = list(dict.fromkeys((row[0], row[3]) for row in rows))
+    body = []
+    for algorithm in dict.fromkeys(row[4] for row in rows):
+        cells = []
+        for column in columns:
+            own = [row for row in rows if row[4] == algorithm and (row[0], row[3]) == column]
+            text = f"{statistics.median(row[5] / row[6] for row in own):.1f}" if own else "-"
+            cells.append(text if all(is_kept(row) for row in own) else f"**{text}**")
+        body.append([algorithm, *cells])
+    beyond = [f"{row[4]} on {row[0]}, {row[1]}, {row[2]}: {row[5] / row[6]:.2f}" for row in rows if not is_kept(row)]
+    head = ["algorithm", *(name if limit == "all" else f"{name}, {limit} passes" for name, limit in columns)]
+    return f"""# All peels compared with the A-buffer
+
+Times of a frame over the time of a_buffer, which sorts all fragments of a pixel and composites them in binary64; medians over profiles and formats.
+A bold figure exceeds its bound (planes 4; models 2, batched and stencil_routed_k_buffer 3) in some row: {"; ".join(beyond) or "none"}.
+
+{table(head, body)}
+Made by `tools/bench/peels.py {shlex.join(sys.argv[1:])}`, which writes every row to `build/bench/peels.txt`.
+
+![time a layer against layers](layers.svg)
+
+The drawing is made by `tools/bench/layers.py` (planes at 128x128, geforce8_dx101).
+
+What determines the times:
+
+- A tile's fragments are rasterized and recorded once, as for a_buffer, and sorted once; a pass processes only the fragments that it keeps.
+- dual is resolved pixel by pixel from the sorted record, without passes.
+- shadow_map_depth_replace keeps the colour and depth of every layer and computes r/q of every fragment.
+- dual_independent runs three stages per fragment and pass on three targets.
+- stencil_routed_k_buffer and hybrid run every fragment through all stages of a pass.
+- coherent_stencil and coherent_blend need n / 2 iterations of six or five passes for n planes that come far to near, and coherent_ideal n of two, each
+  over all fragments that are left. Near to far, and on models, a pass processes each fragment once.
+"""
 
 
 def main():
     options = parse_arguments()
-    kept, ratios = True, {}
-    print(f"# Every peel beside the oracle\n\nMade by `tools/bench/peels.py {' '.join(sys.argv[1:])}`: a frame on one thread, the quickest tenth of "
-          f"{options.turns} x {options.repeat}; ratios over the a_buffer of the same profile, format and run. `most` is what a ratio is to keep to.\n")
-    print("| scene | profile | format | passes | job | ms | a_buffer | ratio | visits | most | kept |")
-    print("|" + "---|" * 11)
-    for scene, size, extra, most, exceptions, most_visits in scenes_of(options):
-        for profile in options.profiles.split(","):
-            for color_format in [f for f in FORMATS.get(profile, ["rgba8"]) if f in options.formats.split(",")]:
-                for limit in [[] if most_passes == "all" else ["--max-passes", most_passes] for most_passes in options.limits.split(",")]:
-                    times = jobs(options, scene, size, profile, color_format, extra + limit)
-                    base = times.pop("a_buffer")
-                    for algorithm, ms in times.items():
-                        bound = exceptions.get(algorithm, most)
-                        keeps, found = ms <= bound * base, "-"
-                        if algorithm in most_visits and not limit:
-                            bound = most_visits[algorithm]
-                            found = visits(options, scene, size, profile, color_format, extra + limit, algorithm)
-                            keeps, bound, found = found <= bound, f"{bound} visits", f"{found:.2f}"
-                        kept = kept and keeps
-                        ratios.setdefault((algorithm, limit[1] if limit else "all"), []).append((ms / base, keeps))
-                        print(f"| {pathlib.Path(scene).stem} | {profile} | {color_format} | {limit[1] if limit else 'all'} | {algorithm} | "
-                              f"{ms:.1f} | {base:.1f} | {ms / base:.2f} | {found} | {bound} | {'yes' if keeps else '**no**'} |", flush=True)
-    print_summary(ratios)
-    sys.exit(0 if kept else 1)
+    rows = list(measure(options))
+    head = ["scene", "profile", "format", "passes", "algorithm", "ms", "a_buffer ms", "ratio", "bound", "kept"]
+    cells = [[*row[:5], f"{row[5]:.1f}", f"{row[6]:.1f}", f"{row[5] / row[6]:.2f}", str(row[7] or "-"), "yes" if is_kept(row) else "**no**"] for row in rows]
+    for path, text in ((ROOT / "tools/bench/PEELS.md", page(options, rows)), (ROOT / "build/bench/peels.txt", table(head, cells))):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    sys.exit(0 if all(is_kept(row) for row in rows) else 1)
 
 
 if __name__ == "__main__":

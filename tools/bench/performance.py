@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes tools/bench/PERFORMANCE.md: runs `strata bench` over the scenes and, where it is built, the side-by-side with Mesa.
+"""Writes tools/bench/PERFORMANCE.md and build/bench/performance.txt: `strata bench` on three scenes and, where it is built, the comparison with Mesa.
 
     tools/bench/performance.py [--models ../shared/models] [--size 1024x1024] [--repeat 5] [--quick]
 
-Standard library alone. Ratios count, times tell the scale: every table's numbers come from one command run in turn.
+Needs the standard library only. Compare ratios; times only show the scale. The numbers of a table come from commands run by turns.
 """
 import argparse
 import json
@@ -183,72 +183,11 @@ def scaling_section(options, scenes):
     return (f"## Threads\n\nMedians of {len(TURNS)} runs of each in turn.\n\n" + table(["scene", "job", "1 thread ms", "2 threads ms", "speed-up", "serial share",
                                       "ceiling for 64"], rows) +
             f"""
-The serial share s solves t2 / t1 = s + (1 - s) / 2 (Amdahl), and so counts everything that does not double: joining sources in
-submission order, the prefix sums of the bins, the last tiles, and the memory that both threads share. {measured} of {len(rows)} jobs show
-one, {worst:.3f} at most. The others were more than twice as fast on two threads: both were measured in turn on a machine that others
-use, so these say that the share is below the noise, and no more. Two bounds stand beside it. Tiles: {options.size} has
-{tiles} tiles of 64; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
-fragments crowd into a few tiles scales with these. Memory: what a thread keeps of fragments is --fragment-memory divided by the
-threads; a tile that does not fit is cut into parts that do, or a resolve walks it band by band.
+The serial share s solves t2 / t1 = s + (1 - s) / 2 (Amdahl). It counts everything that does not double: joining sources in submission
+order, the prefix sums of the bins, the last tiles, and the memory that both threads share. {measured} of {len(rows)} jobs show one, {worst:.3f} at
+most; the others were more than twice as fast on two threads, which means that the share is below the noise. {options.size} has {tiles} tiles of 64
+pixels: with 64 threads each has {tiles / 64:.0f}, and a frame takes as long as its costliest tile.
 """)
-
-
-def items_section(options, scenes):
-    """Each item switched off alone, against everything on."""
-    rows = []
-    for scene in scenes:
-        on = {j["algorithm"]: milliseconds(j) for j in bench(options, scene, small=True)}
-        off = {
-            "replay": bench(options, scene, small=True, memory="0"),
-            "tiles and replay": bench(options, scene, small=True, execution="literal"),
-            "SIMD": bench(options, scene, small=True, simd="scalar"),
-            "threads": bench(options, scene, small=True, threads=1),
-            "needed effects (no replay)": bench(options, scene, small=True, memory="0", effects="all"),
-        }
-        rasterized = {j["algorithm"]: milliseconds(j) for j in off["replay"]}
-        for item, jobs in off.items():
-            base = rasterized if "effects" in item else on
-            times = {j["algorithm"]: milliseconds(j) for j in jobs}
-            rows.append([scene.name, item] + [f"{times[a] / base[a]:.2f}" for a in ALGORITHMS])
-        passes = {j["algorithm"]: j for j in bench(options, scene, small=True)}
-        # Without it a pass would transform, clip, set up and bin again.
-        rows.append([scene.name, "geometry once (computed)"] +
-                    [f'{1 + (passes[a]["geometry_passes"] - 1) * passes[a]["geometry_seconds"] * 1e3 / on[a]:.2f}'
-                     for a in ALGORITHMS])
-    return ("## What each item bought\n\nTime with the item switched off over time with everything on, at " + options.small +
-            " and a quarter of the planes. Effects are compared tile by tile, for replay does not join `--effects all`. Geometry once cannot be switched off: "
-            "its row adds the measured geometry part for every pass after the first.\n\n" +
-            table(["scene", "without", *ALGORITHMS], rows))
-
-
-def roofline_section(options, scenes):
-    rows = []
-    for scene in scenes:
-        for job in bench(options, scene, counted=True):
-            if not job["fragments"]:
-                continue
-            paper = job["bytes_per_fragment"] * job["fragments"]
-            rows.append([scene.name, job["algorithm"], f'{job["bytes_per_fragment"]:.0f}', f"{paper / 1e9:.2f}",
-                         f'{paper / job["seconds"]["median"] / 1e9:.1f}'])
-    return ("""## The roofline on paper
-
-Bytes that a fragment-pass moves between stages and targets if no cache exists, as the counters count them: loads of the program,
-tests, blending, and each pass's clears, copies and full-screen quads, all divided by the fragments.
-
-| job | read by a fragment | written by a fragment | operations a fragment, at least |
-|---|---|---|---|
-| depth | 4 (stored depth) | 4 if it passes | edges 3 x 1 add, depth plane 2 multiplies 2 adds, 1 compare |
-| weighted_average | 4 (opaque depth), 8 + 2 (sum and count) | 8 + 2 | the depth's, 4 channels of 2 multiplies 2 adds 1 divide, 3 multiplies, 5 adds, conversions |
-| front_to_back | 4 (peeled depth), 4 (stored depth) | 4 + 4 if nearest | the depth's, colour as above, 2 compares |
-| dual | 8 (min-max), 4 (front), 4 (opaque), 8 + 4 + 4 (blending) | 8 + 4 + 4 | the depth's, colour as above, UNDER 4 x 3, MAX 10 |
-
-One pass over a captured fragment needs its pixel (4 bytes), depth (4) and colour (16): 24 bytes, whatever the number of passes, so with
-M bytes a second from memory no replay ends before fragments x 24 / M, and no execution that rasterizes each pass before
-(fragment-passes x bytes below) / (bandwidth of the cache that holds a tile's targets). A column of demand above what the memory of
-the machine gives says that the tile's targets stayed in cache or were not touched again.
-
-""" + table(["scene", "job", "bytes a fragment-pass", "GB of the literal definition", "GB/s that literal would need for this time"],
-            rows))
 
 
 def peak_mib(command):
@@ -324,34 +263,40 @@ def machine():
 
 
 def summary(options, scenes):
-    """The three sentences that a reader wants."""
+    """What a reader wants first."""
     costs = [median_ratio([t["dual"] for t in turns], [t["depth"] for t in turns])
              for turns in (in_turn(options, scene)[2] for scene in scenes)]
-    return (f"A peel to the last layer by dual takes {min(costs):.1f} to {max(costs):.1f} times one depth pass of the same scene, and "
-            "llvmpipe's, with the same bits, several dozen times that (below). A pass visits the fragments that it keeps and counts the "
-            "others, so that time grows with the layers and not with their square, for every peel but coherent_ideal, whose first pass "
-            "visits all that is left: [PEELS.md](PEELS.md) holds each beside the a_buffer of the same run, and names those that are not yet near it. What was "
-            "tried on the way, kept or dropped, is [tried.md](tried.md).")
+    return (f"A dual peel to the last layer takes {min(costs):.1f} to {max(costs):.1f} times one depth pass of the same scene. A pass processes the "
+            "fragments that it keeps and counts the others, so time grows with the number of layers and not with its square. [PEELS.md](PEELS.md) "
+            "compares all peels with the A-buffer.")
 
 
-def page(options, scenes, folder):
+def page(options, scenes):
     return "\n".join([
         f"# Performance\n\n{summary(options, scenes)}\n\n![time a layer against layers](layers.svg)\n\n"
-        f"Made by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds.\n",
-        times_section(options, scenes), mesa_section(options), within_section(options, scenes),
+        f"Made by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds. Times, instruction sets, executions, threads, memory and "
+        "start-up: `build/bench/performance.txt`, written by the same run.\n",
+        mesa_section(options), within_section(options, scenes)])
+
+
+def tables(options, scenes, folder):
+    """What the page leaves out."""
+    return "\n".join([
+        "# Performance: all tables\n", times_section(options, scenes),
         ways_section(options, scenes, "execution", ["literal", NO_MEMORY, "replay"], "literal : replay without memory : replay",
                      "The same bits three ways, each over replay."),
         ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets", "Each over the last."),
-        items_section(options, scenes), scaling_section(options, scenes), memory_section(options, scenes), start_section(options, folder),
-        roofline_section(options, scenes)])
+        scaling_section(options, scenes), memory_section(options, scenes), start_section(options, folder)])
 
 
 def main():
     options = parse_arguments()
     with tempfile.TemporaryDirectory() as folder:
-        text = page(options, scenes_of(options, folder), folder)
-    pathlib.Path(options.out).write_text(text)
-    print(f"wrote {options.out}", file=sys.stderr)
+        scenes = scenes_of(options, folder)
+        for path, text in ((pathlib.Path(options.out), page(options, scenes)), (ROOT / "build/bench/performance.txt", tables(options, scenes, folder))):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+            print(f"wrote {path}", file=sys.stderr)
 
 
 if __name__ == "__main__":
