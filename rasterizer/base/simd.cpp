@@ -22,15 +22,14 @@ namespace {
 // (hwy/targets.cc).
 [[nodiscard]] std::int64_t supported_targets() noexcept {
     __builtin_cpu_init();
-    const bool sse4 =
-        __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
     const bool has_f16c = has_bit_of_ecx(1, 29), has_lzcnt = has_bit_of_ecx(0x80000001, 5);
-    const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("aes") &&
+                      __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("fma") &&
                       __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && has_f16c && has_lzcnt;
     const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
                         __builtin_cpu_supports("avx512cd");
-    return (sse4 ? HWY_SSE4 : 0) | (avx2 ? HWY_AVX2 : 0) | (avx512 ? HWY_AVX3 : 0);
+    return (avx2 ? HWY_AVX2 : 0) | (avx512 ? HWY_AVX3 : 0);
 }
 #endif
 
@@ -50,7 +49,7 @@ std::vector<Simd> available_simd() {
     constexpr std::int64_t machine = 0;  // the names above are x86's: all other machines run the scalar reference
 #endif
     std::vector<Simd> all{Simd::scalar};
-    for (const Simd simd : {Simd::sse4, Simd::avx2, Simd::avx512})
+    for (const Simd simd : {Simd::avx2, Simd::avx512})
         if ((machine & target_of(simd)) != 0) all.push_back(simd);
     return all;
 }

@@ -17,9 +17,9 @@
 namespace strata {
 
 // By rising width. `scalar` means the scalar reference, `best` the last one that the processor has.
-enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
+enum class Simd : std::uint8_t { scalar, avx2, avx512, best };
 
-// Those of the first four that this processor can run, by rising width; `scalar` is always there.
+// Those of the first three that this processor can run, by rising width; `scalar` is always there.
 [[nodiscard]] std::vector<Simd> available_simd();
 [[nodiscard]] bool has_simd(Simd simd);  // `best` is there, too
 

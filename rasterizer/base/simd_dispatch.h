@@ -26,7 +26,6 @@ namespace strata {
 // Highway's bit for a set; 0 for `scalar` and for `best`, which chosen_simd() never answers.
 [[nodiscard]] constexpr std::int64_t target_of(Simd simd) noexcept {
     switch (simd) {
-        case Simd::sse4: return HWY_SSE4;
         case Simd::avx2: return HWY_AVX2;
         case Simd::avx512: return HWY_AVX3;
         case Simd::scalar:

@@ -174,7 +174,7 @@ std::vector<Way> ways(ByteSource& bytes) {
                          way(bytes, replaying, Simd::best)};
     all.push_back(way(bytes, bytes.pick(runnings), Simd::scalar));
     if (bytes.one_in(6))
-        all.push_back(way(bytes, bytes.pick(runnings), bytes.pick(std::array{Simd::avx2, Simd::sse4})));
+        all.push_back(way(bytes, bytes.pick(runnings), bytes.pick(std::array{Simd::avx2, Simd::scalar})));
     return all;
 }
 

@@ -85,7 +85,7 @@ void print_texture(std::ostream& out, const pipeline::Texture& t) {
 
 void print(std::ostream& out, const Way& w) {
     constexpr const char* executions[]{"literal", "replay"};
-    constexpr const char* sets[]{"scalar", "sse4", "avx2", "avx512", "best"};
+    constexpr const char* sets[]{"scalar", "avx2", "avx512", "best"};
     out << executions[static_cast<int>(w.execution)] << ", " << sets[static_cast<int>(w.simd)] << ", tile "
         << w.tile_size << (w.effects == pipeline::Effects::all ? ", all effects" : "")
         << (w.trust_idle ? "" : ", mistrusting") << (w.check_selections ? ", selections checked" : "")

@@ -24,7 +24,7 @@ int to_int(const std::string& text) {
 }
 
 Simd to_simd(const std::string& name) {
-    constexpr std::array names{"scalar", "sse4", "avx2", "avx512"};  // in the enum's order
+    constexpr std::array names{"scalar", "avx2", "avx512"};  // in the enum's order
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) throw std::invalid_argument("expected an instruction set, found " + name);
     return static_cast<Simd>(found - names.begin());

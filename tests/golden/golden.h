@@ -10,7 +10,7 @@
 namespace strata::golden {
 
 // What must not change a bit. Given as words: threads=N tile=N execution=literal|replay memory=BYTES effects=needed|all
-// simd=scalar|sse4|avx2|avx512 check=FILE. An instruction set that this processor lacks is replaced by the best it has.
+// simd=scalar|avx2|avx512 check=FILE. An instruction set that this processor lacks is replaced by the best it has.
 struct Settings {
     int threads = 1;
     int tile_size = 32;

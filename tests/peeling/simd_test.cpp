@@ -66,8 +66,7 @@ TEST_CASE("two renderers with different instruction sets draw the same bits at t
 }
 
 TEST_CASE("the sets that the processor has are those that Highway finds") {
-    for (const auto& [simd, target] :
-         {std::pair{Simd::sse4, HWY_SSE4}, {Simd::avx2, HWY_AVX2}, {Simd::avx512, HWY_AVX3}}) {
+    for (const auto& [simd, target] : {std::pair{Simd::avx2, HWY_AVX2}, {Simd::avx512, HWY_AVX3}}) {
         const bool is_compiled = (HWY_TARGETS & target) != 0 && HWY_ARCH_X86;
         CHECK(strata::has_simd(simd) == (is_compiled && (hwy::SupportedTargets() & target) != 0));
     }
@@ -89,7 +88,7 @@ TEST_CASE("a frame leaves what Highway uses for the host program, and the thread
 
 TEST_CASE("an instruction set that the processor lacks is refused by a renderer, by name of the option") {
     const TriangleScene scene = random_triangles(1209, 1);
-    for (const Simd simd : {Simd::sse4, Simd::avx2, Simd::avx512}) {
+    for (const Simd simd : {Simd::avx2, Simd::avx512}) {
         RenderOptions options;
         options.simd = simd;
         const auto open = [&] {

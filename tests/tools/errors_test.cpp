@@ -59,7 +59,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--tile", "33"},
          "strata: --tile: expected 8, 16, 32, 64 or 128, found '33' (did you mean '32'?)"},
         {{"render", "teapot", "--simd", "avx3"},
-         "strata: --simd: expected scalar, sse4, avx2, avx512 or best, found 'avx3' (did you mean 'avx2'?)"},
+         "strata: --simd: expected scalar, avx2, avx512 or best, found 'avx3' (did you mean 'avx2'?)"},
         {{"render", "teapot", "--fragment-memory", "64Q"},
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
         {{"render", "teapot", "--execution", "tile"}, "strata: --execution: expected literal or replay, found 'tile'"},

@@ -285,7 +285,7 @@ def tables(options, scenes, folder):
         "# Performance: all tables\n", times_section(options, scenes),
         ways_section(options, scenes, "execution", ["literal", NO_MEMORY, "replay"], "literal : replay without memory : replay",
                      "The same bits three ways, each over replay."),
-        ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets", "Each over the last."),
+        ways_section(options, scenes, "simd", ["scalar", "avx2", "avx512"], "Instruction sets", "Each over the last."),
         scaling_section(options, scenes), memory_section(options, scenes), start_section(options, folder)])
 
 

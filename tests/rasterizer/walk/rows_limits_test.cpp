@@ -60,7 +60,7 @@ TEST_CASE(
     CHECK_FALSE(row_walk_suits(g, {DepthPath::float32, DepthFormat::d24}, {0, 0, 8, 8}));
 }
 
-TEST_CASE("two lanes of binary64 draw no rows: scalar and SSE4 take batches") {
+TEST_CASE("rows are drawn by vectors alone: the scalar reference takes batches") {
     const Geometry g = random_triangles(672, 4, 8, {{}, {}});
     for (const strata::Simd simd : strata::available_simd()) {
         const strata::SimdScope scope{simd};

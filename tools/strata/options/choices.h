@@ -49,11 +49,8 @@ inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pip
 inline const std::vector<Choice<pipeline::Formulation>> formulations{{"resolved", pipeline::Formulation::resolved},
                                                                      {"published", pipeline::Formulation::published}};
 
-inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
-                                             {"sse4", Simd::sse4},
-                                             {"avx2", Simd::avx2},
-                                             {"avx512", Simd::avx512},
-                                             {"best", Simd::best}};
+inline const std::vector<Choice<Simd>> simds{
+    {"scalar", Simd::scalar}, {"avx2", Simd::avx2}, {"avx512", Simd::avx512}, {"best", Simd::best}};
 
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};
