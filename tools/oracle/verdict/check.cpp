@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "tools/oracle/verdict/match.h"
@@ -44,8 +45,8 @@ void measure(const Stack& stack, const Reach& reach, const std::array<double, 4>
     }
 }
 
-constexpr std::size_t most_examples =
-    64;  // of a tile's pixels that are wrong or at edges: the next choice has to reckon with them
+// Of a tile's pixels that are wrong or at edges: the next choice has to reckon with them.
+constexpr std::size_t most_examples = 64;
 
 // A tile's part of the picture.
 struct PartChecked {
@@ -56,17 +57,24 @@ struct PartChecked {
 
 class Checker {
   public:
-    Checker(const SceneFragments& scene, const Colors& candidate, const Account& account)
-        : scene_{scene}, candidate_{candidate}, account_{account}, compositor_{account.hypothesis} {}
+    Checker(const SceneFragments& scene, const Colors& candidate, const Account& account, Wrong allowed)
+        : scene_{scene},
+          candidate_{candidate},
+          account_{account},
+          compositor_{account.hypothesis},
+          most_wrong_{allowed == Wrong::some ? std::numeric_limits<std::size_t>::max() : enough_wrong} {}
 
     [[nodiscard]] PartChecked part(const TileLists& tile) const {
         StackMaker maker{scene_.setting()};
         PartChecked part{.examples = Sample{scene_.setting()}};
-        for (std::size_t p = 0; p < tile.rect.area(); ++p) look_at(scene_.at(tile, p), maker, part);
+        for (std::size_t p = 0; p < tile.rect.area() && part.checked.wrong_pixels.size() < most_wrong_; ++p)
+            look_at(scene_.at(tile, p), maker, part);
         return part;
     }
 
   private:
+    static constexpr std::size_t enough_wrong = 16;  // of a tile, to drop the account
+
     void look_at(const PixelList& list, StackMaker& maker, PartChecked& part) const {
         const auto value = candidate_.at(list.x, list.y);
         Checked& found = part.checked;
@@ -85,6 +93,7 @@ class Checker {
         if (way.at_edge && part.examples.pixels().size() < most_examples) part.examples.add(list, value);
         const Stack& stack = maker.with(account_.rules, way.list, way.ties, way.is_moved);
         const Reach reach = compositor_.reach(stack);
+        maker.steps().composite(stack.layers.size());
         found.bits += Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
         if (!way.at_edge) measure(stack, reach, value, account_.hypothesis.result.storage, found);
         if (account_.rules.empty()) return;
@@ -102,6 +111,7 @@ class Checker {
     const Colors& candidate_;
     const Account& account_;
     Compositor compositor_;
+    std::size_t most_wrong_;
 };
 
 void merge(const Checked& part, Checked& all) {
@@ -119,8 +129,9 @@ void merge(const Checked& part, Checked& all) {
 
 }  // namespace
 
-Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account, Sample& examples) {
-    const Checker checker{scene, candidate, account};
+Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account, Wrong allowed,
+                  Sample& examples) {
+    const Checker checker{scene, candidate, account, allowed};
     Checked all{.account = account};
     TieMask everywhere = all_ties;
     std::mutex mutex;
@@ -148,7 +159,7 @@ std::optional<Checked> account_for(const Families& all, const std::vector<Rule>&
         const auto hypothesis = best_of(all, rules, sample, Wrong::none, helped == 0 ? likely : std::nullopt);
         if (!hypothesis || (best && *hypothesis == best->account.hypothesis)) break;
         Sample examples{scene.setting()};
-        Checked found = check_all(scene, candidate, {rules, *hypothesis}, examples);
+        Checked found = check_all(scene, candidate, {rules, *hypothesis}, Wrong::none, examples);
         const bool is_done = found.is_whole() && found.at_edges == 0;
         if (found.is_whole()) {
             ++helped;

@@ -77,7 +77,8 @@ struct Sums {
     double relative = 0;  // by which a sum is off, of its terms
     friend bool operator==(const Sums&, const Sums&) = default;
     [[nodiscard]] bool hold(const std::array<double, 4>& value) const noexcept;
-    [[nodiscard]] double count() const noexcept;  // how many there are, floats aside
+    [[nodiscard]] double count() const noexcept;         // how many there are, floats aside
+    [[nodiscard]] std::size_t weights() const noexcept;  // that `hold` tries; 0: nothing is known
 };
 
 // Red, green, blue and alpha of the finished pixel, as values (not codes) of the result's storage.

@@ -1,6 +1,7 @@
 #include "tools/oracle/verdict/match.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <map>
 
@@ -22,7 +23,10 @@ namespace {
 TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
                    const std::array<double, 4>& value, bool is_moved, StackMaker& maker) {
     const auto is_held = [&](const Ties& ties) {
-        return holds(compositor.reach(maker.with(rules, list, ties, is_moved)), value);
+        const Stack& stack = maker.with(rules, list, ties, is_moved);
+        const Reach reach = compositor.reach(stack);
+        maker.steps().composite(stack.layers.size() + reach.sums.weights());
+        return holds(reach, value);
     };
     TiesFound found{.list = list, .is_moved = is_moved};
     const auto add = [&](TieMask mask, const Ties& ties) {
@@ -33,9 +37,15 @@ TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, co
         if (is_held({})) add(all_ties, {});
         return found;
     }
+    const TieChoices choices = tie_choices(rules, list);
+    std::array<bool, ties_count> are_held{};
+    for (std::size_t n = 0; n < ties_count; ++n) {
+        const std::size_t same = choices.same_as[n];
+        are_held[n] = same == n ? is_held(ties_number(n)) : are_held[same];
+    }
     for (std::size_t n = ties_count; n-- > 0;)
-        if (is_held(ties_number(n))) add(1u << n, ties_number(n));
-    for (std::uint32_t p = 0; p < permutations && found.mask == 0; ++p)
+        if (are_held[n]) add(1u << n, ties_number(n));
+    for (std::uint32_t p = 1; p < choices.permutations && found.mask == 0; ++p)  // the first is the order of submission
         if (const Ties other{TieRule::other, DepthKey::code, p}; is_held(other)) add(1u << ties_count, other);
     return found;
 }
@@ -62,17 +72,40 @@ TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rul
     return found;
 }
 
+namespace {
+
+// Equal structures have equal hashes, but for zeros of different signs: those stay beside one another.
+std::uint64_t hash_of(const Stack& stack) noexcept {
+    std::uint64_t hash = stack.layers.size();
+    const auto add = [&](const Rgba& color) {
+        for (std::size_t c = 0; c < 4; ++c) hash = (hash ^ std::bit_cast<std::uint32_t>(color[c])) * 0x9e3779b97f4a7c15;
+    };
+    for (const Layer& layer : stack.layers) add(layer.color);
+    add(stack.background);
+    return hash;
+}
+
+}  // namespace
+
 StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker) {
     StackedPixel made{.value = pixel.value};
+    std::vector<std::uint64_t> hashes;  // of what is made: ties and edges make thousands, few of them new
     const auto add_all = [&](const PixelList& list, bool is_moved) {
         const auto add = [&](const Ties& ties) {
             const Stack& stack = maker.with(rules, list, ties, is_moved);
-            if (std::ranges::find(made.stacks, stack) == made.stacks.end()) made.stacks.push_back(stack);
+            const std::uint64_t hash = hash_of(stack);
+            for (auto at = std::ranges::find(hashes, hash); at != hashes.end();
+                 at = std::find(at + 1, hashes.end(), hash))
+                if (made.stacks[static_cast<std::size_t>(at - hashes.begin())] == stack) return;
+            hashes.push_back(hash);
+            made.stacks.push_back(stack);
         };
         add({});
         if (!may_have_ties(rules, list)) return;
-        for (std::size_t n = 0; n < ties_count; ++n) add(ties_number(n));
-        for (std::uint32_t p = 0; p < permutations; ++p) add({TieRule::other, DepthKey::code, p});
+        const TieChoices choices = tie_choices(rules, list);
+        for (std::size_t n = 1; n < ties_count; ++n)
+            if (choices.same_as[n] == n) add(ties_number(n));
+        for (std::uint32_t p = 1; p < choices.permutations; ++p) add({TieRule::other, DepthKey::code, p});
     };
     const auto add_others = [&](bool is_moved) {
         if (pixel.list.edge == nullptr) return;
@@ -87,9 +120,12 @@ StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, Sta
     return made;
 }
 
-const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel) {
-    for (const Stack& stack : pixel.stacks)
-        if (holds(compositor.reach(stack), pixel.value)) return &stack;
+const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
+    for (const Stack& stack : pixel.stacks) {
+        const Reach reach = compositor.reach(stack);
+        steps.composite(stack.layers.size() + reach.sums.weights());
+        if (holds(reach, pixel.value)) return &stack;
+    }
     return nullptr;
 }
 
@@ -160,13 +196,14 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
 }
 
 // The sample is looked at no further once the cost is more than `most_bits`, or a pixel is wrong where none may be.
-Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most_bits) {
+Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most_bits,
+             Steps& steps) {
     const Compositor compositor{hypothesis};
     const Pricing pricing{hypothesis.result.storage};
     Cost cost{.bits = bits_of(hypothesis)};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto& [pixel, weight] = *pixels[i];
-        const Stack* const stack = reaching(compositor, pixel);
+        const Stack* const stack = reaching(compositor, pixel, steps);
         if (stack == nullptr) {
             cost.wrong += weight;
             std::swap(pixels[i], pixels[i / 2]);  // it may well tell against the next hypothesis, too
@@ -182,8 +219,9 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
 }
 
 // What the members of a family cost at least: the pixels that their widest hypothesis does not reach.
-double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most) {
-    Cost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max());
+double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most,
+                Steps& steps) {
+    Cost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps);
     if (allowed == Wrong::none && cost.wrong > 0) return most;
     cost.bits = 0;
     return cost.total(Pricing{family.widest.result.storage});
@@ -193,21 +231,25 @@ double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*
 
 std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample, Wrong allowed,
                                   const std::optional<Hypothesis>& likely) {
+    Steps steps{*sample.setting().work};
+    if (allowed == Wrong::none && steps.is_spent()) return std::nullopt;
     const std::vector<WeightedPixel> made = weighted(rules, sample);
     std::vector<const WeightedPixel*> pixels;
     for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
     constexpr double any_bits = std::numeric_limits<double>::max();
     if (likely)
-        if (const Cost cost = cost_of(*likely, pixels, Wrong::none, any_bits); cost.wrong == 0 && cost.is_as_given)
+        if (const Cost cost = cost_of(*likely, pixels, Wrong::none, any_bits, steps);
+            cost.wrong == 0 && cost.is_as_given)
             return likely;
     // The first hypothesis that costs less than `most`, or the one that costs the least.
     const auto choose = [&](double most, auto is_enough) {
         double best = most;
         std::optional<Hypothesis> found;
         for (const HypothesisFamily& family : all) {
-            if (least_of(family, pixels, allowed, best) >= best) continue;
+            if (allowed == Wrong::none && steps.is_spent()) break;
+            if (least_of(family, pixels, allowed, best, steps) >= best) continue;
             for (const Hypothesis& h : family.members) {
-                const Cost cost = cost_of(h, pixels, allowed, best);
+                const Cost cost = cost_of(h, pixels, allowed, best, steps);
                 const double bits = cost.total(Pricing{h.result.storage});
                 if (bits >= best || (allowed == Wrong::none && cost.wrong > 0)) continue;
                 best = bits;

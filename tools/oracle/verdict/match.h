@@ -35,7 +35,7 @@ struct StackedPixel {
 };
 [[nodiscard]] StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker);
 // The first of the pixel's structures that reaches its value; null if none does.
-[[nodiscard]] const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel);
+[[nodiscard]] const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel, Steps& steps);
 [[nodiscard]] bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept;
 
 // The hypothesis that tells the sample in the fewest bits (pricing.h); of `none`, one that holds for all of it.
@@ -46,9 +46,10 @@ enum class Wrong : std::uint8_t { some, none };
 // Those that leave less open than `wide` on the right structure of the sample.
 [[nodiscard]] Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample);
 
-// `examples` gets some of the pixels that are wrong or need another rasterizer.
+// `examples` gets some of the pixels that are wrong or need another rasterizer. Of `none` an account that is wrong is
+// looked at no further than it takes to know that.
 [[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
-                                Sample& examples);
+                                Wrong allowed, Sample& examples);
 
 // The best account of the whole picture with these rules, if one holds for every pixel: under `likely`, if that holds.
 // Pixels that speak against one are added to the sample.

@@ -33,6 +33,9 @@ std::string ties_of(const Checked& c) {
 std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     if (v.is_right)
         return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
+    if (v.is_undecided())
+        return fmt::format("not decided: a right port may leave all {}; {}", pixels(v.right.pixels),
+                           rounding_of(v.right));
     if (v.explanations.empty())
         return fmt::format("wrong: {} of {} are beyond what a right port reaches, and no one mistake explains them all",
                            v.right.wrong_pixels.size(), pixels(v.right.pixels));
@@ -65,7 +68,7 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     }
     if (!v.telling.empty()) add("this tells them apart: " + v.telling);
     const Checked& account = v.explanations.empty() ? v.right : v.explanations[0];
-    add((v.is_right || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
+    add((v.right.is_whole() || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
     if (account.tied > 0) add(ties_of(account));
     if (account.at_edges > 0)
@@ -76,7 +79,8 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
         add(fmt::format("the first wrong pixel is {},{}", first % width, first / width));
     }
     for (const Lead& lead : v.leads) add("lead: " + lead_of(lead, v, list));
-    if (v.is_right && !v.alike.empty())
+    if (v.is_stopped) add("the search was stopped at its limit: there may be mistakes that were not tried");
+    if (v.explanations.empty() && !v.alike.empty())
         add(
             fmt::format("on this scene {} of {} mistakes of structure would look the same: strata diagnose --list "
                         "--suite has scenes that show more",
@@ -113,7 +117,9 @@ ordered_json json_of(const Checked& c, const Verdict& v, const pipeline::DrawLis
 }  // namespace
 
 std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
-    ordered_json document{{"verdict", v.is_right ? "right" : "wrong"},
+    ordered_json document{{"verdict", v.is_right         ? "right"
+                                      : v.is_undecided() ? "undecided"
+                                                         : "wrong"},
                           {"sentence", first_line(v, list)},
                           {"pixels", v.right.pixels},
                           {"covered", v.right.covered},
@@ -130,6 +136,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
     document["alike"] = ordered_json::array();
     for (const Rule& rule : v.alike) document["alike"].push_back(name(rule.kind));
     document["kinds"] = v.kinds;
+    document["stopped"] = v.is_stopped;
     if (!v.telling.empty()) document["telling"] = v.telling;
     document["first_wrong"] = ordered_json::array();
     constexpr std::size_t most = 16;

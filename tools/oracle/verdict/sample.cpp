@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <mutex>
 
+#include "tools/oracle/verdict/coverages.h"
+#include "tools/oracle/verdict/structure.h"
+
 namespace strata::oracle::verdict {
 
 Colors::Colors(const Target& target) : target_{&target} {}
@@ -44,6 +47,32 @@ Sample Sample::thinned(std::size_t most) const {
     Sample some{*setting_};
     const std::size_t step = std::max<std::size_t>(pixels_.size() / std::max<std::size_t>(most, 1), 1);
     for (std::size_t i = 0; i < pixels_.size(); i += step) some.add(pixels_[i].list, pixels_[i].value);
+    return some;
+}
+
+namespace {
+
+// About how many a rule has to try at the pixel.
+std::size_t structures_at(const PixelList& list) {
+    const TieChoices choices = tie_choices({}, list);
+    std::size_t own = std::max<std::size_t>(1, choices.permutations);
+    for (std::size_t n = 1; n < ties_count; ++n) own += choices.same_as[n] == n ? 1 : 0;
+    const std::size_t others = list.edge != nullptr ? list.edge->others.size() : 0;
+    return (own + others * own) * (list.has_spreads ? 2 : 1);
+}
+
+}  // namespace
+
+Sample Sample::with_few_structures(std::size_t most) const {
+    constexpr std::size_t few = 4;
+    Sample some{*setting_};
+    std::size_t left = most;
+    for (const SampledPixel& pixel : pixels_) {
+        const std::size_t structures = structures_at(pixel.list);
+        if (structures > few && structures > left) continue;
+        if (structures > few) left -= structures;
+        some.add(pixel.list, pixel.value);
+    }
     return some;
 }
 

@@ -49,6 +49,9 @@ class Sample {
     void sort();
     // About `most` of them, evenly spread.
     [[nodiscard]] Sample thinned(std::size_t most) const;
+    // Those whose structures are few (ties and edges make many of them), and of the others as many as `most` structures
+    // allow.
+    [[nodiscard]] Sample with_few_structures(std::size_t most) const;
     [[nodiscard]] const Setting& setting() const noexcept { return *setting_; }
 
   private:

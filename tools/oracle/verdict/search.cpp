@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "rasterizer/base/parallel.h"
 #include "tools/oracle/verdict/pricing.h"
 
 namespace strata::oracle::verdict {
@@ -26,7 +25,8 @@ Parted parted(const Sample& sample, const Hypothesis& closest) {
     Parted parts;
     for (const SampledPixel& pixel : sample.pixels()) {
         PartedPixel made{&pixel, stacked({}, pixel, maker)};
-        (reaching(compositor, made.right) == nullptr ? parts.wrong : parts.right).push_back(std::move(made));
+        (reaching(compositor, made.right, maker.steps()) == nullptr ? parts.wrong : parts.right)
+            .push_back(std::move(made));
     }
     return parts;
 }
@@ -48,7 +48,7 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
         const Compositor* compositor = nullptr;
         std::size_t at_edges = 0;
     };
-    StackMaker maker{setting};
+    StackMaker maker{setting, setting.work->share()};
     std::vector<Left> left;
     for (const Compositor& compositor : wide) left.push_back({&compositor});
     if (wide.empty()) return false;
@@ -58,11 +58,12 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
     for (const auto* pixels : {&parts.wrong, &parts.right})
         for (const PartedPixel& pixel : *pixels) {
             const StackedPixel made = stacked(rules, *pixel.sampled, maker);
+            if (maker.steps().is_over()) return false;
             const bool stays = is_unchanged(made, pixel);
             if (pixels == &parts.right && stays) continue;
             if (stays && !pixel.right.stacks.empty() && may_stay-- == 0) return false;
             std::erase_if(left, [&](Left& l) {
-                const Stack* const found = reaching(*l.compositor, made);
+                const Stack* const found = reaching(*l.compositor, made, maker.steps());
                 if (found == nullptr) return true;
                 l.at_edges += is_as_given(made, *found) ? 0 : 1;
                 return l.at_edges > most_at_edges;
@@ -76,8 +77,8 @@ std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts,
                              const Setting& setting) {
     const std::vector<Compositor> compositors(wide.begin(), wide.end());
     std::vector<std::uint8_t> lives(all.size());
-    parallel_for(all.size(), 0,
-                 [&](std::size_t i) { lives[i] = survives(all[i], parts, compositors, setting) ? 1 : 0; });
+    setting.work->for_each(all.size(),
+                           [&](std::size_t i) { lives[i] = survives(all[i], parts, compositors, setting) ? 1 : 0; });
     std::vector<Rules> left;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (lives[i] != 0) left.push_back(all[i]);
@@ -95,15 +96,16 @@ std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts,
         const Rule* rule = nullptr;
         std::size_t explained = 0, changed = 0;
     };
-    std::vector<Worth> all(rules.size());
-    parallel_for(rules.size(), 0, [&](std::size_t i) {
-        StackMaker maker{setting};
-        all[i].rule = &rules[i];
+    std::vector<Worth> all;
+    for (const Rule& rule : rules) all.push_back({&rule});
+    setting.work->for_each(rules.size(), [&](std::size_t i) {
+        StackMaker maker{setting, setting.work->share()};
         for (const PartedPixel& pixel : some) {
+            if (maker.steps().is_over()) break;
             const StackedPixel made = stacked({&rules[i], 1}, *pixel.sampled, maker);
             if (is_unchanged(made, pixel)) continue;
             ++all[i].changed;
-            all[i].explained += reaching(compositor, made) != nullptr ? 1 : 0;
+            all[i].explained += reaching(compositor, made, maker.steps()) != nullptr ? 1 : 0;
         }
     });
     std::erase_if(all, [](const Worth& w) { return w.changed == 0; });
@@ -134,19 +136,27 @@ std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, 
 
 // The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the
 // others wrong: what makes these wrong is no rounding.
-Families possible(const Families& all, const Parted& parts, const Hypothesis& closest) {
+Families possible(const Families& all, const Parted& parts, const Hypothesis& closest, const Setting& setting) {
     const Pricing pricing{closest.result.storage};
-    constexpr std::size_t most_looked_at = 300;
+    constexpr std::size_t most_looked_at = 300, few = 4, most_structures = 2048;
     std::vector<const PartedPixel*> pixels = thinned(parts.right, most_looked_at);
+    std::size_t structures = 0;  // every hypothesis is held against them: ties and edges make many that tell little
+    std::erase_if(pixels, [&](const PartedPixel* pixel) {
+        const std::size_t own = pixel->right.stacks.size();
+        if (own > few && structures + own > most_structures) return true;
+        structures += own;
+        return false;
+    });
     const std::size_t most_missed = pixels.size() / 50;
     double most_bits = std::numeric_limits<double>::max();
+    Steps steps{*setting.work};
     // Nothing if it is none of them.
     const auto bits_of_right = [&](const Hypothesis& h) -> std::optional<double> {
         const Compositor compositor{h};
         double bits = 0;
         std::size_t missed = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            if (const Stack* const stack = reaching(compositor, pixels[i]->right)) {
+            if (const Stack* const stack = reaching(compositor, pixels[i]->right, steps)) {
                 bits += pricing.of(compositor.reach(*stack));
             } else {
                 if (++missed > most_missed) return std::nullopt;
@@ -156,12 +166,24 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
         }
         return bits;
     };
+    const auto missed_by = [&](const Hypothesis& h) {
+        const Compositor compositor{h};
+        std::size_t missed = 0;
+        for (std::size_t i = 0; i < pixels.size() && missed <= most_missed; ++i) {
+            if (reaching(compositor, pixels[i]->right, steps) != nullptr) continue;
+            ++missed;
+            std::swap(pixels[i], pixels[i / 2]);
+        }
+        return missed;
+    };
     const double share = static_cast<double>(pixels.size()) / std::max(1.0, static_cast<double>(parts.right.size()));
     most_bits =
         bits_of_right(closest).value_or(0) + share * pricing.of_wrong() * static_cast<double>(parts.wrong.size());
     Families left;
     for (const HypothesisFamily& family : all) {
         HypothesisFamily own{.widest = family.widest};
+        if (steps.is_spent()) break;
+        if (missed_by(family.widest) > most_missed) continue;
         for (const Hypothesis& h : family.members)
             if (bits_of_right(h)) own.members.push_back(h);
         if (!own.members.empty()) left.push_back(std::move(own));
@@ -179,14 +201,18 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
     const std::size_t step = parts.wrong.size() / most_looked_at + 1;
     for (std::size_t i = 0; i < parts.wrong.size(); i += step)
         pixels.push_back(stacked(rules, *parts.wrong[i].sampled, maker));
+    const auto is_held = [&](const Hypothesis& h) {
+        const Compositor compositor{h};
+        return std::ranges::all_of(
+            pixels, [&](const StackedPixel& p) { return reaching(compositor, p, maker.steps()) != nullptr; });
+    };
     Families left;
     for (const HypothesisFamily& family : all) {
         HypothesisFamily own{.widest = family.widest};
+        if (maker.steps().is_spent()) break;
+        if (!is_held(family.widest)) continue;
         std::ranges::copy_if(family.members, std::back_inserter(own.members), [&](const Hypothesis& h) {
-            const Compositor compositor{h};
-            if (has_few_bits && h.front.rounding == Rounding::any) return false;
-            return std::ranges::all_of(pixels,
-                                       [&](const StackedPixel& p) { return reaching(compositor, p) != nullptr; });
+            return !(has_few_bits && h.front.rounding == Rounding::any) && is_held(h);
         });
         if (!own.members.empty()) left.push_back(std::move(own));
     }
@@ -200,16 +226,19 @@ std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& par
     const Compositor compositor{closest};
     auto wrong = thinned(parts.wrong, most_looked_at);
     // What another rasterizer has to help may be a mistake as well.
-    for (const PartedPixel* pixel : thinned(parts.right, 4 * most_looked_at))
-        if (const Stack* const found = reaching(compositor, pixel->right); found && !is_as_given(pixel->right, *found))
-            wrong.push_back(pixel);
+    Steps steps{*setting.work};
+    for (const PartedPixel* pixel : thinned(parts.right, 4 * most_looked_at)) {
+        const Stack* const found = reaching(compositor, pixel->right, steps);
+        if (found != nullptr && !is_as_given(pixel->right, *found)) wrong.push_back(pixel);
+    }
     std::vector<std::pair<std::size_t, std::size_t>> explained(all.size());  // how many, and the number
-    parallel_for(all.size(), 0, [&](std::size_t i) {
-        StackMaker maker{setting};
-        explained[i] = {0, i};
+    for (std::size_t i = 0; i < all.size(); ++i) explained[i].second = i;
+    setting.work->for_each(all.size(), [&](std::size_t i) {
+        StackMaker maker{setting, setting.work->share()};
         for (const PartedPixel* pixel : wrong) {
+            if (maker.steps().is_over()) break;
             const StackedPixel made = stacked(all[i], *pixel->sampled, maker);
-            const Stack* const found = reaching(compositor, made);
+            const Stack* const found = reaching(compositor, made, maker.steps());
             explained[i].first += found != nullptr && is_as_given(made, *found) ? 1 : 0;
         }
     });
@@ -234,7 +263,7 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
     };
     std::vector<Checked> found;
     for (const Rules& rules : all) {
-        if (found.size() == most_told) break;
+        if (found.size() == most_told || scene.setting().work->is_spent()) break;
         if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
         if (++tried > most_tried) break;
         const Families own_families = possible(definite, rules, parts, scene.setting());
@@ -260,14 +289,17 @@ void drop_roomy(std::vector<Checked>& found, double most_bits) {
     std::erase_if(found, [&](const Checked& c) { return bits_of(c) > most; });
 }
 
-// Which of the pixels the rules reach; `unchanged`: those that they leave alone.
+// Which of the pixels the rules reach; `unchanged`: those that they leave alone. Nothing if that takes more than a
+// rule's share.
 std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rules& rules, const Compositor& compositor,
                           const Setting& setting, bool unchanged) {
-    StackMaker maker{setting};
+    StackMaker maker{setting, setting.work->share()};
     std::vector<bool> are_reached;
     for (const PartedPixel* pixel : pixels) {
+        if (maker.steps().is_over()) return {};
         const StackedPixel made = stacked(rules, *pixel->sampled, maker);
-        are_reached.push_back(is_unchanged(made, *pixel) ? unchanged : reaching(compositor, made) != nullptr);
+        are_reached.push_back(is_unchanged(made, *pixel) ? unchanged
+                                                         : reaching(compositor, made, maker.steps()) != nullptr);
     }
     return are_reached;
 }
@@ -281,13 +313,14 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
     const auto wrong = thinned(parts.wrong, most_looked_at), right = thinned(parts.right, most_looked_at);
     std::vector<Lead> leads(all.size());
     std::vector<std::vector<bool>> explained(all.size());
-    parallel_for(all.size(), 0, [&](std::size_t i) {
+    setting.work->for_each(all.size(), [&](std::size_t i) {
         explained[i] = reached(wrong, all[i], compositor, setting, false);
         const auto holds = static_cast<std::uint64_t>(std::ranges::count(explained[i], true));
         leads[i] = {.rules = all[i], .explained = holds, .of = wrong.size(), .right = right.size()};
         if (holds == 0) return;
         const std::vector<bool> are_right = reached(right, all[i], compositor, setting, true);
         leads[i].contradicted = static_cast<std::uint64_t>(std::ranges::count(are_right, false));
+        if (are_right.size() != right.size()) explained[i].clear();
     });
     std::vector<bool> is_told(wrong.size());
     std::vector<Lead> best;
@@ -297,7 +330,7 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
         for (std::size_t i = 0; i < all.size(); ++i) {
             // A port may do it at some pixels alone, by what no rule knows.
             std::ptrdiff_t gain = -static_cast<std::ptrdiff_t>(leads[i].contradicted / 4);
-            for (std::size_t p = 0; p < wrong.size(); ++p) gain += explained[i][p] && !is_told[p] ? 1 : 0;
+            for (std::size_t p = 0; p < explained[i].size(); ++p) gain += explained[i][p] && !is_told[p] ? 1 : 0;
             if (gain <= most) continue;
             most = gain;
             next = i;
@@ -329,37 +362,62 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
     std::vector<Rule> rules = rules_for(facts_of(scene, sample));
     for (Rule& rule : rules) rule.region = region;
     const Parted parts = parted(sample, closest.account.hypothesis);
-    if (most_rules > 1 && parts.wrong.size() < least_of_pairs) return {};
+    if (scene.setting().work->is_spent() || (most_rules > 1 && parts.wrong.size() < least_of_pairs)) return {};
     const std::vector<Rules> all =
         most_rules > 1 ? pairs_of(rules, parts, closest.account.hypothesis, scene.setting()) : singles(rules);
     // What holds for the right pixels first; but a mistake may show at all of them, and another hypothesis call some of
     // them right.
     std::vector<Checked> found;
-    const Families likely = possible(definite, parts, closest.account.hypothesis);
+    const Families likely = possible(definite, parts, closest.account.hypothesis, scene.setting());
     const auto find = [&](const Families& some, std::size_t most) {
         const std::vector<Rules> left = by_explained(survivors(all, parts, widest(some), scene.setting()), parts,
                                                      closest.account.hypothesis, scene.setting());
         found = whole(left, scene, candidate, some, closest.account.hypothesis, parts, sample, most);
     };
     find(likely, most_rules > 1 ? most_pairs_tried : most_tried);
-    if (found.empty() && most_rules == 1) find(definite, most_tried_again);
+    if (found.empty() && most_rules == 1 && !scene.setting().work->is_spent()) find(definite, most_tried_again);
     drop_roomy(found, bits_of(closest));
     return found;
 }
+
+namespace {
+
+// Pixels that have one structure tell the most, and of these those that the fewest hypotheses bring to their value.
+void put_telling_first(std::vector<PartedPixel>& pixels, const std::vector<Hypothesis>& each, const Setting& setting) {
+    const std::vector<Compositor> compositors(each.begin(), each.end());
+    struct Told {
+        bool is_at_edge = false, has_ties = false;
+        std::size_t hypotheses = 0;
+        auto operator<=>(const Told&) const = default;
+    };
+    std::vector<std::pair<Told, PartedPixel>> all;
+    for (PartedPixel& pixel : pixels) {
+        const PixelList& list = pixel.sampled->list;
+        all.push_back({{list.edge != nullptr, verdict::has_ties(list.visible)}, std::move(pixel)});
+    }
+    setting.work->for_each(all.size(), [&](std::size_t i) {
+        StackMaker maker{setting};
+        const StackedPixel right = stacked({}, *all[i].second.sampled, maker);
+        all[i].first.hypotheses = static_cast<std::size_t>(std::ranges::count_if(
+            compositors, [&](const Compositor& c) { return reaching(c, right, maker.steps()) != nullptr; }));
+    });
+    std::ranges::stable_sort(all, {}, &std::pair<Told, PartedPixel>::first);
+    pixels.clear();
+    for (auto& [told, pixel] : all) pixels.push_back(std::move(pixel));
+}
+
+}  // namespace
 
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
                                 const Sample& sample) {
     constexpr std::size_t most_tried = 8;  // each of them with every hypothesis
     Parted parts;
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
-    // Those that have one structure tell the most, and soonest.
-    std::ranges::stable_sort(parts.wrong, {}, [](const PartedPixel& p) {
-        return std::pair{p.sampled->list.edge != nullptr, has_ties(p.sampled->list.visible)};
-    });
     std::vector<Hypothesis> each;
     for (const HypothesisFamily& family : narrow)
         std::ranges::copy_if(family.members, std::back_inserter(each),
                              [](const Hypothesis& h) { return h.slack == 0; });
+    put_telling_first(parts.wrong, each, scene.setting());
     const std::vector<Rules> all = singles(rules_for(facts_of(scene, sample)));
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
     const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());

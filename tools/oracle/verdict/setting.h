@@ -8,12 +8,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "rasterizer/base/vector.h"
+#include "tools/oracle/verdict/work.h"
 
 namespace strata::pipeline {
 struct DrawList;
@@ -55,6 +57,7 @@ struct Setting {
     std::array<std::vector<std::uint32_t>, instance_order_count> rank{};
     // By TrianglePoint, then by submission number: how near it is, more is nearer. Empty: not known.
     std::array<std::vector<float>, triangle_point_count> nearness{};
+    std::shared_ptr<Work> work = std::make_shared<Work>();  // what has been tried on the scene
 };
 
 // Of the triangles that are drawn, `instance_of` each one's instance in the order of submission.

@@ -32,6 +32,53 @@ bool has_ties(std::span<const Fragment> visible) noexcept {
     return false;
 }
 
+namespace {
+
+// The size of the largest group of fragments at one depth.
+std::size_t largest_group(std::span<const Fragment> sorted) noexcept {
+    std::size_t largest = 0, size = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        size = i > 0 && sorted[i].code == sorted[i - 1].code ? size + 1 : 1;
+        largest = std::max(largest, size);
+    }
+    return largest;
+}
+
+// Whether both depths part the fragments alike, and leave them in one order.
+bool have_one_key(std::span<const Fragment> sorted) noexcept {
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+        const Fragment &a = sorted[i - 1], &b = sorted[i];
+        const bool is_tie = a.code == b.code;
+        if (is_tie ? a.shader_z != b.shader_z || a.primitive > b.primitive : a.shader_z >= b.shader_z) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+TieChoices tie_choices(std::span<const Rule> rules, const PixelList& list) noexcept {
+    TieChoices choices;
+    const bool doubles = std::ranges::any_of(
+        rules, [](const Rule& r) { return r.kind == RuleKind::edges_twice || r.kind == RuleKind::edges_never; });
+    const std::span<const Fragment> hidden = rules.empty() ? std::span<const Fragment>{} : list.hidden;
+    const std::size_t largest = doubles ? most_permuted : std::max(largest_group(list.visible), largest_group(hidden));
+    // A hidden fragment lies behind every visible one by its code, and may lie before it in binary32.
+    const bool is_one_key = !doubles && have_one_key(list.visible) && have_one_key(hidden) &&
+                            (hidden.empty() || list.visible.empty() ||
+                             std::ranges::max(list.visible, {}, &Fragment::shader_z).shader_z <
+                                 std::ranges::min(hidden, {}, &Fragment::shader_z).shader_z);
+    for (std::size_t n = 0; n < ties_count; ++n) {
+        const bool is_by_code = n < tie_rule_count;
+        choices.same_as[n] = static_cast<std::uint8_t>(n);
+        if (is_by_code && largest <= 1) choices.same_as[n] = 0;
+        if (!is_by_code && is_one_key) choices.same_as[n] = choices.same_as[n - tie_rule_count];
+    }
+    // Those of a group of g repeat after g!; larger groups than four keep their order.
+    constexpr std::array<std::uint32_t, most_permuted + 1> factorials{0, 0, 2, 6, permutations};
+    choices.permutations = factorials[std::min(largest, most_permuted)];
+    return choices;
+}
+
 bool is_in(const Rule& rule, const Fragment& f) noexcept {
     switch (rule.scope) {
         case Scope::all: return true;
@@ -78,7 +125,7 @@ void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& t
             break;
         case TieRule::other: {
             std::vector<const Fragment*> left(group.begin(), group.end());
-            std::uint32_t number = group.size() <= 4 ? ties.permutation : 0;
+            std::uint32_t number = group.size() <= most_permuted ? ties.permutation : 0;
             while (!left.empty()) {
                 const std::size_t next = number % left.size();
                 number /= static_cast<std::uint32_t>(left.size());
@@ -173,6 +220,7 @@ const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& give
     list(rules, pixel, ties);
     for (const Rule& rule : rules) apply(rule, pixel);
     finish(rules);
+    steps_.list(order_.size());
     stack_.background = pixel.behind;
     stack_.background_spread = pixel.behind_spread;
     stack_.is_linear = false;

@@ -20,9 +20,19 @@ namespace strata::oracle::verdict {
 // Whether some of a pixel's visible fragments lie at one depth, or the two depths order them differently.
 [[nodiscard]] bool has_ties(std::span<const Fragment> visible) noexcept;
 
+// The rules for ties that may give different structures at a pixel: of those that are alike the first stands for all.
+struct TieChoices {
+    std::array<std::uint8_t, ties_count> same_as{};  // by number
+    std::uint32_t permutations = 0;                  // of TieRule::other; none: they give nothing else
+};
+[[nodiscard]] TieChoices tie_choices(std::span<const Rule> rules, const PixelList& list) noexcept;
+
 class StackMaker {
   public:
-    explicit StackMaker(const Setting& setting) : setting_{&setting} {}
+    explicit StackMaker(const Setting& setting) : setting_{&setting}, steps_{*setting.work} {}
+    StackMaker(const Setting& setting, std::uint64_t share) : setting_{&setting}, steps_{*setting.work, share} {}
+    // What is done with it: it goes from hand to hand in a sequential part of a search.
+    [[nodiscard]] Steps& steps() noexcept { return steps_; }
     // The references hold until the next call.
     [[nodiscard]] const Stack& right(const PixelList& pixel, const Ties& ties) { return with({}, pixel, ties); }
     // Rules are applied one after the other.
@@ -57,6 +67,7 @@ class StackMaker {
     [[nodiscard]] std::uint64_t drawn(const Fragment& fragment, std::uint32_t drawing_order) const;  // when
 
     const Setting* setting_;
+    Steps steps_;
     Stack stack_{};
     std::size_t depths_ = 0;
     std::vector<const Fragment*> order_{};

@@ -38,12 +38,23 @@ double Sums::count() const noexcept {
     return all;
 }
 
+std::size_t Sums::weights() const noexcept {
+    if (front_unit == 0) return 0;
+    const Codes all{weight, front_unit};
+    return static_cast<std::size_t>(std::max(0.0, all.last - all.first + 1));
+}
+
 bool Sums::hold(const std::array<double, 4>& value) const noexcept {
     // Whether some front and back of one channel add up to its value.
     const auto adds_up = [&](std::size_t c, double through) {
         const Codes fronts{front[c], front_unit};
         const double off = (std::fabs(value[c]) + back[c].magnitude()) * relative + 0x1p-24 + fine;
-        for (double code = fronts.first; code <= fronts.last; ++code) {
+        // No other front leaves something that the back can have.
+        const double least = value[c] - through * (back[c].high + fine) - off;
+        const double most = value[c] - through * (back[c].low - fine) + off;
+        const double first = std::max(fronts.first, std::floor(least / front_unit) - 1);
+        const double last = std::min(fronts.last, std::ceil(most / front_unit) + 1);
+        for (double code = first; code <= last; ++code) {
             const double left = value[c] - code * front_unit;
             if (through == 0) {
                 if (std::fabs(left) <= off) return true;

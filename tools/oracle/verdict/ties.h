@@ -26,11 +26,13 @@ enum class DepthKey : std::uint8_t {
 struct Ties {
     TieRule rule = TieRule::first;
     DepthKey key = DepthKey::code;
-    std::uint32_t permutation = 0;  // of `other`, below permutations; groups of more than four keep their order
+    std::uint32_t permutation =
+        0;  // of `other`, below permutations; groups of more than `most_permuted` keep their order
     friend bool operator==(const Ties&, const Ties&) = default;
 };
 inline constexpr std::size_t tie_rule_count = 7, ties_count = 2 * tie_rule_count;  // `other` is none of them
 inline constexpr std::uint32_t permutations = 24;
+inline constexpr std::size_t most_permuted = 4;  // fragments of a group
 // All, in the order of the enums: number n has bit n in a mask of them.
 [[nodiscard]] Ties ties_number(std::size_t number) noexcept;
 [[nodiscard]] std::string_view describe(const Ties& ties) noexcept;

@@ -136,10 +136,10 @@ Sample deepest(const Sample& sample, std::size_t most) {
 // no evidence.
 std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
                                  const Checked& right, const Sample& even) {
-    constexpr std::size_t most = 512;
+    constexpr std::size_t most = 512, most_structures = 4096;
     constexpr double share = 0.95, least_bits = 64;
     if (leaves_little_open(right)) return {};
-    const Sample deep = deepest(even, most);
+    const Sample deep = deepest(even, most).with_few_structures(most_structures);
     const Families narrow = narrower(all.definite, right.account.hypothesis, deep);
     std::vector<Checked> better = search_all(scene, candidate, narrow, deep);
     std::erase_if(better, [&](const Checked& c) { return c.bits + least_bits > share * right.bits; });
@@ -150,18 +150,19 @@ std::vector<Checked> told_better(const SceneFragments& scene, const Colors& cand
 // by some pixels, and again with some of those that turn out wrong.
 Checked closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
                         const Sample& even, Sample& examples) {
-    constexpr std::size_t few_sampled = 300;
+    constexpr std::size_t few_sampled = 300, few_added = 75,
+                          few_structures = 1024;  // every hypothesis is held against them
     constexpr int most_tries = 4;
     const Storage storage = storage_of(candidate.code());
-    Sample sample = even.thinned(few_sampled);
+    Sample sample = even.thinned(few_sampled).with_few_structures(few_structures);
     std::optional<Checked> best;
     for (int i = 0; i < most_tries; ++i) {
         const Hypothesis next = *best_of(definite, {}, sample, Wrong::some);
         if (best && next == best->account.hypothesis) break;
         Sample wrong{scene.setting()};
-        Checked found = check_all(scene, candidate, {{}, next}, wrong);
+        Checked found = check_all(scene, candidate, {{}, next}, Wrong::some, wrong);
         const bool is_better = !best || bits_of(found, storage) < bits_of(*best, storage);
-        const Sample some = wrong.thinned(few_sampled);
+        const Sample some = wrong.thinned(few_added).with_few_structures(few_structures);
         for (const SampledPixel& pixel : some.pixels()) sample.add(pixel.list, pixel.value);
         if (is_better) examples = std::move(wrong);
         if (is_better) best = std::move(found);
@@ -192,16 +193,20 @@ std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int wid
 
 }  // namespace
 
-Verdict judge(SceneFragments& scene, const Colors& candidate) {
-    constexpr std::size_t most_sampled = 2048;
+Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
+    constexpr std::size_t most_sampled = 2048, most_structures = 32768;
+    Work& work = *scene.setting().work;
+    const std::uint64_t of_fragments = limits.of_fragment * scene.count();
     const Storage storage = storage_of(candidate.code());
     const Choices all = choices(storage);
     Verdict verdict{.width = scene.width()};
     const auto is_right = [&](Checked&& right, const Sample& even) {
         verdict.right = std::move(right);
+        work.allow(limits.narrower + of_fragments);
         verdict.explanations = told_better(scene, candidate, all, verdict.right, even);
-        verdict.is_right = verdict.explanations.empty();
-        if (verdict.is_right) find_alike(scene, candidate, verdict);
+        verdict.is_stopped = work.is_cut_short();
+        verdict.is_right = verdict.explanations.empty() && !verdict.is_stopped;
+        if (verdict.explanations.empty()) find_alike(scene, candidate, verdict);
         return verdict;
     };
     {
@@ -232,14 +237,18 @@ Verdict judge(SceneFragments& scene, const Colors& candidate) {
         verdict.explanations = {*std::move(found)};
         return verdict;
     }
+    sample = sample.with_few_structures(most_structures);
+    work.allow(limits.mistakes + of_fragments);
     const auto is_found = [&](const Families& some, int most_rules, const Region& region) {
         verdict.explanations = search(scene, candidate, some, verdict.right, sample, most_rules, region);
+        verdict.is_stopped = work.is_cut_short();
         return !verdict.explanations.empty();
     };
     if (is_found(all.definite, 1, {})) return verdict;
     if (const auto region = region_of(verdict.right.wrong_pixels, scene.width(), scene.height()))
         if (is_found(all.definite, 1, *region)) return verdict;
     if (is_found(all.coarse, 1, {}) || is_found(all.definite, 2, {})) return verdict;
+    work.allow(limits.leads);
     verdict.leads = leads(scene, verdict.right, sample);
     return verdict;
 }

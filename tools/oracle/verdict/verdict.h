@@ -25,14 +25,27 @@ struct Verdict {
     // Kinds of mistakes in the structure that the picture does not tell from what is found: of a right one, those that
     // would look right, too.
     std::vector<Rule> alike{};
-    std::size_t kinds = 0;  // of which so many were tried
-    std::string telling{};  // a command whose scene shows the explanations apart, if one is known
+    std::size_t kinds = 0;    // of which so many were tried
+    bool is_stopped = false;  // the search ended before all was tried
+    std::string telling{};    // a command whose scene shows the explanations apart, if one is known
+
+    // A right port may leave every pixel, but not all was tried that may tell the picture more closely.
+    [[nodiscard]] bool is_undecided() const noexcept { return !is_right && explanations.empty() && right.is_whole(); }
 };
 
 class SceneFragments;
 class Colors;
 
+// Of a search, in layers that are listed or composited (work.h): some 15 million of them take a second. Whether a
+// picture is right takes no part of it.
+struct SearchLimits {
+    std::uint64_t mistakes = 60'000'000;   // of a wrong picture
+    std::uint64_t narrower = 450'000'000;  // what tells in fewer bits what a right port may leave
+    std::uint64_t leads = 30'000'000;
+    std::uint64_t of_fragment = 4;  // and for each fragment of the scene
+};
+
 // Asks the scene for what else may cover its edges where it has to.
-[[nodiscard]] Verdict judge(SceneFragments& scene, const Colors& candidate);
+[[nodiscard]] Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits = {});
 
 }  // namespace strata::oracle::verdict

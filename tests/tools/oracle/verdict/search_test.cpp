@@ -107,7 +107,7 @@ TEST_CASE("a port's mistake in the structure is found from its picture alone, wh
 }
 
 TEST_CASE("a port that changes nothing is right by every order of blending") {
-    const OpenedScene opened{"showroom", 48, 48};
+    const OpenedScene opened{"showroom", 32, 32};
     for (const Order order : {Order::over, Order::under, Order::both_ends})
         CHECK(judged(opened, picture_of_port(opened, port_of_codes(order), {})).is_right);
 }
@@ -155,7 +155,7 @@ TEST_CASE("another background is told with its colour") {
 }
 
 TEST_CASE("what explains a part of the wrong pixels is a lead and no finding") {
-    const OpenedScene opened{"showroom", 48, 48};
+    const OpenedScene opened{"showroom", 32, 32};
     std::size_t number = 0;
     const auto change = [&](PortList& l) {
         if (number++ % 2 == 0) lose(l, 0);  // by no rule that a pixel's list tells

@@ -1,7 +1,9 @@
 // Model: lists of a few fragments, layers written down by hand as keys-and-counts.md 2.2 has them.
 #include "tools/oracle/verdict/structure.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
 
 using namespace strata;
 using namespace strata::oracle::verdict;
@@ -78,4 +80,47 @@ TEST_CASE("depths are compared as stored or as a program sees them, and a pixel 
     CHECK_FALSE(has_ties(fragments({1, 2, 3})));
     all[1].code = 6;  // stored in the other order
     CHECK(has_ties(all));
+}
+
+namespace {
+
+// Few depths, so that most lists have ties, by one key or by both; submitted in a random order.
+std::vector<Fragment> random_fragments(std::size_t count, std::mt19937& random) {
+    std::vector<Fragment> all;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto code = static_cast<std::uint32_t>(random() % 4);
+        all.push_back({.color = {static_cast<float>(i), 0, 0, 0.5f},
+                       .code = code,
+                       .shader_z = static_cast<float>(code) +
+                                   static_cast<float>(random() % 2) * 0.75f * (random() % 2 == 0 ? 1.0f : 2.0f),
+                       .primitive = static_cast<std::uint32_t>(i)});
+    }
+    std::ranges::stable_sort(all, {}, &Fragment::code);
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("rules for ties that are left out give what those that stand for them give") {
+    std::mt19937 random{7};
+    const Setting setting;
+    StackMaker maker{setting}, other{setting};
+    std::size_t left_out = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const std::vector<Fragment> all = random_fragments(random() % 8, random);
+        const PixelList list{.visible = all};
+        const TieChoices choices = tie_choices({}, list);
+        for (std::size_t n = 0; n < ties_count; ++n) {
+            REQUIRE(choices.same_as[n] <= n);
+            REQUIRE(choices.same_as[choices.same_as[n]] == choices.same_as[n]);
+            left_out += choices.same_as[n] == n ? 0 : 1;
+            REQUIRE(maker.right(list, ties_number(n)) == other.right(list, ties_number(choices.same_as[n])));
+        }
+        std::vector<Stack> kept{maker.right(list, {})};
+        for (std::uint32_t p = 1; p < choices.permutations; ++p)
+            kept.push_back(maker.right(list, {TieRule::other, DepthKey::code, p}));
+        for (std::uint32_t p = 0; p < permutations; ++p)
+            REQUIRE(std::ranges::find(kept, maker.right(list, {TieRule::other, DepthKey::code, p})) != kept.end());
+    }
+    CHECK(left_out > 0);
 }
