@@ -145,7 +145,8 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const pipeline::DrawList& list = session.scene.list;
     std::optional<OtherProfile> other;
     if (!found.is_right)
-        other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen);
+        other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen,
+                                       found.right.wrong_pixels);
     std::string profile;
     if (other) {
         profile = other->sentence(session.profile.name, found.right.wrong_pixels.size());

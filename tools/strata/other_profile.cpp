@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <vector>
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "pipeline/device/check.h"
 #include "tools/oracle/verdict/match.h"
@@ -12,6 +15,11 @@ namespace strata::tools {
 
 namespace {
 
+oracle::verdict::Families definite(const oracle::verdict::Colors& candidate) {
+    using namespace oracle::verdict;
+    return families(storage_of(candidate.code()), {0, 0x1p-20}, Looseness::definite);
+}
+
 // The right structure's account, by fragments to the bit or off by units in the last place, if it leaves two codes of
 // 255 open at most or the picture takes one at most.
 std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::SceneFragments& scene,
@@ -19,10 +27,43 @@ std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::Sc
                                                        oracle::verdict::Sample& sample) {
     using namespace oracle::verdict;
     constexpr double most_open = 2;
-    const Storage storage = storage_of(candidate.code());
-    auto found = account_for(families(storage, {0, 0x1p-20}, Looseness::definite), {}, scene, candidate, sample);
+    auto found = account_for(definite(candidate), {}, scene, candidate, sample);
     if (found && found->possible > most_open && found->observed > 1) found.reset();
     return found;
+}
+
+// The square of a grid that has the most wrong pixels.
+rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int width) {
+    constexpr int side = 32;
+    std::map<std::pair<int, int>, std::size_t> count;
+    for (const std::uint32_t pixel : wrong_pixels) {
+        const int at = static_cast<int>(pixel);
+        ++count[{at / width / side, at % width / side}];
+    }
+    const auto most = std::ranges::max_element(count, {}, [](const auto& square) { return square.second; });
+    const auto [y, x] = most->first;
+    return {x * side, y * side, (x + 1) * side, (y + 1) * side};
+}
+
+// Whether a definite hypothesis holds within the rectangle: what fails there fails, and no more has to be drawn.
+bool may_be_right(const oracle::RunInput& input, std::uint64_t bytes, const oracle::verdict::Colors& candidate,
+                  const rasterizer::Rect& rect) {
+    using namespace oracle::verdict;
+    peeling::RenderOptions options = input.options;
+    options.raster.scissor = options.raster.scissor ? rasterizer::intersection(*options.raster.scissor, rect) : rect;
+    const SceneFragments part{{input.list, input.view, input.profile, options}, bytes};
+    Sample sample{part.setting()};
+    std::mutex mutex;
+    part.for_each_tile([&](const TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = part.at(tile, p);
+            if (list.x < rect.x0 || list.x >= rect.x1 || list.y < rect.y0 || list.y >= rect.y1) continue;
+            const std::scoped_lock lock{mutex};
+            sample.add(list, candidate.at(list.x, list.y));
+        }
+    });
+    sample.sort();
+    return best_of(definite(candidate), {}, sample, Wrong::none).has_value();
 }
 
 }  // namespace
@@ -34,6 +75,7 @@ std::string OtherProfile::sentence(const std::string& given, std::size_t wrong_p
 
 std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input, std::uint64_t bytes,
                                                    const oracle::verdict::Colors& candidate,
+                                                   const std::vector<std::uint32_t>& wrong_pixels,
                                                    std::span<const pipeline::DeviceProfile> more) {
     using namespace oracle::verdict;
     constexpr std::size_t most_sampled = 2048;
@@ -45,9 +87,12 @@ std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input
         OtherProfile other{
             .profile = std::make_unique<pipeline::DeviceProfile>(with_origin(profile, input.profile.origin)),
             .fragments = nullptr};
+        const oracle::RunInput by_other{input.list, input.view, *other.profile, input.options};
         try {
-            other.fragments = std::make_unique<SceneFragments>(
-                oracle::RunInput{input.list, input.view, *other.profile, input.options}, bytes);
+            if (!wrong_pixels.empty() &&
+                !may_be_right(by_other, bytes, candidate, most_wrong(wrong_pixels, candidate.width())))
+                continue;
+            other.fragments = std::make_unique<SceneFragments>(by_other, bytes);
         } catch (const pipeline::Refused&) {
             continue;
         }

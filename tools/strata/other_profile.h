@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/oracle/run_input.h"
 #include "tools/oracle/verdict/fragments.h"
@@ -32,6 +33,7 @@ struct OtherProfile {
 // by it.
 [[nodiscard]] std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input, std::uint64_t bytes,
                                                                  const oracle::verdict::Colors& candidate,
+                                                                 const std::vector<std::uint32_t>& wrong_pixels,
                                                                  std::span<const pipeline::DeviceProfile> more = {});
 
 }  // namespace strata::tools

@@ -181,7 +181,7 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     if (!layers.is_right) {
         const pipeline::DeviceProfile& given = opened.session.profile;
         if (auto other = right_by_other_profile({list, opened.session.view, given, options}, options.fragment_memory,
-                                                seen, more_profiles(opened.options))) {
+                                                seen, layers.right.wrong_pixels, more_profiles(opened.options))) {
             profile = other->sentence(given.name, layers.right.wrong_pixels.size());
             layers = std::move(other->verdict);
         }
