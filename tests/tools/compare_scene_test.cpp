@@ -59,6 +59,18 @@ TEST_CASE("a picture that is right by another profile's rules is right, and says
     CHECK(run_strata(folder, {"compare", scene, "b.exr"}).status == 1);
 }
 
+TEST_CASE("floats that add up codes of another profile are right by its rules, however far from the exact result") {
+    const Folder folder;
+    const std::string draw =
+        "strata render random:seed=7 --size 48x36 --profile llvmpipe_sse --algorithm coherent_stencil "
+        "--color-format rgba8 --result-format rgba32f -q -o a.exr";
+    REQUIRE(shell(folder, draw).status == 0);
+    const Ended found = run_strata(folder, {"compare", "random:seed=7", "a.exr"});
+    INFO(found.out << found.err);
+    CHECK(found.status == 0);
+    CHECK(found.out.find("\n  by the rules of profile llvmpipe_sse; ") != std::string::npos);
+}
+
 TEST_CASE("explain --candidate tells which layers a port composited at a pixel") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 24x18 --algorithm front_to_back --max-passes 2 -q -o a.png")

@@ -21,14 +21,18 @@ oracle::verdict::Families definite(const oracle::verdict::Colors& candidate) {
 }
 
 // The right structure's account, by fragments to the bit or off by units in the last place, if it leaves two codes of
-// 255 open at most or the picture takes one at most.
+// 255 or few values open, or the picture takes one code at most.
 std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::SceneFragments& scene,
                                                        const oracle::verdict::Colors& candidate,
                                                        oracle::verdict::Sample& sample) {
     using namespace oracle::verdict;
-    constexpr double most_open = 2;
+    constexpr double most_open = 2, most_bits = 4;  // codes; bits of a pixel
     auto found = account_for(definite(candidate), {}, scene, candidate, sample);
-    if (found && found->possible > most_open && found->observed > 1) found.reset();
+    if (!found || found->possible <= most_open || found->observed <= 1) return found;
+    // Of floats over codes all that add up may lie far from the exact result, and be few.
+    const bool are_few =
+        !has_codes(storage_of(candidate.code())) && found->bits <= most_bits * static_cast<double>(found->covered);
+    if (!are_few) found.reset();
     return found;
 }
 

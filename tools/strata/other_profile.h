@@ -1,7 +1,7 @@
 // tools/strata/other_profile.h - is a picture that a scene's profile calls wrong right by the rules of another one?
 //
-// Rule     By definite hypotheses alone, and only where they leave at most two codes open or the picture takes at most
-//          one: what only a wide rounding makes right under another profile is no evidence.
+// Rule     By definite hypotheses alone, and only where they leave at most two codes or few values open, or the picture
+//          takes at most one code: what only a wide rounding makes right under another profile is no evidence.
 // Tests    tests/tools/compare_scene_test.cpp
 #pragma once
 #include <memory>

@@ -26,6 +26,17 @@ class Pricing {
         return std::nearbyint(std::log2(values) * 0x1p16) * 0x1p-16;
     }
     [[nodiscard]] double of_wrong() const noexcept { return 4 * 3 * digits(); }
+    // Of one channel, in bits.
+    [[nodiscard]] double digits() const noexcept {
+        switch (storage_) {
+            case Storage::unorm8: return 8;
+            case Storage::unorm10: return 10;
+            case Storage::unorm16: return 16;
+            case Storage::half: return 11;
+            case Storage::single: break;
+        }
+        return 24;
+    }
     static constexpr double of_edge = 6;  // to say that and how a pixel at an edge is covered otherwise
 
   private:
@@ -37,16 +48,6 @@ class Pricing {
             values *= 1 + open / step(1);
         }
         return values;
-    }
-    [[nodiscard]] double digits() const noexcept {
-        switch (storage_) {
-            case Storage::unorm8: return 8;
-            case Storage::unorm10: return 10;
-            case Storage::unorm16: return 16;
-            case Storage::half: return 11;
-            case Storage::single: break;
-        }
-        return 24;
     }
     // Between two values that the picture tells apart.
     [[nodiscard]] double step(double magnitude) const noexcept {

@@ -248,13 +248,22 @@ std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& par
     return sorted;
 }
 
+// More bits of an account are room for anything: of codes nine for a pixel that it changes and one for each, of floats,
+// whose blends are off by some units in the last place everywhere, a third of all digits.
+double most_open(const Checked& account) {
+    constexpr double of_changed = 9, of_edge = 6, share_of_digits = 1.0 / 3;
+    const Storage storage = account.account.hypothesis.result.storage;
+    const auto pixels = static_cast<double>(account.pixels), edges = of_edge * static_cast<double>(account.at_edges);
+    if (!has_codes(storage)) return share_of_digits * Pricing{storage}.digits() * 3 * pixels + edges;
+    return of_changed * static_cast<double>(account.changed) + pixels + edges;
+}
+
 // Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells
 // enough.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
                            const Sample& sample, std::size_t most_tried) {
     constexpr std::size_t most_told = 12, least_decided = 4, few_sampled = 400;
-    constexpr double most_open = 9;  // bits of a changed pixel: more is room for anything
     std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
         return std::ranges::equal(a, b, [](const Rule& x, const Rule& y) {
@@ -273,9 +282,7 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         auto one = account_for(own_families, rules, scene, candidate, own, likely);
         // A rule that changes hardly anything that tells is no explanation: among so many rules one fits a few pixels
         // by chance.
-        if (one && one->changed - one->undecided >= least_decided &&
-            one->bits <= most_open * static_cast<double>(one->changed) + 6 * static_cast<double>(one->at_edges) +
-                             static_cast<double>(one->pixels))
+        if (one && one->changed - one->undecided >= least_decided && one->bits <= most_open(*one))
             found.push_back(*std::move(one));
     }
     return found;

@@ -120,6 +120,12 @@ TEST_CASE("a peel that is stopped is told by the layers that it has composited")
     CHECK(found(judged(opened, *opened.picture("dual", pipeline::Format::rgba8))).contains("ends_alone 1"));
 }
 
+TEST_CASE("a mistake is found in a picture of floats, too, whose rounding leaves units in the last place open") {
+    const OpenedScene opened{"showroom", 32, 32};
+    for (const pipeline::Format format : {pipeline::Format::rgba16f, pipeline::Format::rgba32f})
+        CHECK(found(judged(opened, *opened.picture("unsorted", format))).contains("as_submitted 0"));
+}
+
 TEST_CASE("layers that are lost in the middle of many are found, though a port that cuts could lose as much") {
     const OpenedScene opened{"hard:case=inside-out", 32, 32};
     Hypothesis floats = port_of_codes(Order::both_ends);
