@@ -16,7 +16,7 @@ namespace {
 struct Options {
     std::string pack, output, driver = "llvmpipe", mistakes;
     std::vector<std::string> algorithms;
-    int threads = 2, max_passes = 200;
+    int threads = 2, max_passes = 200, samples = 1, sample = -1;
     bool list = false, picture_only = false;
 };
 
@@ -36,11 +36,28 @@ std::vector<std::string> chosen(const Options& options, const Pack& pack) {
     return found;
 }
 
+// What is read back sample by sample.
+void check_sampled(const Options& options, const Pack& pack, const std::vector<std::string>& algorithms) {
+    if (options.sample >= options.samples)
+        throw std::runtime_error(fmt::format("--sample: expected a number below --samples, found {}", options.sample));
+    if (!(pack.formats.depth == d32f))
+        throw std::runtime_error("--samples: expected a pack with d32f depth, found " +
+                                 std::string(pack.formats.depth.name));
+    for (const std::string& name : algorithms)
+        if (name != "front_to_back" && name != "dual" && name != "weighted_average")
+            throw std::runtime_error("--samples: expected front_to_back, dual or weighted_average, found " + name);
+}
+
 int run(const Options& options) {
     const Pack pack = read_pack(options.pack);
     const std::vector<std::string> algorithms = chosen(options, pack);
-    const Way way = way_with(options.mistakes);
+    Way way = way_with(options.mistakes);
     const HeadlessContext context(options.driver, options.threads);
+    if (options.samples > 1) {
+        check_sampled(options, pack, algorithms);
+        set_samples(options.samples, options.sample);
+        way.interpolation = "smooth sample";
+    }
     set_window(pack.size, way, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     const GpuScene scene(pack.mesh, pack.size, way);
     std::vector<Candidate> candidates;
@@ -50,7 +67,9 @@ int run(const Options& options) {
         Candidate& candidate = candidates.emplace_back(Candidate{name, {}, {}});
         const int passes =
             make_job(name, input)
-                .draw(candidate.picture, options.max_passes, options.picture_only ? nullptr : &candidate.record);
+                .draw(
+                    candidate.picture, options.max_passes,
+                    options.picture_only || (options.samples > 1 && options.sample < 0) ? nullptr : &candidate.record);
         check_errors(name);
         fmt::print("{}: {} geometry passes\n", name, passes);
     }
@@ -67,6 +86,10 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
         ->check(CLI::IsMember(driver_names()));
     app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
+    app.add_option("--samples", o.samples, "samples a pixel, each shaded by itself (default 1)")
+        ->check(CLI::Range(1, 32));
+    app.add_option("--sample", o.sample, "what is written is this sample (default: the resolved picture)")
+        ->check(CLI::Range(0, 31));
     app.add_option("--mistake", o.mistakes, "be wrong: names with commas between");
     app.add_flag("--mistakes", o.list, "list them");
     app.add_option("--max-passes", o.max_passes, "geometry passes at most (default 200)")->check(CLI::PositiveNumber);

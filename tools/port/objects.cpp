@@ -21,6 +21,43 @@ constexpr auto as_written = R"(#version 330 core
 #endif
 )";
 
+struct Sampling {
+    int samples = 1, shown = 0;
+};
+Sampling& sampling() {
+    static Sampling chosen;
+    return chosen;
+}
+GLenum texture_target() { return sampling().samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
+
+// Programs are written for one sample: with several, each fetches and interpolates its own.
+constexpr auto sampled_head = R"(#extension GL_ARB_sample_shading : require
+#define sampler2D sampler2DMS
+#define texelFetch(source, texel, level) texelFetch(source, texel, gl_SampleID)
+)";
+
+// While it lives, textures and programs have one sample, and what the copy sets is kept for the caller.
+class OneSample {
+  public:
+    OneSample() {
+        sampling() = {};
+        for (std::size_t i = 0; i < caps.size(); ++i) was_[i] = glIsEnabled(caps[i]) == GL_TRUE;
+        for (const GLenum cap : caps) glDisable(cap);
+    }
+    OneSample(const OneSample&) = delete;
+    OneSample& operator=(const OneSample&) = delete;
+    ~OneSample() {
+        sampling() = before_;
+        for (std::size_t i = 0; i < caps.size(); ++i)
+            if (was_[i]) glEnable(caps[i]);
+    }
+
+  private:
+    static constexpr std::array<GLenum, 4> caps{GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SAMPLE_SHADING};
+    Sampling before_ = sampling();
+    std::array<bool, caps.size()> was_{};
+};
+
 // A shader of this kind. Throws std::runtime_error with the compiler's log and the text.
 Handle compile(GLenum kind, const std::string& text) {
     const GLuint shader = glCreateShader(kind);
@@ -40,7 +77,11 @@ Handle texture_of(GLenum sized, GLenum external, GLenum type, Size size) {
     GLuint name = 0;
     glGenTextures(1, &name);
     Handle handle{name, [](GLuint n) { glDeleteTextures(1, &n); }};
-    glBindTexture(GL_TEXTURE_2D, name);
+    glBindTexture(texture_target(), name);
+    if (sampling().samples > 1) {
+        glTexImage2DMultisample(texture_target(), sampling().samples, sized, size.width, size.height, GL_TRUE);
+        return handle;
+    }
     glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(sized), size.width, size.height, 0, external, type, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -58,7 +99,9 @@ Handle new_framebuffer() {
     return {name, [](GLuint n) { glDeleteFramebuffers(1, &n); }};
 }
 
-void attach(GLenum place, GLuint texture) { glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture, 0); }
+void attach(GLenum place, GLuint texture, GLenum target = texture_target()) {
+    glFramebufferTexture2D(GL_FRAMEBUFFER, place, target, texture, 0);
+}
 
 void require_complete() {
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -73,6 +116,15 @@ const Format* find_format(const std::string& name) {
         if (name == format.name) return &format;
     return nullptr;
 }
+
+void set_samples(int samples, int shown) {
+    sampling() = {samples, shown};
+    if (samples == 1) return;
+    glEnable(GL_SAMPLE_SHADING);
+    glMinSampleShading(1.0f);
+}
+
+int samples_shown() { return sampling().shown; }
 
 Handle make_texture(const Format& format, Size size) {
     return texture_of(format.sized, format.external, format.type, size);
@@ -114,7 +166,7 @@ Handle make_stencil_framebuffer(GLuint depth_stencil) {
 }
 
 Handle make_program(const ProgramText& text) {
-    const std::string head = as_written + text.head;
+    const std::string head = as_written + (sampling().samples > 1 ? std::string{sampled_head} : "") + text.head;
     const Handle stages[] = {compile(GL_VERTEX_SHADER, head + text.vertex),
                              compile(GL_FRAGMENT_SHADER, head + text.fragment)};
     const GLuint name = glCreateProgram();
@@ -147,7 +199,7 @@ void bind(std::initializer_list<GLuint> textures) {
     GLenum unit = GL_TEXTURE0;
     for (const GLuint texture : textures) {
         glActiveTexture(unit++);
-        glBindTexture(GL_TEXTURE_2D, texture);
+        glBindTexture(texture_target(), texture);
     }
 }
 
@@ -157,7 +209,43 @@ std::uint64_t samples_passed(const Handle& query) {
     return samples;
 }
 
+Image read_sample(GLuint texture, int sample, const Format& format, Size size) {
+    const OneSample copied;
+    const Handle program = make_full_screen_program(
+        fmt::format("uniform sampler2DMS source; out vec4 drawn;\n"
+                    "void main() {{ drawn = texelFetch(source, ivec2(gl_FragCoord.xy), {}); }}",
+                    sample),
+        {"source"});
+    const Handle copy = make_texture(format == d32f ? r32f : format, size);
+    const Handle target = make_framebuffer({copy.name()});
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
+    draw_full_screen(program);
+    Image image = read_back(copy.name(), format == d32f ? r32f : format, size);
+    image.format = format;
+    return image;
+}
+
+namespace {
+
+// By the driver's own resolve.
+Image read_resolved(GLuint texture, const Format& format, Size size) {
+    const OneSample copied;
+    const Handle source = new_framebuffer();
+    attach(GL_COLOR_ATTACHMENT0, texture, GL_TEXTURE_2D_MULTISAMPLE);
+    const Handle copy = make_texture(format, size);
+    const Handle target = make_framebuffer({copy.name()});
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source.name());
+    glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    return read_back(copy.name(), format, size);
+}
+
+}  // namespace
+
 Image read_back(GLuint texture, const Format& format, Size size) {
+    if (sampling().samples > 1)
+        return sampling().shown < 0 ? read_resolved(texture, format, size)
+                                    : read_sample(texture, sampling().shown, format, size);
     Image image{format, size, {}};
     image.bytes.resize(size.area() * static_cast<std::size_t>(format.channels * format.bytes));
     const bool is_depth = format.external == GL_DEPTH_COMPONENT, is_stencil = format == s8;

@@ -73,6 +73,11 @@ class Handle {
     void (*destroy_)(GLuint) = nullptr;
 };
 
+// Every texture and program from now on has `samples` a pixel, shaded one by one; what is read back is sample `shown`,
+// and with -1 the resolve of all. Formats are rgba8, floats and d32f then. With 1 nothing is different.
+void set_samples(int samples, int shown);
+[[nodiscard]] int samples_shown();
+
 // A two-dimensional texture without mipmaps, nearest lookups, contents undefined.
 [[nodiscard]] Handle make_texture(const Format& format, Size size);
 // A depth texture with a stencil beside it; d24 or d32f.
@@ -104,6 +109,9 @@ void bind(std::initializer_list<GLuint> textures);
 
 // The query's answer. The call waits until every draw inside the query is finished.
 [[nodiscard]] std::uint64_t samples_passed(const Handle& query);
+
+// One sample of a texture of several, whatever set_samples says.
+[[nodiscard]] Image read_sample(GLuint texture, int sample, const Format& format, Size size);
 
 // A texture's codes; s8: the stencil of a depth-stencil texture.
 [[nodiscard]] Image read_back(GLuint texture, const Format& format, Size size);

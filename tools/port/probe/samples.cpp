@@ -76,22 +76,8 @@ ordered_json SampledTarget::positions() const {
     return all;
 }
 
-Image SampledTarget::color(int sample) const { return read(color_.name(), sample, rgba8); }
-Image SampledTarget::depth(int sample) const { return read(depth_.name(), sample, r32f); }
-
-Image SampledTarget::read(GLuint texture, int sample, const Format& format) const {
-    const Handle program = make_full_screen_program(
-        fmt::format("uniform sampler2DMS source; out vec4 drawn;\n"
-                    "void main() {{ drawn = texelFetch(source, ivec2(gl_FragCoord.xy), {}); }}",
-                    sample),
-        {"source"});
-    const Handle copy = make_texture(format, size_);
-    const Handle target = make_framebuffer({copy.name()});
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
-    draw_full_screen(program);
-    return read_back(copy.name(), format, size_);
-}
+Image SampledTarget::color(int sample) const { return read_sample(color_.name(), sample, rgba8, size_); }
+Image SampledTarget::depth(int sample) const { return read_sample(depth_.name(), sample, r32f, size_); }
 
 ordered_json answer_samples(const Kit& kit, const Painter& painter, int samples, const std::string& folder) {
     const SampledTarget target({1, 1}, samples);

@@ -26,8 +26,6 @@ class SampledTarget {
     [[nodiscard]] Image depth(int sample) const;
 
   private:
-    [[nodiscard]] Image read(GLuint texture, int sample, const Format& format) const;
-
     Size size_;
     int samples_ = 0;
     Handle color_, depth_, framebuffer_;
