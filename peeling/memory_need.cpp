@@ -110,7 +110,7 @@ std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::
 }  // namespace
 
 MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfile& profile,
-                       const RenderOptions& options, const Algorithm& algorithm) {
+                       const RenderOptions& options, const Algorithm& algorithm, int samples) {
     const Rehearsal found = rehearse(list, view, profile, options, algorithm);
     MemoryNeed need;
     if (found.is_refused) return need;
@@ -140,6 +140,10 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
         const Mesh& mesh = list.meshes[instance.mesh];
         need.triangles += mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * triangle_bytes;
     }
+    if (samples == 1) return need;
+    need.pictures *= 2;
+    need.layers *= 2;
+    need.triangles *= static_cast<std::uint64_t>(samples);
     return need;
 }
 

@@ -25,11 +25,11 @@ struct MemoryNeed {  // bytes
     friend bool operator==(const MemoryNeed&, const MemoryNeed&) = default;
 };
 
-// What Renderer::render of these takes beyond the list itself; the frame must be one that the profile does not refuse,
-// else all is
-// 0. Throws InputError as Renderer does.
+// What SampledRenderer::render of these takes beyond the list itself; the frame must be one that the profile does not
+// refuse, else all is 0. The lists of every sample are kept, and of its pictures one and the sum. Throws InputError as
+// Renderer does.
 [[nodiscard]] MemoryNeed memory_need(const pipeline::DrawList& list, const pipeline::View& view,
                                      const pipeline::DeviceProfile& profile, const RenderOptions& options,
-                                     const Algorithm& algorithm);
+                                     const Algorithm& algorithm, int samples = 1);
 
 }  // namespace strata::peeling

@@ -33,6 +33,7 @@ LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const ras
     rasterizer::RasterState state = eye;
     state.viewport = {0, 0, light.size_px, light.size_px};
     state.scissor.reset();
+    state.sample.reset();
     state.clip_plane_count = 0;
     // The offset is put into the map and not into the lookup; by its factor, surfaces that the light grazes are
     // moved by more.

@@ -200,6 +200,16 @@ Verdict check_samples(const DeviceProfile& profile, int samples) {
                        "ARB_multisample");
 }
 
+Verdict check_multisampling(const DeviceProfile& profile, int samples) {
+    // Spans in binary32 have no exact place to move to.
+    const auto has = [samples](const DeviceProfile& p) {
+        return samples >= p.min_samples && samples <= p.max_samples &&
+               p.raster.coverage == rasterizer::CoverageRule::snapped_edges;
+    };
+    if (samples == 1 || has(profile)) return std::nullopt;
+    return Refusal{"pictures of " + std::to_string(samples) + " samples a pixel", "ARB_multisample", way_out(has)};
+}
+
 Verdict check_texture_units(const DeviceProfile& profile, int units) {
     return check_limit(profile, &DeviceProfile::max_texture_units, units, std::to_string(units) + " texture units",
                        "ARB_multitexture");

@@ -90,7 +90,10 @@ using Verdict = std::optional<Refusal>;
 [[nodiscard]] Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value);
 // Limits: the larger side of the viewport, samples of a pixel, units that a pass names (devices.md 7).
 [[nodiscard]] Verdict check_size(const DeviceProfile& profile, int width_px, int height_px);
+// Targets whose samples a pass fills itself, and pictures whose samples have positions: of 2, 4 or 8 a device may have
+// some alone.
 [[nodiscard]] Verdict check_samples(const DeviceProfile& profile, int samples);
+[[nodiscard]] Verdict check_multisampling(const DeviceProfile& profile, int samples);
 [[nodiscard]] Verdict check_texture_units(const DeviceProfile& profile, int units);
 
 }  // namespace strata::pipeline

@@ -42,6 +42,7 @@ DeviceProfile geforce3() {
     p.has_d24f = true;
     p.has_narrow_surfaces = true;
     p.has_depth_replace = true;
+    p.sample_positions = SamplePositions::nv20;
     p.max_samples = 4;
     return p;
 }
@@ -101,7 +102,8 @@ DeviceProfile mesa() {
     p.has_d16 = true;
     p.max_texture_units = 32;
     p.max_viewport_px = 16384;
-    p.max_samples = 4;
+    p.max_samples = p.min_samples = 4;
+    p.resolve = ResolveRule::single;
     return p;
 }
 
@@ -112,6 +114,7 @@ DeviceProfile llvmpipe() {
     p.raster.tie_rule = TieRule::bottom_left;
     p.texture_filter = TextureFilterPrecision::code_lerps;
     p.raster.viewport = ViewportArithmetic::fused_given;
+    p.raster.sample_divisor = SampleDivisor::centre;
     p.raster.plane_rule = PlaneRule::reciprocal_area_fused;
     return p;
 }
@@ -169,7 +172,7 @@ DeviceProfile swiftshader() {
     p.has_d16 = true;
     p.has_unclamped_depth_clear = false;
     p.max_texture_units = 32;
-    p.max_samples = 4;
+    p.max_samples = p.min_samples = 4;
     return p;
 }
 

@@ -35,6 +35,10 @@ enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, s
 // 3.8); pictures leave the machine with the upper row first.
 enum class Origin : std::uint8_t { upper_left, lower_left };
 
+// Where the samples of a pixel lie: as Direct3D has them; or as NV20's modes are called, a corner and the centre, or a
+// square (fragment-stages.md 13.1).
+enum class SamplePositions : std::uint8_t { standard, nv20 };
+
 // A device. Everything that differs between devices is a field here, and no code asks for the name (devices.md 1);
 // profile.cpp writes the built-in ones.
 struct DeviceProfile {
@@ -87,12 +91,15 @@ struct DeviceProfile {
     bool has_ordered_rmw = false;
     // Signed add and signed reverse subtract, on 8-bit targets (fragment-stages.md 8.3).
     bool has_signed_blend = false;
+    SamplePositions sample_positions = SamplePositions::standard;
+    ResolveRule resolve = ResolveRule::codes_half_up;
     // Limits (devices.md 7): colour targets of a pass, texture units,
-    // the viewport's larger side in pixels, samples of a pixel.
+    // the viewport's larger side in pixels, samples of a pixel; and the fewest that there are beside one.
     int max_render_targets = 1;
     int max_texture_units = 4;
     int max_viewport_px = 4096;
     int max_samples = 1;
+    int min_samples = 2;
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
 
     [[nodiscard]] ColorRounding color_rounding() const noexcept { return {half_rounding, unorm_rounding}; }

@@ -156,6 +156,9 @@ constexpr std::array fields{
         "raster.perspective",
         {"[A] attributes.md 1.1: a quotient rounded once", "[A] attributes.md 1.1: a quotient rounded once", ours,
          "[M] mesa-rasterizers.md 2.5", "[M] swiftshader-rasterizer.md 2.4"}),
+    choice<&Rules::sample_divisor>("raster.sample_divisor",
+                                   {"[A] attributes.md 1.10: all at the sample",
+                                    "[A] attributes.md 1.10: all at the sample", ours, "[M] mesa-rasterizers.md 2.11"}),
     choice<&Rules::window_z>("raster.window_z", {"[M] chip-depth.md 1.4", "[A] coverage.md 3.4", ours, unmeasured}),
     choice<&Rules::depth_path>("raster.depth_path",
                                {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words",
@@ -293,6 +296,12 @@ constexpr std::array fields{
     boolean<&Profile::has_signed_blend>("has_signed_blend",
                                         {"[M] fragment-stages.md 8.3: 478 of 478 pictures",
                                          "[S] fragment-stages.md 8.3: no such equation", ours, opengl, webgl}),
+    choice<&Profile::sample_positions>(
+        "sample_positions",
+        {"[M] fragment-stages.md 13.1: of two samples; four are assumed",
+         "[S] fragment-stages.md 13.1: D3D 11.3 19.2.4.1", ours, "[S] fragment-stages.md 13.1: Mesa 22.3's table"}),
+    choice<&Profile::resolve>("resolve", {"[A] fragment-stages.md 13.3", "[A] fragment-stages.md 13.3", ours,
+                                          "[M] mesa-rasterizers.md 2.11", "[A] fragment-stages.md 13.3"}),
     integer<&Profile::max_render_targets>("max_render_targets", {1, 8},
                                           {"[S] devices.md 7: one colour buffer", "[S] devices.md 7: D3D 11.3 17.14",
                                            ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS", webgl}),
@@ -308,6 +317,9 @@ constexpr std::array fields{
         "max_samples", {1, 8},
         {"[A] devices.md 7: 4-sample multisampling", "[A] devices.md 7: 8-sample multisampling", ours,
          "[M] Mesa 22.3: GL_MAX_SAMPLES", webgl}),
+    integer<&Profile::min_samples>("min_samples", {2, 8},
+                                   {"[S] devices.md 7: CENTER_CORNER_2", "[A] devices.md 7: 2-sample multisampling",
+                                    ours, "[S] devices.md 7: 1 and 4 alone", "[A] devices.md 7: 1 and 4 alone"}),
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "pipeline/vertices/quotient_rows.h"
 #include "pipeline/vertices/vertex_stage.h"
 #include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
 #include "rasterizer/base/numerics.h"
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/set_up/check_input.h"
@@ -211,6 +212,8 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     check(profile);
     // Before the transform, whose quotient rows read the state.
     check(state);
+    if (state.sample && profile.raster.coverage == rasterizer::CoverageRule::float_spans)
+        throw InputError("raster state", "sample", "none with raster.coverage float_spans", "one");
     if (!options.is_checked) check(list);
     check(view);
     SoupVertices vertices;

@@ -10,7 +10,7 @@ namespace strata::rasterizer {
 
 // A vertex in the window, shared by all triangles that it is a corner of.
 struct WindowCorner {
-    // Snapped, y down: coverage, area and facing start from it,
+    // Snapped, y down, and moved where a sample is not the centre (window.h): coverage, area and facing start from it,
     // and planes unless PlaneOrigin::unsnapped says otherwise.
     SubpixelPoint p;
     // The position before snapping, in pixels.

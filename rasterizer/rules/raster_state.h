@@ -48,6 +48,16 @@ struct ClipPlane {
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
+// A point of a pixel in sixteenths of it, from its left side and, in memory's rows, from its upper one: 0 to 15, and 8
+// is the middle.
+struct SamplePoint {
+    int x = 8, y = 8;
+    // From the pixel's centre, in pixels.
+    [[nodiscard]] constexpr float right() const noexcept { return static_cast<float>(x - 8) * 0.0625f; }
+    [[nodiscard]] constexpr float down() const noexcept { return static_cast<float>(y - 8) * 0.0625f; }
+    friend bool operator==(const SamplePoint&, const SamplePoint&) = default;
+};
+
 struct RasterState {
     // Where the view volume is mapped to, and the surface itself: fragments outside do not exist.
     Rect viewport;
@@ -57,6 +67,9 @@ struct RasterState {
     DepthOrder depth_order = DepthOrder::less;
     YDirection y_direction = YDirection::up;
     std::optional<Rect> scissor;
+    // The point of every pixel at which coverage, depth, colours and coordinates are taken: a sample of several. None:
+    // one sample a pixel, at its centre (coverage.md 12).
+    std::optional<SamplePoint> sample;
     // ARB_depth_clamp: nothing is clipped at near and far; depth is clamped just before the test.
     bool depth_clamp = false;
     // NV2A's NEARFAR: a triangle goes whose three z lie all before or all behind the depth range, clamped or not.

@@ -48,6 +48,9 @@ enum class PlaneCorners : std::uint8_t { clipped, given };
 enum class AreaSign : std::uint8_t { exact, single };
 // A perspective attribute: its plane over that of 1 / w, or times the reciprocal of it (attributes.md 1.8).
 enum class PerspectiveDivide : std::uint8_t { quotient, reciprocal };
+// What a perspective attribute at a sample is divided by: 1 / w there, or at its pixel's centre; of planes of
+// reciprocal_area from unsnapped corners alone (attributes.md 1.10).
+enum class SampleDivisor : std::uint8_t { sample, centre };
 // A colour that is the same at all corners: interpolated like any other, or kept to the bit, as a program's uniform is.
 // Exact planes keep it either way (attributes.md 1.9).
 enum class EqualColors : std::uint8_t { interpolated, kept };
@@ -99,6 +102,7 @@ struct RasterRules {
     PlaneRule plane_rule = PlaneRule::exact;
     PlaneCorners plane_corners = PlaneCorners::clipped;
     PerspectiveDivide perspective = PerspectiveDivide::quotient;
+    SampleDivisor sample_divisor = SampleDivisor::sample;
     WindowZ window_z = WindowZ::unit_interval;
     DepthPath depth_path = DepthPath::float32;  // the device's own
     DepthRounding depth_rounding = DepthRounding::nearest;

@@ -51,6 +51,10 @@ void check(const RasterState& state) {
     const Requirements its{"raster state"};
     check_viewport(its, state.viewport);
     if (state.scissor) check_scissor(its, *state.scissor);
+    if (state.sample) {
+        its.within("sample.x", state.sample->x, 0, 15);
+        its.within("sample.y", state.sample->y, 0, 15);
+    }
     its.finite("depth_near", state.depth_near);
     its.finite("depth_far", state.depth_far);
     its.finite("w_scale", state.w_scale);

@@ -130,6 +130,10 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
         const std::array<float, 4>& color = record.front_facing ? v.front : v.back;
         t.p[k] = corner.p;
         t.unsnapped[k] = corner.unsnapped;
+        if (state.sample) {
+            t.unsnapped[k][0] -= state.sample->right();
+            t.unsnapped[k][1] -= state.sample->down();
+        }
         t.inverse_w[k] = corner.inverse_w;
         t.given_z[k] = corner.z;
         t.w[k] = v.w;

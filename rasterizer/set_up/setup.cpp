@@ -111,10 +111,12 @@ void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept
     for (; set_up_plain_ != nullptr && i + plain_vertex_count <= end; i += plain_vertex_count) {
         const std::uint32_t plain = set_up_plain_(*plain_rules_, &vertices_[i], &corners_[i]);
         for (std::size_t k = 0; k < plain_vertex_count; ++k)
-            if ((plain >> k & 1u) != 0 && extras_finite(extras_of(i + k), corners_[i + k].inverse_w))
+            if ((plain >> k & 1u) != 0 && extras_finite(extras_of(i + k), corners_[i + k].inverse_w)) {
                 marks_[i + k] = 0;
-            else
+                if (window_.is_moved()) corners_[i + k].p = window_.at_sample(corners_[i + k].p);
+            } else {
                 set_up_vertex(i + k);
+            }
     }
     for (; i < end; ++i) set_up_vertex(i);
 }

@@ -76,6 +76,10 @@ class WindowTransform {
             x_.offset -= 0.5f;
             y_.offset -= 0.5f;
         }
+        if (state.sample) {
+            const int sixteenth = 1 << (rules.subpixel_bits - 4);
+            sample_ = {(state.sample->x - 8) * sixteenth, (state.sample->y - 8) * sixteenth};
+        }
         const double n = state.depth_near, f = state.depth_far, units = z_units(state, rules);
         const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
         z_ = {static_cast<float>((symmetric ? (f - n) * 0.5 : f - n) * units),
@@ -95,11 +99,16 @@ class WindowTransform {
         return {within_guard(map(x_, divided(v.x), fuses)), within_guard(map(y_, divided(v.y), fuses)),
                 map(z_, divided(v.z), fuses), inverse_w};
     }
+    // Moved against the sample's way from the centre, so that the centre stands for the sample (coverage.md 12.1).
     [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
         const std::int32_t x = snap(v.x, rules_.subpixel_bits, rules_.snap) + half_;
         const std::int32_t y = snap(v.y, rules_.subpixel_bits, rules_.snap) + half_;
-        return {x, is_turned_ ? (rows_ << rules_.subpixel_bits) - y : y};
+        return at_sample({x, is_turned_ ? (rows_ << rules_.subpixel_bits) - y : y});
     }
+    [[nodiscard]] constexpr SubpixelPoint at_sample(SubpixelPoint p) const noexcept {
+        return {p.x - sample_.x, p.y - sample_.y};
+    }
+    [[nodiscard]] constexpr bool is_moved() const noexcept { return sample_.x != 0 || sample_.y != 0; }
     // The window position as memory has it, in pixels.
     [[nodiscard]] constexpr std::array<float, 2> position(const WindowVertex& v) const noexcept {
         if (half_ == 0 && !is_turned_) return {v.x, v.y};
@@ -173,8 +182,9 @@ class WindowTransform {
     RasterRules rules_;
     float guard_;
     bool is_done_, is_turned_ = false;
-    int rows_ = 0;           // of the viewport's lower side
-    std::int32_t half_ = 0;  // subpixels that the offsets lack
+    int rows_ = 0;            // of the viewport's lower side
+    std::int32_t half_ = 0;   // subpixels that the offsets lack
+    SubpixelPoint sample_{};  // the sample as its centre sees it, in subpixels
     Axis x_{}, y_{}, z_{};
 };
 

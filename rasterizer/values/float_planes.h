@@ -15,6 +15,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "rasterizer/base/fused.h"
 #include "rasterizer/coverage/float_spans.h"
@@ -43,29 +44,31 @@ struct FloatPlane {
     float origin = 0.0f, dx = 0.0f, dy = 0.0f;
     // Of greatest_w: where the origin lies, and how row y of memory is counted: row_base + row_step y.
     float x0 = 0.0f, y0 = 0.0f, row_base = 0.0f, row_step = 1.0f;
+    // What the numbers of pixels are raised by: where the sample lies, from where the origin is (coverage.md 12.2).
+    float right = 0.0f, down = 0.0f;
 
     [[nodiscard]] constexpr float at(PlaneRule rule, int x, int y) const noexcept {
         if (rule == PlaneRule::least_corner) return stepped(x, y);
         if (rule == PlaneRule::greatest_w) return from_own_corner(x, y);
-        const auto i = static_cast<float>(x), j = static_cast<float>(y);
+        const float i = static_cast<float>(x) + right, j = static_cast<float>(y) + down;
         if (rule == PlaneRule::reciprocal_area_fused)
             return fused_multiply_add(dy, j, fused_multiply_add(dx, i, origin));
-        const float across = dx * i, down = dy * j;
+        const float across = dx * i, below = dy * j;
         const float row = across + origin;
-        return row + down;
+        return row + below;
     }
 
   private:
     [[nodiscard]] constexpr float from_own_corner(int x, int y) const noexcept {
-        const float row = row_base + row_step * static_cast<float>(y);
-        const Flushed down = Flushed{row - y0} * Flushed{dy},
-                      across = Flushed{static_cast<float>(x) - x0} * Flushed{dx};
-        return (across + (Flushed{origin} + down)).v;
+        const float row = row_base + row_step * (static_cast<float>(y) + down);
+        const Flushed below = Flushed{row - y0} * Flushed{dy},
+                      across = Flushed{(static_cast<float>(x) + right) - x0} * Flushed{dx};
+        return (across + (Flushed{origin} + below)).v;
     }
     [[nodiscard]] constexpr float stepped(int x, int y) const noexcept {
-        const float across = dx * static_cast<float>(x & ~1), down = dy * static_cast<float>(y & ~1);
+        const float across = dx * static_cast<float>(x & ~1), below = dy * static_cast<float>(y & ~1);
         float value = origin + across;
-        value = value + down;
+        value = value + below;
         if ((x & 1) != 0) value = value + dx;
         if ((y & 1) != 0) value = value + dy;
         return value;
@@ -75,15 +78,22 @@ struct FloatPlane {
 // What the planes of one triangle have in common: the order of its corners, and differences of their positions.
 class FloatPlanes {
   public:
-    constexpr FloatPlanes(PlaneRule rule, const std::array<WindowPosition, 3>& p, bool is_clockwise) noexcept
+    // With a sample the planes' origin is the corner of pixel (0, 0), and their points are those of the samples.
+    constexpr FloatPlanes(PlaneRule rule, const std::array<WindowPosition, 3>& p, bool is_clockwise,
+                          const std::optional<SamplePoint>& sample = {}) noexcept
         : rule_{rule} {
         if (rule == PlaneRule::least_corner)
             from_least(p);
         else
             from_first(p, is_clockwise);
-        x_ = p[order_[0]][0] - 0.5f;
-        y_ = p[order_[0]][1] - 0.5f;
+        const float half = sample ? 0.0f : 0.5f;
+        x_ = p[order_[0]][0] - half;
+        y_ = p[order_[0]][1] - half;
+        is_sampled_ = sample.has_value();
+        if (sample) right_ = 0.5f + sample->right(), down_ = 0.5f + sample->down();
     }
+
+    [[nodiscard]] constexpr bool is_sampled() const noexcept { return is_sampled_; }
 
     // The plane through the values of corners 0, 1 and 2 as they were submitted.
     [[nodiscard]] constexpr FloatPlane plane(const std::array<float, 3>& value) const noexcept {
@@ -98,9 +108,11 @@ class FloatPlanes {
             plane.dx = less(da01, second_.y, da20, first_.y);
             plane.dy = less(da20, first_.x, da01, second_.x);
         }
-        const float across = plane.dx * x_, down = plane.dy * y_;
-        const float moved = across + down;
+        const float across = plane.dx * x_, below = plane.dy * y_;
+        const float moved = across + below;
         plane.origin = a0 - moved;
+        plane.right = right_;
+        plane.down = down_;
         return plane;
     }
 
@@ -135,8 +147,10 @@ class FloatPlanes {
 
     PlaneRule rule_;
     std::array<std::size_t, 3> order_{0, 1, 2};
-    // The first corner, less half a pixel.
+    // The first corner, less half a pixel if there is no sample.
     float x_ = 0.0f, y_ = 0.0f;
+    float right_ = 0.0f, down_ = 0.0f;  // of the sample from its pixel's corner
+    bool is_sampled_ = false;
     // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal; least_corner: from corner 0 to
     // corners 1 and 2.
     Difference first_{}, second_{};
@@ -149,10 +163,17 @@ class FloatPlanes {
     const std::array<SubpixelPoint, 3> p = geometry.points(triangle);
     std::array<WindowPosition, 3> position = geometry.positions(triangle);
     const float pixel = 1.0f / static_cast<float>(1 << rules.subpixel_bits);
-    if (rules.plane_origin == PlaneOrigin::snapped)
-        for (std::size_t i = 0; i < 3; ++i)
+    const bool is_clockwise = Edge{p[0], p[1]}.at(p[2]) > 0;
+    const auto& sample = geometry.state.sample;
+    if (rules.plane_origin == PlaneOrigin::unsnapped && rules.plane_rule != PlaneRule::least_corner)
+        return {rules.plane_rule, position, is_clockwise, sample};
+    // Positions that have moved themselves: snapped ones, and those of planes that step from pixel to pixel.
+    for (std::size_t i = 0; i < 3; ++i)
+        if (rules.plane_origin == PlaneOrigin::snapped)
             position[i] = {static_cast<float>(p[i].x) * pixel, static_cast<float>(p[i].y) * pixel};
-    return {rules.plane_rule, position, Edge{p[0], p[1]}.at(p[2]) > 0};
+        else if (sample)
+            position[i] = {position[i][0] - sample->right(), position[i][1] - sample->down()};
+    return {rules.plane_rule, position, is_clockwise};
 }
 
 }  // namespace strict

@@ -76,23 +76,25 @@ void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int fi
                                            FragmentBatch& batch) const noexcept {
     if (rules_.plane_rule == PlaneRule::greatest_w) {
         const OrderedPlanes planes = ordered_planes(triangle.geometry, triangle.index);
-        return fill_attribute_planes(planes, {1, 1, 1}, triangle.geometry.plane_vertices(triangle.index), triangle,
-                                     first, batch);
+        return fill_attribute_planes(planes, {1, 1, 1}, planes.plane({1, 1, 1}),
+                                     triangle.geometry.plane_vertices(triangle.index), triangle, first, batch);
     }
     std::array<float, 3> w;
     for (std::size_t i = 0; i < 3; ++i) w[i] = triangle.geometry.corners[triangle.record.vertex[i]].inverse_w;
-    fill_attribute_planes(float_planes(triangle.geometry, triangle.record), w, triangle.record.vertex, triangle, first,
-                          batch);
+    const FloatPlanes planes = float_planes(triangle.geometry, triangle.record);
+    FloatPlane under = planes.plane(w);
+    if (rules_.sample_divisor == SampleDivisor::centre && planes.is_sampled()) under.right = under.down = 0.5f;
+    fill_attribute_planes(planes, w, under, triangle.record.vertex, triangle, first, batch);
 }
 
-// Values are multiplied by `w` first, and `w` has a plane of its own.
+// Values are multiplied by `w` first; `under` is its plane.
 template <class Planes>
-void FragmentValues::fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w,
+void FragmentValues::fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w, const FloatPlane& under,
                                            const std::array<std::uint32_t, 3>& vertex, const DrawnTriangle& triangle,
                                            int first, FragmentBatch& batch) const noexcept {
     std::array<const ClipVertex*, 3> v;
     for (std::size_t i = 0; i < 3; ++i) v[i] = &triangle.geometry.vertices[vertex[i]];
-    FloatAttributeLanes attributes{rules_.plane_rule, rules_.perspective, planes.plane(w)};
+    FloatAttributeLanes attributes{rules_.plane_rule, rules_.perspective, under};
     const std::size_t begin = needs_.color ? 0 : color_channels;
     const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
     const auto f = static_cast<std::size_t>(first);

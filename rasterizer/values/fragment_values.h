@@ -122,7 +122,7 @@ class FragmentValues {
     void fill_float_codes(int first, FragmentBatch& batch) const noexcept;
     void fill_float_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
     template <class Planes>
-    void fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w,
+    void fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w, const FloatPlane& under,
                                const std::array<std::uint32_t, 3>& vertex, const DrawnTriangle& triangle, int first,
                                FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,

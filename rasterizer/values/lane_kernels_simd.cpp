@@ -155,10 +155,15 @@ HWY_INLINE WideVec flushed(WideVec v) {
 }
 
 struct WidePlane {
-    WideVec origin, dx, dy;
+    WideVec origin, dx, dy, right, down;
     const FloatPlane& plane;
     HWY_INLINE explicit WidePlane(const FloatPlane& p)
-        : origin{hn::Set(Wide{}, p.origin)}, dx{hn::Set(Wide{}, p.dx)}, dy{hn::Set(Wide{}, p.dy)}, plane{p} {}
+        : origin{hn::Set(Wide{}, p.origin)},
+          dx{hn::Set(Wide{}, p.dx)},
+          dy{hn::Set(Wide{}, p.dy)},
+          right{hn::Set(Wide{}, p.right)},
+          down{hn::Set(Wide{}, p.down)},
+          plane{p} {}
 
     template <PlaneRule rule>
     HWY_INLINE WideVec at(hn::Vec<hn::RebindToSigned<Wide>> x, hn::Vec<hn::RebindToSigned<Wide>> y) const {
@@ -166,21 +171,27 @@ struct WidePlane {
         const hn::RebindToSigned<Wide> di;
         // The set has a fused multiply-add of its own: rounded once, as the scalar reference's.
         if constexpr (rule == PlaneRule::reciprocal_area_fused)
-            return hn::MulAdd(dy, hn::ConvertTo(d, y), hn::MulAdd(dx, hn::ConvertTo(d, x), origin));
+            return hn::MulAdd(dy, across(y, down), hn::MulAdd(dx, across(x, right), origin));
         if constexpr (rule == PlaneRule::greatest_w) {
-            const WideVec counted = hn::Mul(hn::Set(d, plane.row_step), hn::ConvertTo(d, y));  // exact
+            const WideVec counted = hn::Mul(hn::Set(d, plane.row_step), across(y, down));  // exact
             const WideVec row = hn::Sub(hn::Add(hn::Set(d, plane.row_base), counted), hn::Set(d, plane.y0));
-            const WideVec column = hn::Sub(hn::ConvertTo(d, x), hn::Set(d, plane.x0));
-            const WideVec down = flushed(hn::Add(origin, flushed(hn::Mul(row, dy))));
-            return flushed(hn::Add(flushed(hn::Mul(column, dx)), down));
+            const WideVec column = hn::Sub(across(x, right), hn::Set(d, plane.x0));
+            const WideVec below = flushed(hn::Add(origin, flushed(hn::Mul(row, dy))));
+            return flushed(hn::Add(flushed(hn::Mul(column, dx)), below));
         }
         if constexpr (rule == PlaneRule::reciprocal_area)
-            return hn::Add(hn::Add(hn::Mul(dx, hn::ConvertTo(d, x)), origin), hn::Mul(dy, hn::ConvertTo(d, y)));
+            return hn::Add(hn::Add(hn::Mul(dx, across(x, right)), origin), hn::Mul(dy, across(y, down)));
         const auto one = hn::Set(di, 1), odd_x = hn::And(x, one), odd_y = hn::And(y, one);
         const auto even_x = hn::ConvertTo(d, hn::Sub(x, odd_x)), even_y = hn::ConvertTo(d, hn::Sub(y, odd_y));
         const WideVec corner = hn::Add(hn::Add(origin, hn::Mul(dx, even_x)), hn::Mul(dy, even_y));
-        const WideVec right = hn::IfThenElse(hn::RebindMask(d, hn::Eq(odd_x, one)), hn::Add(corner, dx), corner);
-        return hn::IfThenElse(hn::RebindMask(d, hn::Eq(odd_y, one)), hn::Add(right, dy), right);
+        const WideVec stepped = hn::IfThenElse(hn::RebindMask(d, hn::Eq(odd_x, one)), hn::Add(corner, dx), corner);
+        return hn::IfThenElse(hn::RebindMask(d, hn::Eq(odd_y, one)), hn::Add(stepped, dy), stepped);
+    }
+
+  private:
+    // The sample's way from column or row 0: exact.
+    HWY_INLINE static WideVec across(hn::Vec<hn::RebindToSigned<Wide>> pixel, WideVec sample) {
+        return hn::Add(hn::ConvertTo(Wide{}, pixel), sample);
     }
 };
 

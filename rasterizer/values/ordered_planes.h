@@ -27,6 +27,7 @@ class OrderedPlanes {
         for (std::size_t i = 0; i < 3; ++i) p_[i] = window.from_first_centre(*corner[i]);
         row_base_ = static_cast<float>(window.counted_row(0));
         row_step_ = window.is_turned() ? -1.0f : 1.0f;
+        if (state.sample) right_ = state.sample->right(), down_ = state.sample->down();
         is_done_ = state.window_positions;
         const bool is_against = !is_done_ && state.y_direction == YDirection::up && rules.y_axis == YAxis::memory;
         turn_round([=](const ClipVertex& v) { return is_against ? -v.y : v.y; },
@@ -130,6 +131,8 @@ class OrderedPlanes {
         plane.y0 = static_cast<float>(o.y) * snap_step_;
         plane.row_base = row_base_;
         plane.row_step = row_step_;
+        plane.right = right_;
+        plane.down = down_;
         return plane;
     }
 
@@ -138,8 +141,9 @@ class OrderedPlanes {
     std::array<SubpixelPoint, 3> p_{};
     std::array<std::size_t, 3> order_{2, 0, 1};
     float row_base_ = 0.0f, row_step_ = 1.0f;
-    Flushed scale_, least_;  // of the depth range
-    bool is_done_ = false;   // positions and depths are those of the window
+    float right_ = 0.0f, down_ = 0.0f;  // of the sample from its pixel's centre
+    Flushed scale_, least_;             // of the depth range
+    bool is_done_ = false;              // positions and depths are those of the window
 };
 
 // The planes of triangle `index`.

@@ -78,6 +78,7 @@ struct PixelWeights {
         x1 = p1[0] - x0, y1 = p1[1] - y0;
         x2 = p2[0] - x0, y2 = p2[1] - y0;
         if (x1 * y2 == x2 * y1) return false;
+        if (const auto& sample = geometry.state.sample) x0 -= sample->right(), y0 -= sample->down();
         kind = Kind::unsnapped;
         r = 1.0 / (x1 * y2 - x2 * y1);
         return true;

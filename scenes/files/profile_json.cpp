@@ -40,6 +40,7 @@ constexpr std::size_t longest_name = 64, longest_description = 1000;
 constexpr std::string_view later_fields[] = {"blend_storage",
                                              "depth24",
                                              "has_d24f",
+                                             "min_samples",
                                              "origin",
                                              "raster.area_sign",
                                              "raster.depth_limits",
@@ -48,10 +49,13 @@ constexpr std::string_view later_fields[] = {"blend_storage",
                                              "raster.perspective_coordinates",
                                              "raster.plane_corners",
                                              "raster.reciprocal_deficit",
+                                             "raster.sample_divisor",
                                              "raster.w_signs",
                                              "raster.w_slope",
                                              "raster.weights",
-                                             "raster.y_axis"};
+                                             "raster.y_axis",
+                                             "resolve",
+                                             "sample_positions"};
 
 [[nodiscard]] bool is_raster(const ProfileField& field) { return field.key.starts_with(raster_prefix); }
 

@@ -71,6 +71,7 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
     static const std::vector<std::function<void(FrameCase&)>> all{
         [](FrameCase& f) { f.options.raster = plain.raster; },
         [](FrameCase& f) { f.options.raster.scissor.reset(); },
+        [](FrameCase& f) { f.options.raster.sample.reset(); },
         [](FrameCase& f) { f.options.raster.polygon_offset = {}; },
         [](FrameCase& f) { f.options.raster.clip_plane_count = 0; },
         [](FrameCase& f) { f.options.raster.cull = plain.raster.cull; },
@@ -111,7 +112,10 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
         [](FrameCase& f) { for_all_materials(f, [](auto& m) {
                                m.front = m.back = {1, 1, 1, 0.5f};
                            }); },
-        [](FrameCase& f) { f.profile = *pipeline::find_profile(f.profile.name); },
+        [](FrameCase& f) {
+            f.profile = *pipeline::find_profile(f.profile.name);
+            if (f.profile.raster.coverage == rasterizer::CoverageRule::float_spans) f.options.raster.sample.reset();
+        },
         [](FrameCase& f) { f.profile = *pipeline::find_profile("ideal"); },
         [](FrameCase& f) {
             for (Way& w : f.ways) w.tile_size = 32;

@@ -194,7 +194,11 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
     vary_rules(bytes, frame.profile);
     frame.list = list_of(bytes, frame.view, frame.options.width, frame.options.height);
     choose_other_formats(bytes, frame.profile, algorithm,
-                         frame.options);  // last, so that kept inputs mean what they did
+                         frame.options);  // these are last, so that kept inputs mean what they did
+    if (frame.profile.raster.coverage == rasterizer::CoverageRule::snapped_edges && bytes.one_in(3)) {
+        const int x = bytes.below(16), y = bytes.below(16);
+        frame.options.raster.sample = rasterizer::SamplePoint{x, y};
+    }
     return frame;
 }
 

@@ -45,6 +45,7 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
     if (r.scissor)
         out << ", scissor {" << r.scissor->x0 << ", " << r.scissor->y0 << ", " << r.scissor->x1 << ", " << r.scissor->y1
             << '}';
+    if (r.sample) out << ", sample {" << r.sample->x << ", " << r.sample->y << '}';
     for (int i = 0; i < r.clip_plane_count; ++i) {
         const auto& p = r.clip_planes[static_cast<std::size_t>(i)];
         out << ", plane {" << p.a << ", " << p.b << ", " << p.c << ", " << p.d << '}';

@@ -25,7 +25,7 @@ PACKS = [
     ["teapot:tessellation=2", "--algorithm", "front_to_back,dual,painter", "--size", "20x17"],
     ["shadow-demo", "--algorithm", "weighted_average,stencil_routed_k_buffer", "--size", "16x16", "--profile", "geforce8"],
     ["hard:case=texture-coordinates-huge", "--profile", "geforce3", "--algorithm", "depth_units,a_buffer", "--size", "9x8"],
-    ["planes:count=2", "--algorithm", "dual", "--size", "16x12", "--depth-order", "greater", "--clip-depth", "zero-to-one",
+    ["planes:count=2", "--algorithm", "dual", "--size", "16x12", "--samples", "4", "--sample", "3", "--depth-order", "greater", "--clip-depth", "zero-to-one",
      "--vertex-path", "fused,double", "--sort", "shuffle:0.5,18446744073709551615", "--alpha", "0.1", "--color-space", "linear"],
 ]
 WIDTHS = {"u1": 1, "u2": 2, "u4": 4, "i4": 4, "f2": 2, "f4": 4}

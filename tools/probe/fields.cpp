@@ -67,6 +67,9 @@ constexpr Unprobed unprobed[]{
     {"raster.texture_coordinates", "no scene has a texture"},
     {"raster.perspective_coordinates", "no scene has a texture"},
     {"texture_filter", "no scene has a texture"},
+    {"raster.sample_divisor", "no scene has several samples a pixel"},
+    {"sample_positions", "no scene has several samples a pixel"},
+    {"resolve", "no scene has several samples a pixel"},
 };
 
 }  // namespace
@@ -118,7 +121,8 @@ bool can_change(std::string_view key, const Item& item) {
 }
 
 bool is_said(std::string_view key) {
-    return key.starts_with("has_") || key.starts_with("max_") || key == "origin" || key == "raster.equal_colors";
+    return key.starts_with("has_") || key.starts_with("max_") || key == "min_samples" || key == "origin" ||
+           key == "raster.equal_colors";
 }
 
 std::span<const Unprobed> unprobed_fields() { return unprobed; }

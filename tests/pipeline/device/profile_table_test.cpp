@@ -49,6 +49,7 @@ constexpr FieldOfDevices device_table[] = {
     {"raster.plane_corners", {"clipped", "clipped", "clipped", "clipped", "clipped", "clipped", "clipped", "given"}},
     {"raster.perspective",
      {"quotient", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "quotient", "reciprocal"}},
+    {"raster.sample_divisor", {"sample", "sample", "sample", "sample", "centre", "centre", "sample", "sample"}},
     {"raster.window_z",
      {"buffer_units", "unit_interval", "unit_interval", "unit_interval", "unit_interval", "unit_interval",
       "unit_interval", "unit_interval"}},
@@ -124,10 +125,15 @@ constexpr FieldOfDevices device_table[] = {
     {"has_sequential_depth_units", {"true", "true", "true", "true", "true", "true", "true", "true"}},
     {"has_ordered_rmw", {"false", "false", "false", "true", "false", "false", "false", "false"}},
     {"has_signed_blend", {"true", "false", "false", "false", "false", "false", "false", "false"}},
+    {"sample_positions", {"nv20", "standard", "standard", "standard", "standard", "standard", "standard", "standard"}},
+    {"resolve",
+     {"codes_half_up", "codes_half_up", "codes_half_up", "codes_half_up", "single", "single", "single",
+      "codes_half_up"}},
     {"max_render_targets", {"1", "8", "8", "8", "8", "8", "8", "8"}},
     {"max_texture_units", {"4", "16", "16", "16", "32", "32", "32", "32"}},
     {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384", "16384", "16384", "8192"}},
     {"max_samples", {"4", "8", "8", "8", "4", "4", "1", "4"}},
+    {"min_samples", {"2", "2", "2", "2", "4", "4", "4", "4"}},
 };
 
 struct NamesOfField {
@@ -152,6 +158,7 @@ const std::vector<NamesOfField> choice_names{
     {"raster.plane_rule", {"exact", "reciprocal_area", "reciprocal_area_fused", "least_corner", "greatest_w"}},
     {"raster.plane_corners", {"clipped", "given"}},
     {"raster.perspective", {"quotient", "reciprocal"}},
+    {"raster.sample_divisor", {"sample", "centre"}},
     {"raster.window_z", {"unit_interval", "buffer_units"}},
     {"raster.depth_path",
      {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer"}},
@@ -180,6 +187,8 @@ const std::vector<NamesOfField> choice_names{
     {"denormals", {"flush", "keep"}},
     {"texture_filter", {"unorm8", "single", "code_lerps", "single_lerps"}},
     {"depth24", {"codes", "binary32"}},
+    {"sample_positions", {"standard", "nv20"}},
+    {"resolve", {"codes_half_up", "single"}},
 };
 
 [[nodiscard]] const ProfileField* field_named(std::string_view key) {

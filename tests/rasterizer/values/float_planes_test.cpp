@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rasterizer/base/simd.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/scene.h"
 
@@ -23,16 +24,18 @@ struct CornerOfPlane {
 };
 using CornersOfPlane = std::array<CornerOfPlane, 3>;
 
-// mesa-rasterizers.md 2.4, in its own words.
-[[nodiscard]] Rounded reciprocal_area(CornersOfPlane c, bool clockwise, bool fuses, int i, int j) {
+// mesa-rasterizers.md 2.4, in its own words; with samples the origin is the pixel's corner, and i and j lie between
+// pixels (2.11).
+[[nodiscard]] Rounded reciprocal_area(CornersOfPlane c, bool clockwise, bool fuses, float i, float j,
+                                      float centre = 0.5f) {
     if (clockwise) std::swap(c[0], c[1]);
     const Rounded dx01 = c[0].x - c[1].x, dy01 = c[0].y - c[1].y, dx20 = c[2].x - c[0].x, dy20 = c[2].y - c[0].y;
     const Rounded ooa = Rounded{1} / (dx01 * dy20 - dy01 * dx20);
     const Rounded da01 = c[0].value - c[1].value, da20 = c[2].value - c[0].value;
     const Rounded dadx = da01 * (dy20 * ooa) - da20 * (dy01 * ooa), dady = da20 * (dx01 * ooa) - da01 * (dx20 * ooa);
-    const Rounded half{0.5f};
+    const Rounded half{centre};
     const Rounded origin = c[0].value - (dadx * (c[0].x - half) + dady * (c[0].y - half));
-    const Rounded x{static_cast<float>(i)}, y{static_cast<float>(j)};
+    const Rounded x{i}, y{j};
     return fuses ? fused(dady, y, fused(dadx, x, origin)) : (dadx * x + origin) + dady * y;
 }
 
@@ -54,7 +57,8 @@ using CornersOfPlane = std::array<CornerOfPlane, 3>;
 
 [[nodiscard]] Rounded value_by_rule(PlaneRule rule, const CornersOfPlane& c, bool clockwise, int i, int j) {
     if (rule == PlaneRule::least_corner) return least_corner(c, i, j);
-    return reciprocal_area(c, clockwise, rule == PlaneRule::reciprocal_area_fused, i, j);
+    return reciprocal_area(c, clockwise, rule == PlaneRule::reciprocal_area_fused, static_cast<float>(i),
+                           static_cast<float>(j));
 }
 
 constexpr std::array float_rules{PlaneRule::reciprocal_area, PlaneRule::reciprocal_area_fused, PlaneRule::least_corner};
@@ -100,6 +104,46 @@ TEST_CASE("every binary32 plane rule gives each fragment the depth of its rounde
     CHECK(wrong == 0);
     CHECK(fragments > 5000);
     CHECK(unlike_exact > fragments / 10);
+}
+
+TEST_CASE("at a sample, planes over unsnapped corners start at the pixel's corner and are asked at the sample") {
+    std::uint64_t wrong = 0, fragments = 0;
+    for (const PlaneRule rule : {PlaneRule::reciprocal_area, PlaneRule::reciprocal_area_fused})
+        for (const SamplePoint sample : {SamplePoint{6, 2}, SamplePoint{15, 9}, SamplePoint{8, 8}, SamplePoint{0, 0}})
+            for (const strata::Simd simd : strata::available_simd()) {
+                const strata::SimdScope scope{simd};
+                const bool is_central = sample.x != 8;
+                const Device device{{.plane_origin = PlaneOrigin::unsnapped,
+                                     .plane_rule = rule,
+                                     .perspective = PerspectiveDivide::reciprocal,
+                                     .sample_divisor = is_central ? SampleDivisor::centre : SampleDivisor::sample},
+                                    {}};
+                Geometry geometry = random_triangles(505, 20, 9, device);
+                const auto triangles = triangles_of(geometry);
+                geometry.state.sample = sample;
+                for (const Fragment& f : draw(geometry).fragments) {
+                    const SetupTriangle& t = triangles[f.primitive];
+                    const bool clockwise = Edge{t.p[0], t.p[1]}.at(t.p[2]) > 0;
+                    const float x = static_cast<float>(f.x) + static_cast<float>(sample.x) / 16,
+                                y = static_cast<float>(f.y) + static_cast<float>(sample.y) / 16;
+                    const auto plane = [&](auto value) {
+                        return reciprocal_area(corners_of(t, PlaneOrigin::unsnapped, value), clockwise,
+                                               rule == PlaneRule::reciprocal_area_fused, x, y, 0.0f);
+                    };
+                    wrong += f.shader_z != plane([&](std::size_t k) { return Rounded{static_cast<float>(t.z[k])}; }).v;
+                    const auto inverse_w = [&](std::size_t k) { return Rounded{t.inverse_w[k]}; };
+                    const Rounded under = reciprocal_area(corners_of(t, PlaneOrigin::unsnapped, inverse_w), clockwise,
+                                                          rule == PlaneRule::reciprocal_area_fused,
+                                                          is_central ? static_cast<float>(f.x) + 0.5f : x,
+                                                          is_central ? static_cast<float>(f.y) + 0.5f : y, 0.0f);
+                    const Rounded over =
+                        plane([&](std::size_t k) { return Rounded{t.attribute[k][2]} * Rounded{t.inverse_w[k]}; });
+                    wrong += f.color[2] != (over * (Rounded{1} / under)).v ? 1 : 0;
+                    ++fragments;
+                }
+            }
+    CHECK(wrong == 0);
+    CHECK(fragments > 3000);
 }
 
 TEST_CASE("attributes by binary32 planes are the plane of a/w over, or times the reciprocal of, the plane of 1/w",

@@ -326,6 +326,29 @@ TEST_CASE("corners without an area have slopes of 0, and a w of 0 counts as 1") 
     CHECK(at_eye.depth().origin == 0.75f);
 }
 
+TEST_CASE("a plane of the greatest w is asked at the sample, an exact way from the centre") {
+    RasterState state = scene_state(16, 16);
+    const std::array<ClipVertex, 3> v{ClipVertex{.x = -0.7f, .y = -0.4f, .z = 0.1f, .w = 1.0f},
+                                      ClipVertex{.x = 0.9f, .y = -0.3f, .z = 0.7f, .w = 1.5f},
+                                      ClipVertex{.x = 0.1f, .y = 0.8f, .z = 0.3f, .w = 1.25f}};
+    const std::array corners{&v[0], &v[1], &v[2]};
+    const FloatPlane centre = OrderedPlanes{corners, state, ordered_rules()}.depth();
+    state.sample = SamplePoint{14, 6};
+    const FloatPlane sampled = OrderedPlanes{corners, state, ordered_rules()}.depth();
+    CHECK(sampled.origin == centre.origin);
+    CHECK((sampled.dx == centre.dx && sampled.dy == centre.dy));
+    std::uint64_t wrong = 0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const Rounded i{static_cast<float>(x) + 0.375f}, j{static_cast<float>(y) - 0.125f};
+            const Rounded row = Rounded{centre.row_base} + Rounded{centre.row_step} * j;
+            const Rounded down = (row - Rounded{centre.y0}) * Rounded{centre.dy},
+                          across = (i - Rounded{centre.x0}) * Rounded{centre.dx};
+            wrong += sampled.at(PlaneRule::greatest_w, x, y) != (across + (Rounded{centre.origin} + down)).v ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("what is below 2^-126 is the zero of its sign, read or left") {
     const auto bits = [](Flushed v) { return std::bit_cast<std::uint32_t>(v.v); };
     const Flushed least{0x1p-126f};

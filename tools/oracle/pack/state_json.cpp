@@ -78,6 +78,12 @@ void fields(Io& io, O& o) {
             inner.whole("bottom", rect.y1, 0, most_pixels_a_side);
         });
     });
+    io.if_any("sample", raster.sample, [](auto& outer, const std::string& key, auto& given) {
+        outer.nested(key, given, [](auto& inner, auto& point) {
+            inner.whole("x", point.x, 0, 15);
+            inner.whole("y", point.y, 0, 15);
+        });
+    });
     io.choice("y_direction", raster.y_direction);
     io.choice("cull", raster.cull);
     io.choice("front_face", raster.front_face);

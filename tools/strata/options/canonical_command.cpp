@@ -144,6 +144,8 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     add_scene(words, options);
     add_view(words, options);
     add_machine(words, options.render);
+    if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
+    if (options.sample) add(words, "--sample", fmt::format("{}", *options.sample));
     add_order(words, options.render);
     std::string line;
     for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);

@@ -65,6 +65,7 @@ inline const std::vector<Choice<pipeline::Origin>> origins{{"upper-left", pipeli
                                                            {"lower-left", pipeline::Origin::lower_left}};
 
 // Pixels a side.
+inline const std::vector<Choice<int>> sample_counts{{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}};
 inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
 
 }  // namespace strata::tools

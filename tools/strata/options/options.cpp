@@ -66,6 +66,25 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
         ->type_name("NAME[,NAME...]|all");
 }
 
+void add_sample_options(CLI::App& app, RunOptions& options) {
+    add_choice(app, options.samples, "--samples", sample_counts,
+               "samples a pixel, where the profile has them, each shaded by itself (default 1)");
+    add_option(app, options.sample,
+               {"--sample", "N", "one of the samples alone, by its number from 0, instead of all of them resolved",
+                "a whole number from 0"},
+               to_count);
+}
+
+void check_samples(const RunOptions& options) {
+    const std::string last = std::to_string(options.samples - 1);
+    if (options.sample && *options.sample >= options.samples)
+        throw CLI::ValidationError("--sample", "expected a number from 0 to " + last + " with --samples " +
+                                                   std::to_string(options.samples) + ", found " +
+                                                   std::to_string(*options.sample));
+    if (options.samples > 1 && !options.sample && !options.resolves)
+        throw CLI::ValidationError("--samples needs --sample here: a number from 0 to " + last);
+}
+
 void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
     app.add_option_function<std::string>("SCENE", take,
                                          "a .gltf, .glb, .obj, .ply, .stl or .off file, - for a glTF file from "
@@ -116,6 +135,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     add_profile_option(app, options.profile);
     add_origin_option(app, options.origin);
     add_machine_options(app, options.render);
+    add_sample_options(app, options);
     add_order_options(app, options.render);
     add_view_options(app, options);
 }
@@ -166,6 +186,7 @@ void complete(RunOptions& options) {
         throw CLI::ValidationError("--stats needs a file's name, for with -o - the picture takes standard output");
     if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
+    check_samples(options);
     if (options.orbit && !options.camera.empty()) {
         throw CLI::ValidationError("--orbit excludes --camera");
     }

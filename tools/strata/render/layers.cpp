@@ -108,6 +108,7 @@ int layers(LayersOptions& options) {
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o is missing: the file for the layers; or --deep FILE, for the fragments");
     }
+    options.run.resolves = options.deep.empty();
     options.run.render.keep_layers = true;
     return run_algorithms(options.run, [&](const Finished& finished) { write_layers(options, finished); });
 }

@@ -44,7 +44,8 @@ bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint6
     constexpr std::uint64_t most_bytes_a_pixel = 512;
     const std::uint64_t pixels =
         std::uint64_t{static_cast<unsigned>(options.render.width)} * static_cast<unsigned>(options.render.height);
-    const std::uint64_t most = 2 * held + pixels * most_bytes_a_pixel + 2 * options.render.fragment_memory;
+    const std::uint64_t lists = 1 + static_cast<std::uint64_t>(options.samples);
+    const std::uint64_t most = lists * held + pixels * most_bytes_a_pixel + 2 * options.render.fragment_memory;
     return !options.max_memory && !options.render.keep_layers && most < limit;
 }
 
@@ -74,9 +75,10 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
     if (!limit) return;
     if (!options.max_memory) *limit += held;
     if (is_surely_enough(options, *limit, held)) return;
-    const std::uint64_t need =
-        held + writer_bytes(options) +
-        peeling::memory_need(session.scene.list, session.view, session.profile, options.render, algorithm).total();
+    const std::uint64_t need = held + writer_bytes(options) +
+                               peeling::memory_need(session.scene.list, session.view, session.profile, options.render,
+                                                    algorithm, options.sample ? 1 : options.samples)
+                                   .total();
     if (need <= *limit) return;
     throw CLI::ValidationError(
         "--max-memory", algorithm.name + " at " + std::to_string(options.render.width) + "x" +

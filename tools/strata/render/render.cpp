@@ -93,6 +93,7 @@ int render(RenderCommand& command) {
     check_outputs({{"-o", options.output, command.map ? map_endings : pictures, Piped::possibly},
                    {"--report", command.report, {".html"}}});
     if (command.map && options.output.empty()) throw CLI::ValidationError("--map needs -o FILE.png");
+    options.resolves = !command.map && command.mistakes.empty() && command.report.empty();
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
     const int status = run_algorithms(options, [&](const Finished& finished) {
         command.map ? write_map(options, *command.map, finished) : write_picture(options, finished);

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <map>
 
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
+#include "pipeline/device/check.h"
+#include "pipeline/device/sample_points.h"
 #include "scenes/camera.h"
 #include "scenes/exr/parts.h"
 #include "scenes/files/atomic_file.h"
@@ -72,6 +74,14 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
                 "transparent, --alpha MATERIAL=0.5 one material");
 }
 
+// Of --sample.
+rasterizer::SamplePoint sample_point(const RunOptions& options, const pipeline::DeviceProfile& profile) {
+    if (const auto lacking = pipeline::check_multisampling(profile, options.samples))
+        throw CLI::ValidationError("--samples", lacking->sentence(profile));
+    return pipeline::sample_points(profile.sample_positions,
+                                   options.samples)[static_cast<std::size_t>(*options.sample)];
+}
+
 pipeline::Rgba premultiplied(const pipeline::Rgba& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
 
 }  // namespace
@@ -101,6 +111,7 @@ Session open_session(RunOptions& options) {
         say_warning(fmt::format("{}: nothing shows the values of {}; what depends on them is a guess", options.profile,
                                 fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
+    if (options.sample && options.samples > 1) options.render.raster.sample = sample_point(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -151,12 +162,12 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
 }
 
 // Renders, and writes the files while the pixels are there. A refused algorithm writes none.
-RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::Renderer& renderer,
+RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::SampledRenderer& renderer,
                    const Writer& write) {
     Progress progress(algorithm.name);
     peeling::RenderResult result = renderer.render(algorithm, [&](double share) { progress.show(share); });
     const bool is_done = result.outcome == peeling::Outcome::done;
-    if (is_done) write({session, algorithm, renderer, result});
+    if (is_done) write({session, algorithm, renderer.sample(0), result});
     RunSummary summary = summarize(algorithm, std::move(result));
     if (is_done) say_detail(path_sentence(summary));
     return summary;
@@ -205,7 +216,8 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     const Session session = open_session(options);
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer serves all algorithms: geometry is transformed and set up once.
-    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
+    peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
+                                      options.sample ? 1 : options.samples);
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::tell_when_interrupted(undone(options, runs.size()));

@@ -34,7 +34,7 @@ struct Session {
 struct Finished {
     const Session& session;
     const peeling::Algorithm& algorithm;
-    peeling::Renderer& renderer;
+    peeling::Renderer& renderer;    // of the first sample
     peeling::RenderResult& result;  // the writer may take its layers
 };
 

@@ -1,0 +1,41 @@
+// peeling/sampled_renderer.h - frames of one or several samples a pixel, as one call.
+//
+// Rule     Sample shading: every sample is a frame of its own, whose pixels are looked at where the sample lies,
+// composited by the
+//          algorithm and then resolved. Counters, order errors, diagnostics and work add up over the samples; passes,
+//          layers and fragments of the deepest pixel and differences are the greatest of a sample's. Layer k of the
+//          frame is resolved of layer k of every sample from the same end; a sample without one has codes of 0. Z is
+//          the nearest of the samples.
+// Source   fragment-stages.md 13. Tests    tests/peeling/sampled_renderer_test.cpp
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "peeling/render.h"
+
+namespace strata::peeling {
+
+class SampledRenderer {
+  public:
+    // As Renderer; `samples` is 1, 2, 4 or 8, else InputError. `list` must outlive this.
+    SampledRenderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
+                    const RenderOptions& options, int samples);
+    SampledRenderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
+                    const RenderOptions& options, int samples) = delete;
+    ~SampledRenderer();
+
+    // What Renderer::render refuses, numbers of samples that the profile has not, and algorithms that store fragments
+    // in samples. `own_colors`: also gets the picture of each sample.
+    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
+                                      std::vector<pipeline::Image>* own_colors = nullptr);
+
+    // The renderer of one sample, which keeps its lists from frame to frame; of one sample a pixel, 0.
+    [[nodiscard]] Renderer& sample(std::size_t number);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace strata::peeling

@@ -1,0 +1,32 @@
+// pipeline/device/sample_points.h - where the samples of a pixel lie.
+//
+// Source   fragment-stages.md 13.1. Tests    tests/pipeline/device/sample_points_test.cpp
+#pragma once
+#include <array>
+#include <span>
+
+#include "pipeline/device/profile.h"
+#include "rasterizer/rules/raster_state.h"
+
+namespace strata::pipeline {
+
+namespace sample_patterns {
+using Point = rasterizer::SamplePoint;
+inline constexpr std::array<Point, 2> two{{{12, 12}, {4, 4}}}, corner_and_centre{{{0, 0}, {8, 8}}};
+inline constexpr std::array<Point, 4> four{{{6, 2}, {14, 6}, {2, 10}, {10, 14}}},
+    square{{{4, 4}, {12, 4}, {4, 12}, {12, 12}}};
+inline constexpr std::array<Point, 8> eight{{{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}}};
+}  // namespace sample_patterns
+
+// By the number of the sample; empty for other numbers than 2, 4 and 8, and for 8 of NV20.
+[[nodiscard]] constexpr std::span<const rasterizer::SamplePoint> sample_points(SamplePositions positions,
+                                                                               int samples) noexcept {
+    using namespace sample_patterns;
+    const bool is_standard = positions == SamplePositions::standard;
+    if (samples == 2) return is_standard ? two : corner_and_centre;
+    if (samples == 4) return is_standard ? four : square;
+    if (samples == 8 && is_standard) return eight;
+    return {};
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,79 @@
+#include "pipeline/formats/resolve.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "pipeline/formats/convert.h"
+#include "pipeline/formats/narrow.h"
+#include "pipeline/formats/unorm8_product.h"
+#include "rasterizer/base/float_environment.h"
+
+namespace strata::pipeline {
+namespace {
+
+constexpr std::size_t codes_at_once = 1024;
+
+// Calls visit(first, count) for all of `size` codes.
+template <class Visit>
+void for_blocks_of_codes(std::size_t size, const Visit& visit) {
+    for (std::size_t first = 0; first < size; first += codes_at_once)
+        visit(first, std::min(codes_at_once, size - first));
+}
+
+}  // namespace
+
+void ColorResolve::add(const Image& sample) {
+    const FloatEnvironment ours;
+    if (sum_.codes.empty()) sum_ = Image(sample.format, sample.width, sample.height);
+    std::uint32_t* const sums = sum_.codes.data();
+    const std::uint32_t* const codes = sample.codes.data();
+    if (adds_codes()) {
+        for (std::size_t i = 0; i < sample.codes.size(); ++i) sums[i] += codes[i];
+        return;
+    }
+    std::array<float, codes_at_once> values;
+    const ChannelType type = info(sample.format).type;
+    for_blocks_of_codes(sample.codes.size(), [&](std::size_t first, std::size_t count) {
+        if (type == ChannelType::unorm8)
+            for (std::size_t i = 0; i < count; ++i) values[i] = code_value(codes[first + i], rounding_.unorm);
+        else
+            scalar::decode(type, codes + first, values.data(), count);
+        for (std::size_t i = 0; i < count; ++i)
+            sums[first + i] = std::bit_cast<std::uint32_t>(std::bit_cast<float>(sums[first + i]) + values[i]);
+    });
+}
+
+Image ColorResolve::picture() && {
+    const FloatEnvironment ours;
+    const auto n = static_cast<std::uint32_t>(samples_);
+    std::uint32_t* const sums = sum_.codes.data();
+    const std::size_t size = sum_.codes.size();
+    if (adds_codes()) {
+        for (std::size_t i = 0; i < size; ++i) sums[i] = (2 * sums[i] + n) / (2 * n);
+    } else {
+        std::array<float, codes_at_once> values;
+        const float share = 1.0f / static_cast<float>(samples_);
+        for_blocks_of_codes(size, [&](std::size_t first, std::size_t count) {
+            for (std::size_t i = 0; i < count; ++i) values[i] = std::bit_cast<float>(sums[first + i]) * share;
+            scalar::encode(info(sum_.format).type, rounding_, values.data(), sums + first, count);
+        });
+    }
+    if (is_narrow(sum_.format))
+        for (std::size_t i = 0; i < size; ++i) sums[i] = narrowed(sum_.format, static_cast<int>(i % 4), sums[i]);
+    return std::move(sum_);
+}
+
+void add_nearest(const Image& sample, bool greater_is_nearer, Image& nearest) {
+    if (nearest.codes.empty()) {
+        nearest = sample;
+        return;
+    }
+    for (std::size_t i = 0; i < sample.codes.size(); ++i) {
+        std::uint32_t& code = nearest.codes[i];
+        code = greater_is_nearer ? std::max(code, sample.codes[i]) : std::min(code, sample.codes[i]);
+    }
+}
+
+}  // namespace strata::pipeline

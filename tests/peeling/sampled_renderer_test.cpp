@@ -1,0 +1,167 @@
+// The model: each sample's frame drawn by itself, and the mean of the codes in whole numbers.
+#include "peeling/sampled_renderer.h"
+
+#include <catch2/catch.hpp>
+
+#include "pipeline/device/sample_points.h"
+#include "rasterizer/base/input_error.h"
+#include "tests/peeling/rendering.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::find_algorithm;
+using strata::peeling::Outcome;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::peeling::SampledRenderer;
+using strata::pipeline::find_profile;
+using strata::pipeline::Image;
+
+[[nodiscard]] RenderOptions sampled_options() {
+    RenderOptions options;
+    options.width = 61, options.height = 47;
+    options.threads = 1;
+    return options;
+}
+
+struct Sampled {
+    RenderResult result;
+    std::vector<Image> colors;
+};
+
+[[nodiscard]] Sampled sampled(const TriangleScene& scene, const Machine& machine, const RenderOptions& options,
+                              int samples) {
+    Sampled drawn;
+    SampledRenderer renderer{scene.list, scene.view, *find_profile(machine.profile), options, samples};
+    drawn.result = renderer.render(*find_algorithm(machine.algorithm), {}, &drawn.colors);
+    return drawn;
+}
+
+[[nodiscard]] RenderResult own_frame(const TriangleScene& scene, const Machine& machine, RenderOptions options,
+                                     int samples, std::size_t number) {
+    const auto& profile = *find_profile(machine.profile);
+    options.raster.sample = strata::pipeline::sample_points(profile.sample_positions, samples)[number];
+    return render(scene.list, scene.view, machine, options);
+}
+
+[[nodiscard]] std::uint32_t mean_code(std::uint32_t sum, std::uint32_t samples) {
+    return sum / samples + (2 * (sum % samples) >= samples ? 1 : 0);
+}
+
+}  // namespace
+
+TEST_CASE("a frame of n samples is n frames at the samples, resolved to the mean of their codes") {
+    const TriangleScene scene = random_triangles(1201, 40);
+    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, Machine{"geforce8_dx101", "dual"},
+                                   Machine{"geforce8", "weighted_average"}, Machine{"geforce3", "depth_units"}})
+        for (const int samples : {2, 4, 8}) {
+            if (samples == 8 && machine.profile == "geforce3") continue;
+            INFO(machine.profile << ' ' << machine.algorithm << ", " << samples << " samples");
+            const Sampled drawn = sampled(scene, machine, sampled_options(), samples);
+            REQUIRE(drawn.result.outcome == Outcome::done);
+            REQUIRE(drawn.colors.size() == static_cast<std::size_t>(samples));
+            std::vector<std::uint32_t> sum(drawn.colors[0].codes.size());
+            std::uint64_t wrong = 0, unlike = 0, errors = 0;
+            int passes = 0;
+            std::vector<std::uint32_t> nearest(sum.size() / 4, ~0u);
+            for (std::size_t s = 0; s < drawn.colors.size(); ++s) {
+                const RenderResult own = own_frame(scene, machine, sampled_options(), samples, s);
+                wrong += own.frame.color == drawn.colors[s] ? 0 : 1;
+                unlike += drawn.colors[s] == drawn.colors[0] ? 0 : 1;
+                passes = std::max(passes, own.frame.passes.geometry);
+                errors += own.audit.order_errors.value_or(0);
+                for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.frame.color.codes[i];
+                for (std::size_t i = 0; i < nearest.size(); ++i)
+                    nearest[i] = std::min(nearest[i], own.frame.depth.codes[i]);
+            }
+            CHECK(wrong == 0);
+            CHECK(unlike + 1 == drawn.colors.size());
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                wrong += drawn.result.frame.color.codes[i] != mean_code(sum[i], static_cast<std::uint32_t>(samples));
+            for (std::size_t i = 0; i < nearest.size(); ++i) wrong += drawn.result.frame.depth.codes[i] != nearest[i];
+            CHECK(wrong == 0);
+            CHECK(drawn.result.frame.passes.geometry == passes);
+            if (machine.algorithm != "weighted_average") CHECK(drawn.result.audit.order_errors == errors);
+            CHECK(errors == 0);
+        }
+}
+
+TEST_CASE("one sample is the frame at the centre, as without samples") {
+    const TriangleScene scene = random_triangles(1202, 30);
+    const Machine machine{"geforce8", "front_to_back"};
+    const Sampled one = sampled(scene, machine, sampled_options(), 1);
+    const RenderResult plain = render(scene.list, scene.view, machine, sampled_options());
+    CHECK(one.result.frame.color == plain.frame.color);
+    CHECK(one.result.frame.depth == plain.frame.depth);
+}
+
+TEST_CASE("every execution and size of tiles draws the same samples") {
+    const TriangleScene scene = random_triangles(1203, 40);
+    for (const char* algorithm : {"front_to_back", "dual", "k_buffer"}) {
+        const Machine machine{"ideal", algorithm};
+        const Image first = sampled(scene, machine, sampled_options(), 4).result.frame.color;
+        for (const Running& running : all_ways_of_running)
+            for (const int tile : {8, 64}) {
+                RenderOptions options = sampled_options();
+                running.apply(options);
+                options.tile_size = tile;
+                CHECK(sampled(scene, machine, options, 4).result.frame.color == first);
+            }
+    }
+}
+
+TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample, from its own end") {
+    const TriangleScene scene = random_triangles(1204, 24);
+    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, Machine{"geforce8_dx101", "dual"}}) {
+        RenderOptions options = sampled_options();
+        options.keep_layers = true;
+        const Sampled drawn = sampled(scene, machine, options, 4);
+        using strata::pipeline::Side;
+        std::size_t layers = 0;
+        std::uint64_t wrong = 0;
+        for (const Side side : {Side::none, Side::front, Side::back}) {
+            std::vector<std::vector<std::uint32_t>> sums;
+            for (std::size_t s = 0; s < 4; ++s) {
+                std::size_t k = 0;
+                for (const auto& layer : own_frame(scene, machine, options, 4, s).frame.layers) {
+                    if (layer.side != side) continue;
+                    if (k == sums.size()) sums.emplace_back(layer.color.codes.size());
+                    for (std::size_t i = 0; i < sums[k].size(); ++i) sums[k][i] += layer.color.codes[i];
+                    ++k;
+                }
+            }
+            std::size_t k = 0;
+            for (const auto& layer : drawn.result.frame.layers) {
+                if (layer.side != side) continue;
+                REQUIRE(k < sums.size());
+                for (std::size_t i = 0; i < sums[k].size(); ++i)
+                    wrong += layer.color.codes[i] != mean_code(sums[k][i], 4);
+                ++k;
+            }
+            CHECK(k == sums.size());
+            layers += k;
+        }
+        CHECK(wrong == 0);
+        CHECK(layers > 5);
+    }
+}
+
+TEST_CASE("what no device can draw with several samples is refused") {
+    const TriangleScene scene = random_triangles(1205, 4);
+    const auto refusal_of = [&](const Machine& machine, int samples) {
+        const RenderResult result = sampled(scene, machine, sampled_options(), samples).result;
+        return result.refusal ? result.refusal->sentence(*find_profile(machine.profile)) : "";
+    };
+    CHECK(refusal_of({"geforce3", "depth_units"}, 8)
+              .starts_with("profile geforce3 has no pictures of 8 samples a pixel (ARB_multisample)"));
+    CHECK(refusal_of({"geforce8", "stencil_routed_k_buffer"}, 2) ==
+          "profile geforce8 has no samples to spare for stencil_routed_k_buffer, which stores fragments in them; use "
+          "--samples 1, or k_buffer");
+    CHECK(refusal_of({"geforce8", "stencil_routed_k_buffer"}, 1).empty());
+    CHECK_THROWS_AS(sampled(scene, {"geforce8", "dual"}, sampled_options(), 3), strata::InputError);
+    RenderOptions beside = sampled_options();
+    beside.raster.sample = strata::rasterizer::SamplePoint{3, 4};
+    CHECK_THROWS_AS(render(scene.list, scene.view, {"softpipe", "dual"}, beside), strata::InputError);
+}

@@ -1,0 +1,61 @@
+// Model: the sentences that people read, the command that a picture records, and the picture that its command draws
+// again.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+TEST_CASE("numbers of samples are refused by name, and --sample where all of them mean nothing") {
+    struct Wrong {
+        std::vector<std::string> words;
+        std::string sentence;
+    };
+    const auto wrong = GENERATE(values<Wrong>({
+        {{"render", "teapot", "--samples", "3"}, "--samples: expected 1, 2, 4 or 8, found '3'"},
+        {{"render", "teapot", "--samples", "8", "--profile", "geforce3"},
+         "dual: profile geforce3 has no pictures of 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 "
+         "or ideal"},
+        {{"render", "teapot", "--samples", "2", "--sample", "1", "--profile", "llvmpipe"},
+         "--samples: profile llvmpipe has no pictures of 2 samples a pixel (ARB_multisample); use geforce3, geforce8, "
+         "geforce8_dx101 or ideal"},
+        {{"render", "teapot", "--samples", "4", "--sample", "4"},
+         "--sample: expected a number from 0 to 3 with --samples 4, found 4"},
+        {{"explain", "teapot", "--samples", "4", "--pixel", "3,3"},
+         "--samples needs --sample here: a number from 0 to 3"},
+        {{"golden", "teapot", "--samples", "2", "-o", "pack"}, "--samples needs --sample here: a number from 0 to 1"},
+        {{"render", "teapot", "--samples", "2", "--map", "ties", "-o", "m.png"},
+         "--samples needs --sample here: a number from 0 to 1"},
+    }));
+    const Folder folder;
+    const Ended ended = run_strata(folder, wrong.words);
+    CHECK(ended.status == 2);
+    const std::vector<std::string> lines = lines_of(ended.err);
+    CHECK((!lines.empty() && lines.back().starts_with("strata: " + wrong.sentence.substr(0, 20))));
+    CHECK(ended.err.find(wrong.sentence) != std::string::npos);
+}
+
+TEST_CASE("a picture records its samples, and its command draws it again") {
+    const Folder folder;
+    for (const std::string samples : {"--samples 4", "--samples 4 --sample 2"}) {
+        CHECK(shell(folder, "strata render teapot --alpha 0.5 --size 32x24 -q --no-audit -o a.exr " + samples).status ==
+              0);
+        CHECK(shell(folder, "strata info a.exr").out.find(samples) != std::string::npos);
+        CHECK(shell(folder, "strata render --from a.exr -q --no-audit -o b.exr").status == 0);
+        CHECK(shell(folder, "strata compare a.exr b.exr --exact").status == 0);
+        CHECK(shell(folder, "rm a.exr b.exr").status == 0);
+    }
+}
+
+TEST_CASE("a pack of one sample draws that sample") {
+    const Folder folder;
+    const std::string options = " --size 24x18 -q --samples 2 --sample 0 --algorithm front_to_back ";
+    CHECK(shell(folder, "strata golden teapot -o pack" + options).status == 0);
+    CHECK(shell(folder, "strata golden --check pack").status == 0);
+    CHECK(shell(folder, "strata render teapot --no-audit -o a.exr" + options).status == 0);
+    CHECK(shell(folder, "strata render pack --algorithm front_to_back -q --no-audit -o b.exr").status == 0);
+    CHECK(shell(folder, "strata compare a.exr b.exr --exact").status == 0);
+    CHECK(shell(folder, "strata render teapot --size 24x18 -q --no-audit --algorithm front_to_back -o c.exr").status ==
+          0);
+    CHECK(shell(folder, "strata compare a.exr c.exr --exact").status == 1);
+}

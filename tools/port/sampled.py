@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""Holds what llvmpipe draws with 4 samples a pixel, each shaded by itself, to profile llvmpipe.
+
+    sampled.py --build build/release [--quick] [--driver llvmpipe_sse]
+
+Ten scenes in three sizes: every target after every pass of each sample, by front_to_back, dual and weighted_average, and the resolved
+pictures. Writes a table of what differs. Exit status 1 if anything does.
+"""
+import argparse
+import pathlib
+import shutil
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import packs  # noqa: E402
+
+ALGORITHMS = ["front_to_back", "dual", "weighted_average"]
+SAMPLES = 4
+SIZES = ["97x73", "64x64", "33x121"]
+SCENES = {
+    "teapot": ["teapot", "--alpha", "0.5"],
+    "random": ["random:seed=3,triangles=60"],
+    "random, rgba16f": ["random:seed=5,triangles=120", "--color-format", "rgba16f"],
+    "random, rgba32f": ["random:seed=9,triangles=80", "--color-format", "rgba32f"],
+    "planes": ["planes:count=12"],
+    "beam": ["volume-beam:slices=16"],
+    "coincident": ["hard:case=coincident"],
+    "cyclic overlap": ["hard:case=cyclic-overlap"],
+    "opaque": ["hard:case=opaque-crossing"],
+    "through near": ["hard:case=through-near"],
+}
+
+
+def end_alike(pack, candidate):
+    """A peel of the profile ends with its own sample, one of the driver with the last of all: there the picture's pass is not compared."""
+    for name, result in pack.results.items():
+        if len(list((candidate / name).glob("pass.*"))) > len(result["passes"]):
+            result["passes"].pop()
+
+
+def resolved(build, folder, words, profile, driver):
+    """Pictures whose resolve differs: of the driver's, and of the profile's by `strata render`."""
+    pack = packs.Pack(build, folder / "first", [*words, "--samples", SAMPLES, "--sample", 0], profile, ALGORITHMS)
+    candidate = folder / "resolved"
+    packs.run([build / "strata_port", pack.folder, "-o", candidate, "--driver", driver, "--algorithm", ",".join(ALGORITHMS), "--samples", SAMPLES])
+    wrong = 0
+    for name in pack.results:
+        picture = folder / f"{name}.exr"
+        packs.run([build / "strata", "render", *words, "--samples", SAMPLES, "--profile", profile, "--algorithm", name, "--no-audit", "-q", "-o", picture])
+        said = packs.run([build / "strata", "compare", picture, candidate / name / "picture.npy", "--exact"], allowed=(0, 1))
+        wrong += not said.startswith("equal")
+    return wrong
+
+
+def measure(build, words, profile, driver):
+    """Of one scene and size: targets, those that differ, and pictures whose resolve differs."""
+    found = {"targets": 0, "targets that differ": 0}
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        for sample in range(SAMPLES):
+            pack = packs.Pack(build, folder / "pack", [*words, "--samples", SAMPLES, "--sample", sample], profile, ALGORITHMS)
+            candidate = folder / "candidate"
+            packs.run([build / "strata_port", pack.folder, "-o", candidate, "--driver", driver, "--algorithm", ",".join(pack.results),
+                       "--samples", SAMPLES, "--sample", sample])
+            end_alike(pack, candidate)
+            for key, value in packs.agreement(pack, candidate).items():
+                found[key] = found.get(key, 0) + value
+            shutil.rmtree(candidate)
+            shutil.rmtree(pack.folder)
+        found["resolved"] = resolved(build, folder, words, profile, driver)
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--build", required=True, type=pathlib.Path)
+    parser.add_argument("--driver", default="llvmpipe", choices=["llvmpipe", "llvmpipe_sse"])
+    parser.add_argument("--quick", action="store_true", help="two scenes in one size")
+    options = parser.parse_args()
+    scenes = dict(list(SCENES.items())[:2]) if options.quick else SCENES
+    keys = ["targets", "targets that differ", "pixels", "coverage", "depth", "order", "colour", *ALGORITHMS, "resolved"]
+    print("| scene | " + " | ".join(keys) + " |")
+    wrong = 0
+    with tempfile.TemporaryDirectory() as folder:
+        profile = packs.profile_file(folder, options.driver)
+        for name, words in scenes.items():
+            total = {}
+            for size in SIZES[:1] if options.quick else SIZES:
+                for key, value in measure(options.build, [*words, "--size", size], profile, options.driver).items():
+                    total[key] = total.get(key, 0) + value
+            print(f"| {name} | " + " | ".join(str(total.get(key, "-")) for key in keys) + " |", flush=True)
+            wrong += sum(value for key, value in total.items() if key not in ("targets", "pixels"))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
