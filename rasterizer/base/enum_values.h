@@ -1,8 +1,8 @@
-// rasterizer/base/enum_values.h - the values of an enum and their names, as the compiler knows them: lists that nobody
-// can forget to lengthen.
+// rasterizer/base/enum_values.h - the values of an enum and their names, taken from the compiler, so that no list has
+// to be maintained by hand.
 //
-// Rule     An enum of this project numbers its values 0, 1, 2 ... The compiler spells a constant by its name where the
-//          enum has one for that number, else as a cast; the first cast ends the list. A value's name is its
+// Rule     An enum of this project numbers its values 0, 1, 2 ... The compiler prints a value by name if the enum has a
+//          constant of that number, else as a cast; the first cast ends the list. The name of a value is its
 //          identifier.
 // Source   __PRETTY_FUNCTION__ of GCC and Clang names template arguments.
 // Tests    tests/rasterizer/base/enum_values_test.cpp, tests/pipeline/device/enum_lists_test.cpp
@@ -27,14 +27,14 @@ template <auto value>
     std::string_view text = spelling<value>();
     text.remove_prefix(text.find(start) + start.size());
     text = text.substr(0, text.find_first_of(";]"));
-    // A cast ends in its number, as in "(strata::Snap)7". A bracket alone does not tell: Clang writes "(anonymous
+    // A cast ends in its number, as in "(strata::Snap)7". A bracket alone is not enough: Clang writes "(anonymous
     // namespace)::".
     const bool is_cast =
         text.back() >= '0' && text.back() <= '9' && text.find_last_not_of("0123456789") == text.rfind(')');
     return is_cast ? std::string_view{} : text.substr(text.rfind(':') + 1);
 }
 
-// How many values an enum has: the first number from 0 on for which the compiler knows no name. A gap in the numbers
+// Number of values of an enum: the first number from 0 on for which the compiler has no name. A gap in the numbers
 // would end the list there, so no enum of this project has one.
 template <class Enum, std::size_t number = 0>
 [[nodiscard]] consteval std::size_t count() {
@@ -55,23 +55,23 @@ template <class Enum, std::size_t... number>
 
 }  // namespace enum_values_detail
 
-// Every value of an enum in the order of its numbers, as a std::array<Enum, n>.
+// Every value of an enum in numeric order, as a std::array<Enum, n>.
 template <class Enum>
 inline constexpr auto enum_values =
     enum_values_detail::values<Enum>(std::make_index_sequence<enum_values_detail::count<Enum>()>{});
 
-// In the order of enum_values.
+// The identifiers, in the order of enum_values.
 template <class Enum>
 inline constexpr auto enum_names =
     enum_values_detail::names<Enum>(std::make_index_sequence<enum_values_detail::count<Enum>()>{});
 
-// Whether a number that came from outside is a value of its enum.
+// True if a number read from outside is a value of its enum.
 template <class Enum>
 [[nodiscard]] constexpr bool is_listed(Enum value) noexcept {
     return static_cast<std::size_t>(value) < enum_values<Enum>.size();
 }
 
-// The value with that identifier, letter for letter; empty if the enum has none.
+// The value with that identifier (case-sensitive); empty if the enum has none.
 template <class Enum>
 [[nodiscard]] constexpr std::optional<Enum> enum_named(std::string_view name) noexcept {
     for (std::size_t i = 0; i < enum_names<Enum>.size(); ++i)

@@ -1,11 +1,9 @@
-// rasterizer/base/exact_sum.h - sums of products of binary64 numbers without any rounding, for the rare fragment that
-// needs it.
+// rasterizer/base/exact_sum.h - exact sums of products of binary64 numbers, for the rare fragment that needs them.
 //
-// Rule     An expansion: terms that do not overlap, smallest first; its sign is the sign of the last term that is not
-//          zero.
+// Rule     An expansion: non-overlapping terms, smallest first. Its sign is the sign of the last nonzero term.
 // Source   Shewchuk 1997, "Adaptive precision floating-point arithmetic", 2.2-2.4.
-// Numbers  Exact while no product overflows (|a b| < 2^996) and every product is a multiple of 2^-1074: one factor is
-//          an integer.
+// Numbers  Exact if no product overflows (|a b| < 2^996) and every product is a multiple of 2^-1074, that is, one
+//          factor is an integer.
 // Tests    tests/rasterizer/base/exact_sum_test.cpp
 #pragma once
 #include <array>
@@ -17,7 +15,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// An integer as one binary64 number if it fits, else as two.
+// An integer as one binary64 number if it fits, else as the sum of two.
 [[nodiscard]] constexpr TwoTerms as_terms(std::int64_t value) noexcept {
     constexpr std::int64_t limit = std::int64_t{1} << 53;
     if (-limit <= value && value <= limit) return {static_cast<double>(value), 0.0};
@@ -25,13 +23,12 @@ inline namespace strict {
     return {static_cast<double>(value - low), static_cast<double>(low)};
 }
 
-// A sum that keeps every bit. Terms rise in magnitude and do not overlap, so the
-// last one decides the sign. 40 places are more than enough: three products of an
-// integer and two binary64 numbers, and one product more, need 32 (numbers.md 3.3).
+// An exact sum. Terms increase in magnitude and do not overlap, so the last one decides the sign. The capacity is 40
+// terms; three products of an integer and two binary64 numbers plus one more product need 32 (numbers.md 3.3).
 class ExactSum {
   public:
-    // Carries x through the terms from the smallest to the largest. What a step rounds off stays behind as a term; a
-    // term of value 0 is dropped, because `sign` looks at the last term alone.
+    // Carries x through the terms from the smallest to the largest. The rounding error of each step is kept as a term.
+    // Zero terms are dropped, because `sign` reads only the last term.
     constexpr void add(double x) noexcept {
         int kept = 0;
         for (int i = 0; i < count_; ++i) {
@@ -51,7 +48,7 @@ class ExactSum {
         add(p.low);
         add(p.high);
     }
-    // Adds n a b. The product a b is a pair and n is a pair, so four exact products make up the whole.
+    // Adds n a b. The product a b and n are pairs of terms, so the result is four exact products.
     constexpr void add_product(std::int64_t n, double a, double b) noexcept {
         const TwoTerms p = two_product(a, b), m = as_terms(n);
         add_product(m.low, p.low);
@@ -59,12 +56,12 @@ class ExactSum {
         add_product(m.low, p.high);
         add_product(m.high, p.high);
     }
-    // -1, 0 or 1: the exact sign of the sum.
+    // The exact sign of the sum: -1, 0 or 1.
     [[nodiscard]] constexpr int sign() const noexcept {
         if (count_ == 0) return 0;
         return term_[count_ - 1] > 0.0 ? 1 : -1;
     }
-    // Relative error at most 2^-51: the terms do not overlap.
+    // The sum with a relative error of at most 2^-51, because the terms do not overlap.
     [[nodiscard]] constexpr double approximation() const noexcept {
         double sum = 0.0;
         for (int i = 0; i < count_; ++i) sum += term_[i];

@@ -10,14 +10,14 @@ namespace strata {
 
 #if defined(__SSE2__)
 
-// MXCSR: all exceptions masked, nearest even, neither flush-to-zero nor denormals-are-zero (Intel SDM volume
+// MXCSR: all exceptions masked, round to nearest even, neither flush-to-zero nor denormals-are-zero (Intel SDM volume
 // 1, 10.2.3).
 FloatEnvironment::FloatEnvironment() noexcept : saved_{_mm_getcsr()} { _mm_setcsr(0x1f80); }
 FloatEnvironment::~FloatEnvironment() { _mm_setcsr(static_cast<unsigned>(saved_)); }
 
 #elif defined(__aarch64__)
 
-// FPCR = 0: nearest even, no flush-to-zero, no default NaN, no traps (Arm ARM, C5.2.8).
+// FPCR = 0: round to nearest even, no flush-to-zero, no default NaN, no traps (Arm ARM, C5.2.8).
 FloatEnvironment::FloatEnvironment() noexcept : saved_{0} {
     asm volatile("mrs %0, fpcr" : "=r"(saved_));
     asm volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));
@@ -26,8 +26,8 @@ FloatEnvironment::~FloatEnvironment() { asm volatile("msr fpcr, %0" : : "r"(save
 
 #else
 
-// On other processors the C library can set the rounding alone:
-// if the host flushes denormals there, they stay flushed.
+// On other processors the C library can only set the rounding mode: if the host flushes denormals there, they are still
+// flushed.
 FloatEnvironment::FloatEnvironment() noexcept : saved_{static_cast<std::uint64_t>(std::fegetround())} {
     std::fesetround(FE_TONEAREST);
 }

@@ -1,7 +1,7 @@
-// rasterizer/base/float_environment.h - our own floating-point environment for the length of a scope.
+// rasterizer/base/float_environment.h - Strata's floating-point environment for the duration of a scope.
 //
-// Rule     Every public entry and every worker of ours computes with round to nearest even, denormals kept, exceptions
-//          masked, whatever the host program has set, and gives the caller's environment back.
+// Rule     Every public entry point and every worker thread computes with round to nearest even, denormals kept and
+//          exceptions masked, whatever the host program has set, and restores the caller's environment.
 // Source   numbers.md 2.1; a library built with fast-math sets flush-to-zero when it is loaded.
 // Tests    tests/rasterizer/base/float_environment_test.cpp
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace strata {
 
-// Sets our environment for the calling thread alone and restores the saved one at the end of the scope. A worker
-// thread needs one of its own (parallel.h).
+// Sets Strata's environment for the calling thread only and restores the previous one at the end of the scope. Each
+// worker thread needs its own (parallel.h).
 class FloatEnvironment {
   public:
     FloatEnvironment() noexcept;
@@ -19,7 +19,7 @@ class FloatEnvironment {
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
   private:
-    // The caller's MXCSR on x86, FPCR on AArch64, rounding mode elsewhere.
+    // The caller's MXCSR on x86, FPCR on AArch64, rounding mode on other processors.
     std::uint64_t saved_;
 };
 

@@ -1,9 +1,10 @@
-// rasterizer/base/fused.h - a multiply-add that rounds once, exact on machines that have none.
+// rasterizer/base/fused.h - a multiply-add with a single rounding, exact also on machines without a fused instruction.
 //
-// Rule     The product of two binary32 is exact in binary64; the sum is rounded to odd there, so that the second
-//          rounding is the only one.
-// Source   numbers.md 3.4. Tests tests/rasterizer/set_up/window_test.cpp;
-//          tests/rasterizer/values/float_planes_test.cpp: std::fma
+// Rule     The product of two binary32 numbers is exact in binary64. The sum is rounded to odd in binary64, so the
+//          conversion to binary32 is the only rounding that affects the result.
+// Source   numbers.md 3.4.
+// Tests    tests/rasterizer/set_up/window_test.cpp; tests/rasterizer/values/float_planes_test.cpp compares with
+//          std::fma.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -17,9 +18,9 @@ inline namespace strict {
 [[nodiscard]] constexpr float fused_multiply_add(float a, float b, float c) noexcept {
     const TwoTerms sum = two_sum(double{a} * b, double{c});
     auto bits = std::bit_cast<std::uint64_t>(sum.high);
-    // An infinite sum leaves NaN below it, which is neither: the sum stands.
+    // If the sum is infinite, its low part is NaN: both comparisons are false and the sum is returned unchanged.
     if ((sum.low < 0.0 || sum.low > 0.0) && (bits & 1) == 0)
-        bits += (sum.low > 0.0) == (sum.high > 0.0) ? 1 : ~std::uint64_t{0};  // to odd
+        bits += (sum.low > 0.0) == (sum.high > 0.0) ? 1 : ~std::uint64_t{0};  // round to odd
     return static_cast<float>(std::bit_cast<double>(bits));
 }
 

@@ -1,20 +1,21 @@
 // rasterizer/base/no_arithmetic.h - deletes GLM's operators and functions for the types of vector.h, so that a call of
-// one does not compile. Part of vector.h, and of Strata's own build alone.
+// one does not compile. Included by vector.h, and only while Strata itself is built.
 //
-// Rule     An overload that is no template wins over GLM's templates, and over its member templates, wherever both fit.
-//          Operators: a vector with a vector or a number, a matrix with a matrix, a number or a column. Functions:
-//          those that the header of the matrix brings along, for the arguments that GLM takes. Only == and != are left:
-//          they compare value by value.
+// Rule     A non-template overload is preferred to GLM's templates and member templates wherever both match. Deleted
+//          operators: vector with vector or number; matrix with matrix, number or column vector. Deleted functions:
+//          those that the header of the matrix declares, for the arguments that GLM accepts. Only == and != remain:
+//          they compare component by component.
 // Source   ISO C++ [over.match.best]: a function that is not a template beats a specialisation of one. GLSL 4.60
 //          chapter 8 (the names).
-// Tests    tests/rasterizer/base/vector_test.cpp; tests/lint/glm.py: no function of GLM's headers is missing here.
+// Tests    tests/rasterizer/base/vector_test.cpp; tests/lint/glm.py checks that no function of GLM's headers is missing
+//          here.
 #pragma once
 #ifndef STRATA_GLM_IS_STORAGE
 #error "include rasterizer/base/vector.h"
 #endif
 
-// Macros, because no template can beat GLM's: the operators must be spelled for every type. `v += 2` finds the template
-// and GLM's member equally good, which does not compile, either.
+// Macros, because no template is preferred to GLM's: each operator must be declared for each type. `v += 2` is
+// ambiguous between the template and GLM's member, and therefore does not compile either.
 #define STRATA_NO_OPERATOR(op, V, Number)          \
     void operator op(const V&, const V&) = delete; \
     void operator op(const V&, Number) = delete;   \
@@ -53,7 +54,7 @@
     void name(const V&, Number, Number) = delete;     \
     void name(Number, Number, const V&) = delete;
 
-// clang-format takes the macros for the beginning of one declaration.
+// clang-format parses the macros as the beginning of one declaration.
 // clang-format off
 #define STRATA_NO_FUNCTIONS(V, Number)                                                                   \
     STRATA_NO_UNARY(abs, V) STRATA_NO_UNARY(sign, V) STRATA_NO_UNARY(floor, V) STRATA_NO_UNARY(trunc, V) \

@@ -1,11 +1,11 @@
-// rasterizer/base/numerics.h - the floating-point rules that every result bit stands on. Every header with arithmetic
-// includes this one.
+// rasterizer/base/numerics.h - the floating-point rules on which every bit of a result depends. Every header with
+// arithmetic includes this one.
 //
 // Rule     IEEE 754 binary32 and binary64, round to nearest even, each operation rounded once: no contraction into
-//          fused multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline
-//          namespace `strict`, so that a program compiled with other rules cannot silently share their code at link
-//          time.
-// Source   numbers.md 1.1 to 1.3; ISO C++ <cfenv>; the build carries the flags as strata::numerics.
+//          fused multiply-add, no excess precision, no reassociation. Headers with inline arithmetic use the inline
+//          namespace `strict`, so that the linker cannot merge their functions with those of a program compiled under
+//          other rules.
+// Source   numbers.md 1.1 to 1.3; ISO C++ <cfenv>; the build target strata::numerics carries the flags.
 // Tests    tests/rasterizer/base/numerics_test.cpp
 #pragma once
 #include <cfloat>

@@ -1,13 +1,15 @@
-// rasterizer/base/nv20_arithmetic.h - binary32 as the vertex engine of NV20 (GeForce3) computes it.
+// rasterizer/base/nv20_arithmetic.h - binary32 arithmetic of the vertex engine of NV20 (GeForce3).
 //
-// Rule     Denormals read and written are +0. Product: cut toward zero; 0 times anything is +0. Sum of up to four:
-//          every addend is cut toward zero to a multiple of 2^(e - 28), e the largest exponent among them (two places
-//          above it for carries, 7 below a result's last bit), added once, the sum cut toward zero. Reciprocal: seed
-//          s = round(8192 / (64.5 + i)), i the 6 leading fraction bits, then two Newton steps on integers, each cut; a
-//          power of two is exact.
-// Source   numbers.md 4: NV_vertex_program 2.14.1.11 [S], envytools' model checked against hardware [M]. Results
-//          beyond the largest number become that number [A].
-// Numbers  The mantissa m has 24 bits: s m < 2^31, ((2^37 - s' m) s') < 2^51. The second step ends within 2^-22 of 1/d.
+// Rule     Denormal inputs and results are +0. Products are truncated; 0 times anything is +0. Sums of two to four
+//          values: addends are truncated to multiples of 2^(e - 28), where e is the largest exponent, and summed
+//          exactly; the sum is truncated to binary32. The sum can carry into two bits above e; it then keeps 7 bits
+//          below its last bit. Reciprocal: seed s = round(8192 / (64.5 + i)), where i is the 6 leading fraction bits,
+//          then two Newton-Raphson steps in integer arithmetic, each truncated. Powers of two are exact. Truncation is
+//          toward zero throughout.
+// Source   numbers.md 4: NV_vertex_program 2.14.1.11 [S], envytools' model checked against hardware [M]. Results beyond
+//          the largest finite number become that number [A].
+// Numbers  m is the 24-bit mantissa, s the seed, s' the result of the first Newton step. s m < 2^31 and (2^37 - s' m)
+//          s' < 2^51, so 64 bits suffice. The relative error of the reciprocal is at most 2^-22.
 // Tests    tests/rasterizer/base/nv20_arithmetic_test.cpp
 #pragma once
 #include <algorithm>
@@ -20,7 +22,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// v, exact in binary64, cut toward zero to binary32; beyond the largest finite number, that number.
+// Rounds v toward zero to binary32; overflow gives the largest finite value of the same sign.
 [[nodiscard]] constexpr float cut_to_binary32(double v) noexcept {
     const auto f = static_cast<float>(v);
     const double size = v < 0.0 ? -v : v, rounded = f < 0.0f ? -double{f} : double{f};
@@ -33,19 +35,19 @@ namespace nv20 {
     return (std::bit_cast<std::uint32_t>(v) & 0x7f800000u) != 0x7f800000u;
 }
 
-// +0 for zeros and denormals of either sign: their exponent field is 0.
+// v, or +0 if v is a zero or a denormal of either sign (exponent field 0).
 [[nodiscard]] constexpr float flushed(float v) noexcept {
     return (std::bit_cast<std::uint32_t>(v) & 0x7f800000u) == 0 ? 0.0f : v;
 }
 
-// a b; +0 if a factor is zero or denormal, even beside an infinity or a NaN (numbers.md 4.2).
+// a b; +0 if a factor is zero or denormal, even if the other is infinite or NaN (numbers.md 4.2).
 [[nodiscard]] constexpr float multiply(float a, float b) noexcept {
     if (flushed(a) == 0.0f || flushed(b) == 0.0f) return 0.0f;
     return is_finite(a) && is_finite(b) ? flushed(cut_to_binary32(double{a} * double{b})) : a * b;
 }
 
-// Two to four addends in one aligned add, as a dot product has them
-// (numbers.md 4.3). If one is not finite, the plain IEEE sum from the left.
+// Sums two to four values with one alignment and one truncation, as the dot product does (numbers.md 4.3). If any value
+// is not finite, returns the IEEE sum in left-to-right order.
 template <std::size_t n>
 [[nodiscard]] constexpr float sum(const std::array<float, n>& addends) noexcept {
     static_assert(n >= 2 && n <= 4);
@@ -58,7 +60,7 @@ template <std::size_t n>
         }
         largest = std::max(largest, static_cast<int>(std::bit_cast<std::uint32_t>(v) >> 23 & 0xff));
     }
-    // The cut addends in units of 2^(largest - 127 - 28). Each is below 2^29, so four of them stay below 2^31.
+    // The truncated addends in units of 2^(largest - 127 - 28). Each is below 2^29, so the sum of four is below 2^31.
     std::int64_t total = 0;
     for (const float v : addends) {
         const auto bits = std::bit_cast<std::uint32_t>(v);
@@ -68,20 +70,22 @@ template <std::size_t n>
         const std::int64_t aligned = mantissa >> std::min(largest - exponent, 63);
         total += bits >> 31 != 0 ? -aligned : aligned;
     }
-    // 31 bits are exact in binary64, and so is the scaling: 2^-154 at the least.
+    // The total fits in 31 bits and the unit is at least 2^-154, so the conversion and the product are exact in
+    // binary64.
     const double unit = std::bit_cast<double>(static_cast<std::uint64_t>(largest - 127 - 28 + 1023) << 52);
     return flushed(cut_to_binary32(static_cast<double>(total) * unit));
 }
 
-// 1 / d (numbers.md 4.4). A zero or denormal d gives an infinity of its sign, an infinity gives +0, NaN stays, and a
-// result that would be denormal is +0.
+// 1 / d (numbers.md 4.4). A zero or denormal d gives an infinity of its sign, an infinity gives +0, NaN is returned
+// unchanged, and a denormal result becomes +0.
 [[nodiscard]] constexpr float reciprocal(float d) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(d);
     const std::uint32_t fraction = bits & 0x7fffffu, field = bits >> 23 & 0xff, sign = bits & 0x80000000u;
     if (field == 0) return std::bit_cast<float>(sign | 0x7f800000u);
     if (!is_finite(d)) return fraction != 0 ? d : 0.0f;
     std::uint64_t mantissa = 0;
-    // A power of two only turns its exponent about the bias, 254 = 2 * 127; every other mantissa takes one more off.
+    // 1 / 2^k = 2^-k: the biased exponent becomes 254 - field. For any other mantissa 1 / m is in (0.5, 1), so the
+    // exponent is one less.
     auto exponent = static_cast<int>(254 - field);
     if (fraction != 0) {
         const std::uint64_t m = fraction | 0x800000u, odd = 129 + 2 * (fraction >> 17);

@@ -26,12 +26,12 @@ namespace strata {
 #ifdef STRATA_HAS_TBB
 namespace {
 
-// oneTBB starts its threads when a loop needs them, and cannot live with one that it does not get: the process aborts,
-// or hangs at its end. So threads are asked of the system first. What it refused once is not asked for again, and
-// oneTBB is kept at what there was.
+// oneTBB starts its threads when a loop needs them. If the system refuses one, the process aborts or hangs at exit.
+// Therefore the threads are started experimentally first. After a refusal oneTBB is limited to the number that the
+// system granted, and more are not requested again.
 class Supply {
   public:
-    // At most `threads`, the caller included; at least 1.
+    // The number of threads to use: at most `threads`, at least 1, including the caller.
     int threads(int threads) {
         if (threads <= proven_.load(std::memory_order_acquire)) return threads;
         const std::lock_guard held{mutex_};
@@ -49,7 +49,7 @@ class Supply {
         const std::size_t stack = tbb::global_control::active_value(tbb::global_control::thread_stack_size);
         const int workers = threads_to_be_had(threads - 1, stack);
         if (workers == threads - 1) return proven_.store(threads, std::memory_order_release);
-        // One less than there was: oneTBB needs memory of its own beside the stacks.
+        // One less than was granted: oneTBB needs memory of its own in addition to the stacks.
         const int had = std::max<int>(proven_, std::max(workers - 1, 0) + 1);
         asked_ = threads;
         refused_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(had));
@@ -69,16 +69,16 @@ Supply& supply() {
 
 int threads_of(int threads) { return supply().threads(threads); }
 
-// Kept by every thread that asks: when an arena goes, its workers fall asleep, and one takes 50 microseconds to come
-// back.
+// One arena per calling thread and size, kept alive: when an arena is destroyed, its workers sleep, and waking one
+// takes 50 microseconds.
 tbb::task_arena& arena_of(int threads) {
     thread_local std::map<int, tbb::task_arena> arenas;
     return arenas.try_emplace(threads, threads).first->second;
 }
 
 void loop(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-    // oneTBB limits itself to the number of processors, and warns on standard error where more threads are asked
-    // for; this raises the limit for the call.
+    // oneTBB limits itself to the number of processors and prints a warning to standard error if more threads are
+    // requested; this raises the limit for the duration of the call.
     std::optional<tbb::global_control> allowed;
     if (threads > tbb::info::default_concurrency())
         allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -95,7 +95,8 @@ ThreadShortage thread_shortage() noexcept { return supply().shortage(); }
 
 namespace {
 
-// The thread sanitizer does not see through oneTBB; the core alone has the plain loop.
+// The thread sanitizer does not understand oneTBB, so its build uses thread_loop; the core-only build uses the plain
+// loop.
 constexpr bool has_threads =
 #ifdef STRATA_HAS_THREADS
     true;

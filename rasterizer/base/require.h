@@ -1,8 +1,8 @@
-// rasterizer/base/require.h - what the doors of the library ask of the values that come in: fields, named as a program
-// writes them.
+// rasterizer/base/require.h - checks of the values that enter the library through its public functions. Fields are
+// named as a program writes them.
 //
-// Rule     A door throws InputError{thing, field, expected, found} before anything is read by a number that it has not
-//          checked.
+// Rule     A public function throws InputError{thing, field, expected, found} before a value is used as an index, size
+//          or enum that has not been checked.
 #pragma once
 #include <bit>
 #include <concepts>
@@ -15,7 +15,7 @@
 
 namespace strata {
 
-// A field, whose name is put together only when it is wrong: "width", "instances[3]", "meshes[2].indices".
+// The name of a field, composed only if the check fails: "width", "instances[3]", "meshes[2].indices".
 class FieldName {
   public:
     FieldName(const char* name) noexcept : list_{name} {}  // NOLINT: a name is a field
@@ -36,7 +36,7 @@ class FieldName {
     std::size_t item_ = 0;
 };
 
-// The values of one thing ("draw list").
+// Checks of the fields of one thing, whose name begins the message ("draw list").
 class Requirements {
   public:
     explicit Requirements(const char* thing) : thing_{thing} {}
@@ -51,11 +51,11 @@ class Requirements {
     void below(const FieldName& field, std::uint64_t value, std::uint64_t limit) const {
         if (value >= limit) fail(field, "less than " + std::to_string(limit), value);
     }
-    // Neither infinite nor NaN; bits, because a program may be compiled with fast-math.
+    // Throws if the value is infinite or NaN. Tests its bits, because the program may be compiled with -ffast-math.
     void finite(const FieldName& field, float value) const {
         if ((std::bit_cast<std::uint32_t>(value) & 0x7f800000u) == 0x7f800000u) fail(field, "a finite number", value);
     }
-    // Throws if the number is no value of its enum; the message lists the names.
+    // Throws if the number is not a value of its enum; the message lists the names.
     template <class Enum>
     void listed(const FieldName& field, Enum value) const {
         if (is_listed(value)) return;
@@ -63,7 +63,7 @@ class Requirements {
         for (const std::string_view name : enum_names<Enum>) names += (names.empty() ? "" : ", ") + std::string{name};
         fail(field, "one of " + names, static_cast<int>(value));
     }
-    // Throws for every other rule; `found` is the number that broke it.
+    // Throws, for all other rules; `found` is the offending number.
     [[noreturn]] void fail(const FieldName& field, const std::string& expected, auto found) const {
         fail(field.text(), expected, found);
     }

@@ -12,14 +12,14 @@ namespace strata {
 namespace {
 
 #if HWY_ARCH_X86
-// A feature of leaf `leaf` that the compiler's own list does not name.
+// True if bit `bit` of ECX of CPUID leaf `leaf` is set: a feature that __builtin_cpu_supports has no name for.
 [[nodiscard]] bool has_bit_of_ecx(unsigned leaf, unsigned bit) noexcept {
     unsigned a = 0, b = 0, c = 0, d = 0;
     return __get_cpuid(leaf, &a, &b, &c, &d) != 0 && (c >> bit & 1) != 0;
 }
 
-// What Highway's code for a set takes for granted of the processor and of the system's saving of registers
-// (hwy/targets.cc).
+// The instruction sets whose requirements, as Highway's code assumes them, the processor and the operating system's
+// register saving meet (hwy/targets.cc).
 [[nodiscard]] std::int64_t supported_targets() noexcept {
     __builtin_cpu_init();
     const bool has_f16c = has_bit_of_ecx(1, 29), has_lzcnt = has_bit_of_ecx(0x80000001, 5);
@@ -46,7 +46,7 @@ std::vector<Simd> available_simd() {
 #if HWY_ARCH_X86
     static const std::int64_t machine = supported_targets() & HWY_TARGETS;
 #else
-    constexpr std::int64_t machine = 0;  // the names above are x86's: all other machines run the scalar reference
+    constexpr std::int64_t machine = 0;  // the names above are those of x86: other machines run the scalar reference
 #endif
     std::vector<Simd> all{Simd::scalar};
     for (const Simd simd : {Simd::avx2, Simd::avx512})

@@ -1,13 +1,13 @@
-// rasterizer/base/simd.h - which instruction set the kernels use. A matter of speed alone: every choice gives the same
-// bits.
+// rasterizer/base/simd.h - selects the instruction set of the kernels. It affects speed only: every choice gives the
+// same bits.
 //
-// Rule     A kernel lives in a *_simd.cpp that Highway compiles once an instruction set; its meaning is a plain loop in
-//          a header, its scalar reference. `scalar` runs the scalar reference. Only operations that are exact or
-//          correctly rounded on every set: no fused multiply-add, no approximate reciprocal, no horizontal float sum;
-//          NaN and -0 go by the rules of the scalar reference, not by a machine's MIN and MAX. The choice belongs to a
-//          call, not to the process: a public entry opens a SimdScope, as it opens a FloatEnvironment, and parallel_for
-//          hands it to its workers. What Highway chooses for the host program is not changed, and no change of it is
-//          looked at.
+// Rule     A kernel is in a *_simd.cpp, which Highway compiles once per instruction set. Its meaning is defined by a
+//          plain loop in a header, the scalar reference, which `scalar` selects. A kernel uses only operations that are
+//          exact or correctly rounded on every instruction set: no fused multiply-add, no approximate reciprocal, no
+//          horizontal float sum. NaN and -0 follow the scalar reference, not a machine's MIN and MAX instructions. The
+//          choice belongs to a call, not to the process: a public entry point opens a SimdScope, as it opens a
+//          FloatEnvironment, and parallel_for passes it to its workers. Highway's own choice for the host program is
+//          neither changed nor read.
 // Source   Highway's run-time dispatch; fragment-stages.md 9.3 (MIN and MAX).
 // Tests    tests/rasterizer/base/simd_test.cpp, tests/peeling/simd_test.cpp
 #pragma once
@@ -16,14 +16,14 @@
 
 namespace strata {
 
-// By rising width. `scalar` means the scalar reference, `best` the last one that the processor has.
+// In order of width. `scalar` is the scalar reference, `best` the widest set that the processor supports.
 enum class Simd : std::uint8_t { scalar, avx2, avx512, best };
 
-// Those of the first three that this processor can run, by rising width; `scalar` is always there.
+// The sets among the first three that this processor supports, in order of width; always includes `scalar`.
 [[nodiscard]] std::vector<Simd> available_simd();
-[[nodiscard]] bool has_simd(Simd simd);  // `best` is there, too
+[[nodiscard]] bool has_simd(Simd simd);  // true for `best`
 
-// While it lives, the kernels that this thread calls use `simd`, which the processor must have. Scopes nest.
+// While it exists, kernels called by this thread use `simd`, which the processor must support. Scopes nest.
 class SimdScope {
   public:
     explicit SimdScope(Simd simd) noexcept;
@@ -35,10 +35,10 @@ class SimdScope {
     Simd before_;
 };
 
-// The set that this thread uses; never `best`, but the one that it stands for.
+// The instruction set that this thread uses; `best` is resolved to an actual set.
 [[nodiscard]] Simd chosen_simd() noexcept;
 
-// For kernels: take the scalar reference.
+// For kernels: true if the scalar reference is to be used.
 [[nodiscard]] inline bool simd_is_scalar() noexcept { return chosen_simd() == Simd::scalar; }
 
 }  // namespace strata

@@ -1,9 +1,9 @@
-// rasterizer/base/simd_dispatch.h - the entry of Highway's table of a kernel that this thread's instruction set stands
-// for. For *_simd.cpp alone.
+// rasterizer/base/simd_dispatch.h - finds a kernel in Highway's dispatch table for the instruction set of this thread.
+// For *_simd.cpp only.
 //
-// Rule     STRATA_EXPORT(f) makes the table; HWY_DYNAMIC_DISPATCH would read the place in it from a variable of the
-//          whole process, which the host program shares. `kernel_of(HWY_DISPATCH_TABLE(f))` finds the place by the same
-//          formula from chosen_simd(). A build for one set alone has a table of one entry.
+// Rule     STRATA_EXPORT(f) defines the table. HWY_DYNAMIC_DISPATCH would take the table index from a variable of the
+//          process, which the host program shares; `kernel_of(HWY_DISPATCH_TABLE(f))` computes it by the same formula
+//          from chosen_simd(). A build for one instruction set has a table of one entry.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 #include "hwy/highway.h"
 #include "rasterizer/base/simd.h"
 
-// HWY_EXPORT without entry 0, which asks Highway's library what the processor has: that library measures the clock for
-// 4 ms whenever it is loaded, half of what a command took to start (1.0.3).
+// HWY_EXPORT without entry 0, which queries the processor through Highway's library: that library measures the clock
+// for 4 ms when it is loaded, half of the start-up time of a command (Highway 1.0.3).
 #if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
 #define STRATA_EXPORT(f) HWY_EXPORT(f)
 #else
@@ -23,7 +23,7 @@
 
 namespace strata {
 
-// Highway's bit for a set; 0 for `scalar` and for `best`, which chosen_simd() never answers.
+// Highway's bit for an instruction set; 0 for `scalar` and `best`, which chosen_simd() does not return.
 [[nodiscard]] constexpr std::int64_t target_of(Simd simd) noexcept {
     switch (simd) {
         case Simd::avx2: return HWY_AVX2;
@@ -34,8 +34,8 @@ namespace strata {
     return 0;
 }
 
-// The kernel for this thread's set. Entry 0 of a table would stand for a choice that Highway has not made yet: its bit
-// is masked out.
+// The kernel for this thread's instruction set. Entry 0 of a table means that Highway has not chosen yet: its bit is
+// masked out.
 template <class Kernel, std::size_t count>
 [[nodiscard]] Kernel kernel_of(Kernel const (&table)[count]) noexcept {
     if constexpr (count == 1) {

@@ -13,7 +13,7 @@ namespace strata {
 
 namespace {
 
-// Threads wait for the gate, so that all of them are there at once.
+// Threads wait for the mutex `gate`, so that all of them exist at the same time.
 void* wait_at(void* gate) {
     const std::lock_guard held{*static_cast<std::mutex*>(gate)};
     return nullptr;
@@ -36,7 +36,7 @@ int threads_to_be_had(int wanted, std::size_t stack_bytes) noexcept try {
     for (const pthread_t thread : threads) pthread_join(thread, nullptr);
     pthread_attr_destroy(&attributes);
     return static_cast<int>(threads.size());
-} catch (const std::exception&) {  // no memory for their list
+} catch (const std::exception&) {  // no memory for the list of threads
     return 0;
 }
 
@@ -56,8 +56,8 @@ void thread_loop(std::size_t count, int threads, const std::function<void(std::s
     std::vector<std::thread> others;
     try {
         for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i) others.emplace_back(work);
-    } catch (const std::exception&) {  // no more threads are to be had, or no memory for one: those that run would end
-                                       // the program
+    } catch (const std::exception&) {  // the system refuses a thread or its memory; if the exception escaped, the
+                                       // running threads would end the program
     }
     work();
     for (std::thread& other : others) other.join();

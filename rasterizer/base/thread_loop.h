@@ -1,7 +1,7 @@
-// rasterizer/base/thread_loop.h - threads of the system itself: how many there are to be had, and a loop on them.
+// rasterizer/base/thread_loop.h - system threads without oneTBB: how many can be started, and a parallel loop.
 //
-// Rule     A thread that the system refuses is no failure: the loop runs on those that there are, at last on the
-//          caller.
+// Rule     It is not an error if the system refuses a thread: the loop runs on the threads that could be started, at
+//          worst on the caller alone.
 // Tests    tests/rasterizer/base/parallel_test.cpp, tests/tools/system_faults_test.cpp
 #pragma once
 #include <cstddef>
@@ -9,11 +9,12 @@
 
 namespace strata {
 
-// How many threads of `stack_bytes` the system gives at once, `wanted` at most. They are started, and end again.
+// The number of threads with stacks of `stack_bytes` that can run at the same time, at most `wanted`. Starts them and
+// joins them.
 [[nodiscard]] int threads_to_be_had(int wanted, std::size_t stack_bytes) noexcept;
 
-// Calls body(i) for every i in [0, count) on `threads` threads with the caller, started here and joined here: what the
-// thread sanitizer can follow. An exception of a body ends the loop and is rethrown.
+// Calls body(i) for every i in [0, count) on `threads` threads including the caller; the others are started and joined
+// here, so that the thread sanitizer can follow them. An exception from a body ends the loop and is rethrown.
 void thread_loop(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
 }  // namespace strata

@@ -10,16 +10,16 @@ namespace strata::rasterizer {
 inline namespace strict {
 
 struct TwoTerms {
-    double high = 0, low = 0;  // high + low is the exact result, high its rounding
+    double high = 0, low = 0;  // high + low is the exact result, high is it rounded to nearest
 };
 
-// a + b, if |a| >= |b| or a is 0.
+// a + b. Precondition: |a| >= |b| or a is 0.
 [[nodiscard]] constexpr TwoTerms fast_two_sum(double a, double b) noexcept {
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-// a + b, whichever of them is larger (numbers.md 3.1).
+// a + b for any order of magnitudes (numbers.md 3.1).
 [[nodiscard]] constexpr TwoTerms two_sum(double a, double b) noexcept {
     const double sum = a + b;
     const double b_seen = sum - a;
@@ -27,14 +27,14 @@ struct TwoTerms {
     return {sum, (a - a_seen) + (b - b_seen)};
 }
 
-// The upper 26 bits and the rest.
+// a split into its upper 26 bits and the rest.
 [[nodiscard]] constexpr TwoTerms split(double a) noexcept {
     const double c = 0x1.0000002p27 * a;  // 2^27 + 1
     const double high = c - (c - a);
     return {high, a - high};
 }
 
-// a b. Products of halves are exact, and they are summed in an order in which no step rounds (numbers.md 3.2).
+// a b. The products of halves are exact and are summed in an order in which no step rounds (numbers.md 3.2).
 [[nodiscard]] constexpr TwoTerms two_product(double a, double b) noexcept {
     const double product = a * b;
     const TwoTerms x = split(a), y = split(b);

@@ -11,8 +11,9 @@ namespace strata {
 #ifdef STRATA_HAS_TBB
 namespace {
 
-// Blocks of this size and more stay with the allocator for the next frame, as long as its heap is no larger than that:
-// of a million triangles, new pages were a third of a frame's time. For all of a process that uses oneTBB's allocator.
+// Blocks of at least kept_size bytes stay in the allocator for the next frame while its heap is at most most_kept
+// bytes: for a million triangles, new pages took a third of a frame's time. This setting affects every user of oneTBB's
+// allocator in the process.
 constexpr std::intptr_t kept_size = std::intptr_t{1} << 20, most_kept = std::intptr_t{1} << 28;
 
 [[nodiscard]] bool keep_large_blocks() noexcept {

@@ -1,6 +1,5 @@
-// rasterizer/base/uninitialized.h - vectors whose new elements have no value yet: for many threads that write them all,
-// each its part. Their memory is kept for the next frame when one is done with it: new pages take as long as to fill
-// them.
+// rasterizer/base/uninitialized.h - vectors whose new elements are left uninitialized, for data that several threads
+// fill completely. Freed memory is kept for the next frame, because touching new pages takes as long as filling them.
 #pragma once
 #include <cstddef>
 #include <new>
@@ -10,16 +9,16 @@
 
 namespace strata {
 
-// From oneTBB's allocator, which keeps what it gets back. Core-only and instrumented builds take the language's own.
-// Throws std::bad_alloc.
+// Memory from oneTBB's allocator, which keeps freed blocks. Core-only and instrumented builds use operator new. Throws
+// std::bad_alloc.
 [[nodiscard]] void* take_memory(std::size_t bytes);
 void give_memory(void* memory) noexcept;
 
-// For element types whose lifetime needs no constructor and no destructor.
-// Reading an element before it is written gives whatever the memory held.
+// An allocator for element types that need neither constructor nor destructor. An element that has not been written has
+// an unspecified value.
 template <class T>
 struct UninitializedAllocator {
-    // Their lifetime begins with the memory's (C++20 [intro.object], implicit-lifetime types).
+    // The lifetime of the elements begins with that of the memory (C++20 [intro.object], implicit-lifetime types).
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
     using value_type = T;
 
@@ -33,7 +32,7 @@ struct UninitializedAllocator {
     }
     void deallocate(T* memory, std::size_t) noexcept { give_memory(memory); }
 
-    // An element without arguments is left as it is: this is why resize() does not touch the memory.
+    // An element without arguments is not initialized, so resize() does not touch the memory.
     template <class U>
     void construct(U*) noexcept {}
     template <class U, class... Args>
@@ -43,7 +42,7 @@ struct UninitializedAllocator {
     friend bool operator==(const UninitializedAllocator&, const UninitializedAllocator&) = default;
 };
 
-// A vector of a given size, and resize(), leave new elements unset: their writer sets each before anybody reads it.
+// The sized constructor and resize() leave new elements uninitialized: each must be written before it is read.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 

@@ -1,13 +1,14 @@
-// rasterizer/base/vector.h - the types in which vectors, colours and matrices are stored and passed: GLM's, and nothing
-// else of GLM.
+// rasterizer/base/vector.h - the types in which vectors, colours and matrices are stored and passed. They are GLM's;
+// nothing else of GLM is used.
 //
-// Rule     GLM is storage here. Its operators and functions leave the order of operations to its version and its build,
-//          so no bit may come from them: arithmetic is our own (vector_arithmetic.h, pipeline/vertices/matrix.h, each
-//          stage's loops). This header alone includes GLM or names its namespace. While Strata itself is built,
-//          no_arithmetic.h deletes the operators for the types below; programs that use Strata keep them.
-// Numbers  A matrix is stored by columns, as OpenGL writes it: m[column][row]. Without a value a vector is zero and a
-//          matrix the identity (GLM_FORCE_CTOR_INIT); a matrix of zeros is Matrix(0.0). One value in braces fills every
-//          component.
+// Rule     GLM only stores values. The order of operations in its operators and functions depends on its version and
+//          build, so no bit may come from them: arithmetic is Strata's own (vector_arithmetic.h,
+//          pipeline/vertices/matrix.h, the loops of each stage). Only this header includes GLM or names its namespace.
+//          While Strata itself is built, no_arithmetic.h deletes the operators for the types below; programs that use
+//          Strata keep them.
+// Numbers  A matrix is stored by columns as in OpenGL: m[column][row]. Default-constructed vectors are zero and
+//          matrices the identity (GLM_FORCE_CTOR_INIT); Matrix(0.0) is a matrix of zeros. A single value in braces
+//          fills every component.
 // Tests    tests/rasterizer/base/vector_test.cpp, tests/lint/glm.py
 #pragma once
 #include <array>
@@ -37,7 +38,7 @@ using Matrix = glm::dmat4;
 
 inline constexpr Matrix identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-// A vector's values, one after the other: for loops over them.
+// The components of a vector as a span, for loops over them.
 template <glm::length_t length, class T>
 [[nodiscard]] std::span<T, length> components(glm::vec<length, T>& v) noexcept {
     return std::span<T, length>{&v.x, length};
@@ -47,7 +48,7 @@ template <glm::length_t length, class T>
     return std::span<const T, length>{&v.x, length};
 }
 
-// Between a matrix and its sixteen entries as they stand in files, column by column.
+// Conversion between a matrix and its sixteen entries in file order, column by column.
 [[nodiscard]] constexpr Matrix matrix_of(const std::array<double, 16>& m) noexcept {
     return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11], m[12], m[13], m[14], m[15]};
 }
@@ -57,7 +58,7 @@ template <glm::length_t length, class T>
     return entries;
 }
 
-// The values lie one behind the other, so an array of vectors is an array of numbers.
+// Components are contiguous, so an array of vectors is an array of numbers.
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16);
 static_assert(sizeof(Vec3d) == 24 && sizeof(Vec4d) == 32 && sizeof(Matrix) == 128);
 

@@ -1,6 +1,6 @@
-// rasterizer/base/vector_arithmetic.h - the arithmetic of vectors in binary64, for cameras, bounds and shapes.
+// rasterizer/base/vector_arithmetic.h - binary64 vector arithmetic for cameras, bounds and shapes.
 //
-// Rule     Component by component, each operation rounded once; a sum of three products is (x + y) + z.
+// Rule     Component by component, each operation rounded once. A sum of three products is (x + y) + z.
 // Tests    tests/rasterizer/base/vector_test.cpp
 #pragma once
 #include "rasterizer/base/numerics.h"

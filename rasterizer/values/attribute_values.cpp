@@ -28,7 +28,7 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     const bool cut = needs_.texcoord && cuts_coordinates(rules_, w);
     const std::size_t end = needs_.texcoord && !cut ? attribute_count : color_channels;
     AttributeLanes varying;
-    // Where every w is 1 the quotient is the dividend.
+    // If every w is 1, the quotient equals the dividend.
     varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);
     varying.inverse_w = {w};
     for (std::size_t a = begin; a < end; ++a) {
@@ -60,8 +60,7 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
 
 int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const {
     if (!kernels_.attributes(varying, lanes)) return 0;
-    // The kernel met a lane that its filter left open: each plane
-    // is done again, with the exact arithmetic where it is needed.
+    // The kernel's filter could not decide a lane: every plane is computed again, with exact arithmetic where needed.
     int fallbacks = 0;
     alignas(64) Lanes<float> inverse_w;
     if (varying.has_w) fallbacks += round_plane(varying.inverse_w, lanes, inverse_w.data());

@@ -1,5 +1,5 @@
-// rasterizer/values/chip_fill.cpp - what of a batch the kernels of the chip's interpolators fill (chip_lanes.h), and
-// where the definitions do it instead (fragment_values.h).
+// rasterizer/values/chip_fill.cpp - the part of a batch that the kernels of the chip's interpolators fill
+// (chip_lanes.h), and the fallback to the definitions (fragment_values.h).
 #include <utility>
 
 #include "rasterizer/chip/color_weights.h"
@@ -28,14 +28,15 @@ using Corners3 = std::array<float, 3>;
     return inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2];
 }
 
-// With the weights of colours and coordinates.
+// The triangle with the weights of colours and coordinates.
 [[nodiscard]] ChipTriangle attribute_triangle(const DrawnTriangle& triangle, const Corners3& inverse_w,
                                               const DepthHypothesis& h) noexcept {
     if (is_affine(inverse_w)) return {triangle.weights, h};
     return {triangle.weights, h, w_of(triangle)};
 }
 
-// Channels of one code: the weights add up to 256, so that (256 c + 128) >> 8 is c. True if no other is left.
+// Fills channels with the same code at all corners: the weights add up to 256, so that (256 c + 128) >> 8 is c. True if
+// no other channel is left.
 [[nodiscard]] bool fill_constant_channels(ColorLanes& colors, int count) noexcept {
     bool is_done = true;
     for (std::size_t c = 0; c < color_channels; ++c) {
@@ -51,7 +52,7 @@ using Corners3 = std::array<float, 3>;
 
 }  // namespace
 
-// Fixed point: the chip cuts, whatever the rounding rule, and clamps to the codes of the depth range.
+// Fixed point: the chip truncates, whatever the rounding rule, and clamps to the codes of the depth range.
 ChipConversion FragmentValues::chip_conversion() const noexcept {
     if (!to_code_.is_fixed()) return {to_code_.kind, value_to_code_.least, value_to_code_.greatest};
     return {CodeKind::fixed, static_cast<double>(depth_code(to_code_.least, to_code_)),

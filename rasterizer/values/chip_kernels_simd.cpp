@@ -1,5 +1,5 @@
-// rasterizer/values/chip_kernels_simd.cpp - the kernels of chip_lanes.h for every instruction set: the fragments of a
-// batch. How kernels are written: kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
+// rasterizer/values/chip_kernels_simd.cpp - the kernels of chip_lanes.h, compiled once per instruction set. How kernels
+// are written: kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/chip_kernels_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once a target
@@ -40,14 +40,14 @@ void window_z(const ChipTriangle& t, const NarrowWindowZ& z, const std::uint16_t
     window_z_of<CodeKind::fixed>(t, z, x, y, count, to, out);
 }
 
-// 256ths of the weights of corners 0 and 2; corner 1 has the rest.
+// The weights of corners 0 and 2 in units of 1/256; corner 1 has the rest.
 struct OuterParts {
     hn::Vec<I32> w0, w2;
 };
 HWY_INLINE OuterParts outer_parts(const Corners& b) {
     const Remainder rest{b};
     const V64 scale = all(256.0);
-    // floor(256 (1 - x)) of the exact sum x of the two others, as ColorWeights has it.
+    // floor(256 (1 - x)), where x is the exact sum of the other two weights, as in ColorWeights.
     const TwoLanes x = two_sum_lanes(b.c1, hn::IfThenElse(rest.is0, b.c2, b.c0));
     const V64 scaled = hn::Mul(scale, x.high), down = hn::Trunc(scaled);
     const Mask64 is_above = hn::Or(hn::Lt(down, scaled), hn::Gt(x.low, hn::Zero(F64{})));
@@ -78,7 +78,7 @@ void colors(const ChipTriangle& t, const ColorLanes& colors, const std::uint16_t
     }
 }
 
-// CutSum::at and its cut to binary32. Between these powers no step leaves the normal numbers of binary32.
+// CutSum::at, truncated to binary32. Between these two powers every intermediate is a normal number of binary32.
 constexpr double least_power = 0x1p-100, greatest_power = 0x1p100;
 
 bool coordinates(const ChipTriangle& t, const CoordinateLanes& coordinates, const std::uint16_t* x,
@@ -105,7 +105,7 @@ bool coordinates(const ChipTriangle& t, const CoordinateLanes& coordinates, cons
             const auto cut = [&](V64 v) HWY_ATTR { return hn::Trunc(hn::Mul(v, units)); };
             const V64 sum =
                 hn::Add(hn::Add(cut(all(u.middle)), cut(hn::Mul(b0, all(u.first)))), cut(hn::Mul(b2, all(u.last))));
-            // Integers have no -0.
+            // Adding 0 turns -0 into +0: the definition sums integers, which have no -0.
             const V64 v = cut_24(hn::Mul(hn::Add(sum, hn::Zero(d)), unit));
             hn::StoreU(hn::DemoteTo(F32{}, v), F32{}, u.out + i);
         }

@@ -1,10 +1,10 @@
-// rasterizer/values/chip_lanes-inl.h - NV2A's weights, window depth and its codes, a vector of binary64 at a time. For
-// *_simd.cpp alone, as weights-inl.h.
+// rasterizer/values/chip_lanes-inl.h - weights, window depth and depth codes of NV2A's interpolators, for a vector of
+// binary64 at a time. For *_simd.cpp only, like weights-inl.h.
 //
 // Rule     The operations and their order are those of CutWeights, PerspectiveWeights and WindowZ24. Exponents are
-//          compared as the powers of two that a mask leaves of a number; a cut is a mask, or a truncation of an exactly
+//          compared as powers of two, which a bit mask extracts; truncation is a bit mask, or Trunc of an exactly
 //          scaled number.
-// Numbers  chip_lanes.h. Lanes that are not covered may hold anything, and are looked at by no one.
+// Numbers  chip_lanes.h. Lanes that the triangle does not cover may contain any value; their results are not used.
 // Tests    tests/rasterizer/values/chip_lanes_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/values/chip_lanes.h"
@@ -30,28 +30,29 @@ constexpr std::uint64_t leading_24 = ~std::uint64_t{0} << 29, leading_25 = ~std:
 HWY_INLINE V64 all(double v) { return hn::Set(F64{}, v); }
 HWY_INLINE V64 kept(V64 v, std::uint64_t mask) { return hn::And(v, hn::BitCast(F64{}, hn::Set(U64{}, mask))); }
 HWY_INLINE V64 cut_24(V64 v) { return kept(v, leading_24); }
-// 2^floor(log2 |v|), or 0.
+// 2^floor(log2 |v|); 0 for zero.
 HWY_INLINE V64 leading_power(V64 v) { return kept(v, exponent_field); }
 HWY_INLINE V64 added_bits(V64 v, hn::Vec<U64> more) { return hn::BitCast(F64{}, hn::Add(hn::BitCast(U64{}, v), more)); }
 
-// 1 / v of a power of two.
+// 1 / v for a power of two v.
 HWY_INLINE V64 inverse_power(V64 v) {
     const auto twice_bias = hn::Set(U64{}, std::uint64_t{2 * 1023} << 52);
     return hn::BitCast(F64{}, hn::Sub(twice_bias, hn::BitCast(U64{}, v)));
 }
 
-// A number for each of the three corners.
+// One value per corner.
 struct Corners {
     V64 c0, c1, c2;
 };
 
-// Edge values in the place of weights, and the first, which they leave of the area.
+// The edge values of all three corners: e holds those of corners 1 and 2 in place of weights; corner 0 has the rest of
+// the area.
 HWY_INLINE Corners edge_values(const Weights& e, V64 area) { return {hn::Sub(hn::Sub(area, e.b1), e.b2), e.b1, e.b2}; }
 
 HWY_INLINE Corners cut_products(const Corners& p, V64 r) {
     return {cut_24(hn::Mul(p.c0, r)), cut_24(hn::Mul(p.c1, r)), cut_24(hn::Mul(p.c2, r))};
 }
-// cut_reciprocal of `sum`, of which `exact` is 1 / sum, rounded. `low` and the mask: ChipTriangle's.
+// cut_reciprocal of `sum`; `exact` is 1 / sum, rounded. `low` and the mask are those of ChipTriangle.
 HWY_INLINE V64 cut_inverse(V64 sum, V64 exact, double low, std::uint64_t reciprocal_mask) {
     const auto is_power = hn::Eq(hn::BitCast(U64{}, kept(sum, fraction_field)), hn::Zero(U64{}));
     const V64 cut = kept(hn::Mul(exact, all(low)), reciprocal_mask);
@@ -69,7 +70,7 @@ class CutWeightsAt {
           reciprocal_mask_{t.mask},
           is_perspective_{t.is_perspective} {}
 
-    // CutWeights::at, or PerspectiveWeights::cut_at.
+    // CutWeights::at, or PerspectiveWeights::cut_at if w differs between the corners.
     HWY_INLINE Corners at(const Corners& e) const {
         if (constant_r_ != 0.0) return cut_products(e, all(constant_r_));
         Corners p{cut_24(e.c0), cut_24(e.c1), cut_24(e.c2)};
@@ -96,13 +97,14 @@ class CutWeightsAt {
     const bool is_perspective_;
 };
 
-// The corner of with_remainder: is0, is2, or neither for corner 1.
+// The corner that takes the remainder in with_remainder: is0, is2, or corner 1 if both are false.
 struct Remainder {
     Mask64 is0, is2;
 
     HWY_INLINE explicit Remainder(const Corners& b) {
         const V64 k0 = leading_power(b.c0), k1 = leading_power(b.c1), k2 = leading_power(b.c2);
-        // remainder_vertex: 2 alone or with 0; else 1 alone or with 2; else 0 alone or with 1; else 2.
+        // As remainder_vertex decides: 2 if largest, alone or tied with 0; else 1 if largest, alone or tied with 2;
+        // else 0 if largest, alone or tied with 1; else 2.
         const Mask64 is2_first = hn::And(hn::Ge(k2, k0), hn::Gt(k2, k1)), is1 = hn::Gt(k1, k0);
         is0 = hn::AndNot(is2_first, hn::AndNot(is1, hn::Gt(k0, k2)));
         is2 = hn::Or(is2_first, hn::AndNot(is1, hn::Not(hn::Gt(k0, k2))));
@@ -119,29 +121,29 @@ HWY_INLINE TwoLanes two_sum_lanes(V64 a, V64 b) {
     const V64 a_seen = hn::Sub(sum, b_seen);
     return {sum, hn::Add(hn::Sub(a, a_seen), hn::Sub(b, b_seen))};
 }
-// cut_sum_24. The two terms' signs differ where their product is negative.
+// cut_sum_24. The two terms have different signs if their product is negative.
 HWY_INLINE V64 cut_sum(const TwoLanes& s) {
     const Mask64 is_below = hn::And(hn::Eq(cut_24(s.high), s.high), hn::Lt(hn::Mul(s.low, s.high), hn::Zero(F64{})));
     const auto minus_one = hn::BitCast(U64{}, hn::VecFromMask(F64{}, is_below));
     return cut_24(added_bits(s.high, minus_one));
 }
 
-// WindowZ24 of narrow corners, without offset. `last_place`: 2^(1 - sum_bits).
+// WindowZ24 for narrow corners, without the offset. `last_place` is 2^(1 - sum_bits).
 struct WindowZLanes {
     V64 z0, z1, z2;
-    V64 d10, d20, d21, minus_d10, minus_d20, minus_d21;  // NarrowWindowZ's, and from the other end
+    V64 d10, d20, d21, minus_d10, minus_d20, minus_d21;  // the differences of NarrowWindowZ and their negatives
 
     HWY_INLINE V64 value(const Corners& e, const Corners& b, double last_place) const {
         const V64 k0 = leading_power(e.c0), k1 = leading_power(e.c1), k2 = leading_power(e.c2);
         const Mask64 is1 = hn::And(hn::Ge(k1, k0), hn::Ge(k1, k2)), is0 = hn::AndNot(is1, hn::Ge(k0, k2));
         const Mask64 is01 = hn::Or(is0, is1);
-        // The reference's depth, and the two others' products.
+        // The depth of the reference corner, and the products of the other two corners.
         const V64 z = hn::IfThenElse(is1, z1, hn::IfThenElse(is0, z0, z2));
         const V64 dj = hn::IfThenElse(is0, d10, hn::IfThenElse(is1, minus_d10, minus_d20));
         const V64 dk = hn::IfThenElse(is0, d20, hn::IfThenElse(is1, d21, minus_d21));
         const V64 pj = hn::Mul(hn::IfThenElse(is0, b.c1, b.c0), dj);
         const V64 pk = hn::Mul(hn::IfThenElse(is01, b.c2, b.c1), dk);
-        // The largest term's power of two; where all are 0 any will do.
+        // The power of two of the largest term; if all terms are 0, any power gives the same result.
         const V64 own = hn::Max(leading_power(z), all(0x1p-500));
         const V64 largest = hn::Max(own, hn::Max(leading_power(pj), leading_power(pk)));
         const V64 unit = hn::Mul(largest, all(last_place)), units = inverse_power(unit);
@@ -150,7 +152,7 @@ struct WindowZLanes {
     }
 };
 
-// Of one triangle in all lanes, with its offset.
+// Evaluates one triangle's window depth in all lanes, with its offset.
 class WindowZAt {
   public:
     HWY_INLINE explicit WindowZAt(const NarrowWindowZ& z)
@@ -180,7 +182,7 @@ HWY_INLINE hn::Vec<U32> chip_codes(V64 value, const ChipConversion& to) {
     if constexpr (kind == CodeKind::fixed) {
         return hn::BitCast(U32{}, hn::DemoteTo(I32{}, v));
     } else {
-        // to_d16f_code and to_d24f_code: what is below the least normal code is 0.
+        // As in to_d16f_code and to_d24f_code, values below the smallest normal code give code 0.
         constexpr bool is_d16f = kind == CodeKind::d16f;
         constexpr double least_normal = is_d16f ? 0x1p-6 : 0x1p-126;
         constexpr int dropped = is_d16f ? 40 : 36;

@@ -7,7 +7,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 namespace {
 
-// z_i - z_j, 0 below the least depth; `is_narrow` stays only if 29 bits hold it.
+// z_i - z_j, or 0 below the least depth; clears `is_narrow` if the difference does not fit in 29 bits.
 [[nodiscard]] double narrow_difference(double a, double b, bool& is_narrow) noexcept {
     const TwoTerms d = two_sum(a, -b);
     is_narrow = is_narrow && d.low == 0.0 && cut_bits(d.high, narrow_bits) == d.high;

@@ -1,11 +1,9 @@
-// rasterizer/values/chip_lanes.h - what the kernels of NV2A's interpolators take of a triangle: numbers of binary64
-// alone.
+// rasterizer/values/chip_lanes.h - the inputs of the kernels for NV2A's interpolators: binary64 values per triangle.
 //
-// Rule     window_z.h, color_weights.h and cut_coordinates.h are the definitions. The kernels know
-//          WeightRule::cut_edges, edge values that binary64 adds up exactly, and corners whose differences are narrow;
-//          all else goes by the definitions.
-// Numbers  Area at most 2^52: where the triangle covers a pixel its edge values lie in 0..area, and so does every
-//          partial sum of them.
+// Rule     window_z.h, color_weights.h and cut_coordinates.h are the definitions. The kernels implement
+//          WeightRule::cut_edges, edge values whose sum is exact in binary64, and corners whose depth differences are
+//          narrow; everything else runs the definitions.
+// Numbers  The area is at most 2^52: at a covered pixel each edge value and each partial sum of them is in 0..area.
 // Tests    tests/rasterizer/values/chip_lanes_test.cpp, tests/rasterizer/walk/window_z_rows_test.cpp
 #pragma once
 #include <algorithm>
@@ -22,7 +20,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// What cut_reciprocal multiplies by, 1 - d 2^-32, and which bits it keeps.
+// The factor 1 - d 2^-32 of cut_reciprocal, and the mask of the bits that it keeps.
 [[nodiscard]] constexpr double reciprocal_factor(const DepthHypothesis& h) noexcept {
     return 1.0 - h.reciprocal_deficit * 0x1p-32;
 }
@@ -30,14 +28,15 @@ inline namespace strict {
     return ~std::uint64_t{0} << (53 - h.reciprocal_bits);
 }
 
-// A triangle's edges and the rule of its weights: CutWeights, or PerspectiveWeights where w differs.
+// A triangle's edges and the rule of its weights: CutWeights, or PerspectiveWeights if w differs between the corners.
 struct ChipTriangle {
-    PixelWeights edges;           // of PixelWeights::EdgesAlone
-    std::array<double, 3> q{};    // |1 / w| cut to 24 bits
-    bool is_perspective = false;  // q counts
+    PixelWeights edges;           // constructed with PixelWeights::EdgesAlone
+    std::array<double, 3> q{};    // |1 / w| truncated to 24 bits
+    bool is_perspective = false;  // q is used
     double low = 1.0;             // reciprocal_factor
     std::uint64_t mask = 0;       // reciprocal_mask
-    // r where it is the same at every pixel: the edge values have 24 bits, and nothing is cut off them. Else 0.
+    // r if it is the same at every pixel: the edge values have at most 24 bits, so truncation does not change them.
+    // Otherwise 0.
     double constant_r = 0.0;
 
     [[nodiscard]] static bool suits(const PixelWeights& edges, const TriangleRecord& record,
@@ -50,7 +49,7 @@ struct ChipTriangle {
         edges.r = 1.0;
         if (edges.area < 0x1p24) constant_r = cut_reciprocal(edges.area, h);
     }
-    // Of corners whose w differ; their weights are those of PerspectiveWeights.
+    // For corners whose w differ; their weights are those of PerspectiveWeights.
     ChipTriangle(const PixelWeights& weights, const DepthHypothesis& h, const std::array<float, 3>& w) noexcept
         : ChipTriangle{weights, h} {
         is_perspective = true;
@@ -59,7 +58,7 @@ struct ChipTriangle {
     }
 };
 
-// z of the corners and the offset that fragments add, as WindowZ24 takes them.
+// z of the corners and the polygon offset added per fragment, as WindowZ24 takes them.
 struct WindowZCorners {
     std::array<double, 3> z;
     double offset;
@@ -67,45 +66,48 @@ struct WindowZCorners {
 [[nodiscard]] WindowZCorners window_z_corners(const Geometry& geometry, std::size_t triangle,
                                               const PolygonOffset& offset) noexcept;
 
-// The corners of WindowZ24 where every product of a weight and a difference is exact in binary64.
+// The corners of WindowZ24 if every product of a weight and a difference is exact in binary64.
 struct NarrowWindowZ {
     std::array<double, 3> z{};
-    double d10 = 0.0, d20 = 0.0, d21 = 0.0;  // z1 - z0, z2 - z0, z2 - z1; 0 below the least depth
+    double d10 = 0.0, d20 = 0.0, d21 = 0.0;  // z1 - z0, z2 - z0, z2 - z1; 0 if below the least depth
     double offset = 0.0;
     int sum_bits = 29;
-    bool is_narrow = true;  // false: the values here mean nothing
+    bool is_narrow = true;  // false: the other fields are not valid
 
     NarrowWindowZ(const WindowZCorners& corners, const DepthHypothesis& h) noexcept;
 };
 
-// How a value in the buffer's own units becomes its code: cut, between two limits. Fixed point: the limits are codes.
+// Converts a value in the buffer's own units to a code: clamped to two limits, then truncated. For fixed point the
+// limits are codes.
 struct ChipConversion {
     CodeKind kind = CodeKind::fixed;  // fixed, d16f or d24f
     double least = 0.0, greatest = 0.0;
 };
 
-// What a pass of window_z asks of a triangle: its codes, and which of its fragments the depth range removes.
+// What a pass that stores window_z needs for a triangle: the conversion to codes, and the depth range that removes
+// fragments.
 struct ChipDepth {
     ChipConversion to_code;
-    PolygonOffset offset;            // that fragments add (OffsetRule::fragments)
+    PolygonOffset offset;            // added per fragment (OffsetRule::fragments)
     double least = 0, greatest = 0;  // the depth range in the buffer's own units
-    double low = 0, high = 0;        // and in the units of vertex z
-    bool clips = false;              // ZClip::per_fragment, and no depth clamp
+    double low = 0, high = 0;        // the depth range in the units of vertex z
+    bool clips = false;              // ZClip::per_fragment without depth clamp
 
-    // A convex combination leaves the range only if a corner does; the products are exact.
+    // A convex combination leaves the range only if a corner is outside; the products are exact.
     [[nodiscard]] bool may_leave_range(const std::array<double, 3>& z) const noexcept {
         const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
         return clips && (nearest < low || farthest > high);
     }
 };
 
-// A vertex colour's codes at the corners, and where its channel goes; null: it is written already.
+// A vertex colour's codes at the corners, and the output array of each channel; null if that channel is already
+// written.
 struct ColorLanes {
     std::array<std::array<std::int32_t, 3>, color_channels> codes{};
     std::array<float*, color_channels> out{};
 };
 
-// A coordinate that changes over the triangle: CutSum's terms, and where it goes.
+// A coordinate that varies over the triangle: the terms of CutSum, and the output array.
 struct CoordinateLanes {
     static constexpr std::size_t most = 4;
     struct Term {
@@ -117,21 +119,23 @@ struct CoordinateLanes {
 };
 
 struct ChipKernels {
-    // Codes of window_z at `count` pixels; `z` is narrow.
+    // Codes of window_z at `count` pixels; `z` must be narrow.
     void (*window_z)(const ChipTriangle& t, const NarrowWindowZ& z, const std::uint16_t* x, const std::uint16_t* y,
                      int count, const ChipConversion& to, std::uint32_t* codes) noexcept;
     // Colours by 8-bit weights.
     void (*colors)(const ChipTriangle& t, const ColorLanes& colors, const std::uint16_t* x, const std::uint16_t* y,
                    int count) noexcept;
-    // Coordinates by cut weights; true if some lane is beyond what the kernel knows: then the definition must do it.
+    // Coordinates by truncated weights; true if a lane is outside the kernel's range, in which case the definition must
+    // be run.
     bool (*coordinates)(const ChipTriangle& t, const CoordinateLanes& coordinates, const std::uint16_t* x,
                         const std::uint16_t* y, int count) noexcept;
 };
 
-// Null where the definitions run: on the scalar set.
+// Null if the scalar reference is selected: the definitions run.
 [[nodiscard]] const ChipKernels* chip_kernels() noexcept;
 
-// For the kernels. values[i] of WindowZ24 at (x[i], y[i]), for every bit i of `lanes`: corners that are not narrow.
+// For the kernels: sets values[i] of WindowZ24 at (x[i], y[i]) for every set bit i of `lanes`, for corners that are not
+// narrow.
 void wide_window_z(const Geometry& geometry, std::uint32_t triangle, const PolygonOffset& offset, const std::int32_t* x,
                    const std::int32_t* y, std::uint32_t lanes, double* values) noexcept;
 

@@ -1,5 +1,5 @@
 // rasterizer/values/chip_values.cpp - depths that the chip computes itself, window_z and w_buffer, and the depth range
-// that looks at them (fragment_values.h).
+// test that uses them (fragment_values.h).
 #include <algorithm>
 
 #include "rasterizer/chip/w_buffer.h"
@@ -31,7 +31,7 @@ void FragmentValues::fill_chip_values(DepthPath path, const SetupTriangle& t, co
     fill(WindowZ24{t.given_z, lanes.edges->area(), h, chip_offset(slope, offset_)});
 }
 
-// A w buffer's w may leave the range, whatever z does.
+// With a w buffer, w may leave the range even if z does not.
 bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
     if (depth_.path == DepthPath::w_buffer) {
         const std::array<float, 3> w = scaled_w(t, w_scale_);
@@ -41,8 +41,9 @@ bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcep
     return chip_.may_leave_range(t.z);
 }
 
-// ZClip::per_fragment compares the chip's value with the range, where the chip makes one (depth.md 5.2): the w
-// buffer's, else that of window z, whichever path is stored. Elsewhere shader_z [A]: what rounds to n or f is inside.
+// ZClip::per_fragment compares the chip's own value with the range if the chip computes one (depth.md 5.2): the w
+// buffer's, else window z, whichever path is stored. Otherwise shader_z is compared [A]: a value that rounds to n or f
+// is inside.
 void FragmentValues::drop_outside_depth_range(const SetupTriangle& t, const TriangleLanes& lanes, int first,
                                               FragmentBatch& batch, WeightLanes& weights) const noexcept {
     Lanes<double> value;

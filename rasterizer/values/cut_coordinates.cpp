@@ -11,7 +11,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 namespace {
 
-// Weights of corners 0 and 2: corner 1 is the one that differences are taken from.
+// Weights of corners 0 and 2: differences are taken from corner 1.
 struct OuterWeights {
     double b0, b2;
 };
@@ -25,7 +25,7 @@ struct OuterWeights {
     return {b[0], b[2]};
 }
 
-// The terms that are added at every fragment, but for their weights.
+// The terms of the sum, before they are multiplied by the weights.
 struct CutSum {
     double middle, first, last;
 
@@ -36,8 +36,9 @@ struct CutSum {
         const double p0 = b.b0 * first, p2 = b.b2 * last;
         const int k = std::max(
             {exponent_of(middle), exponent_of(b.b0) + exponent_of(first), exponent_of(b.b2) + exponent_of(last)});
-        // The unit would leave binary64's exponents. Binary32 corners lead here only as zeros, infinities or NaN.
-        // 0, infinities and NaN: an infinite weight times 0 has small exponents and is NaN all the same.
+        // The unit would exceed the exponent range of binary64, or a product is not finite. With binary32 corners this
+        // happens only for zeros, infinities and NaN. The plain sum then is 0, infinite or NaN: an infinite weight
+        // times 0 has small exponents but is still NaN.
         if (k < -400 || k > 400 || !std::isfinite(p0 + p2)) return (middle + p0) + p2;
         const double unit = power_of_two(k - 23), units = power_of_two(23 - k);
         const auto cut = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };

@@ -5,7 +5,7 @@
 namespace strata::rasterizer {
 namespace {
 
-// Whether planes are divided at all; where every w is 1 the division would change no bit (attributes.md 1.3).
+// True if planes are divided: if every w is 1, the division would not change a bit (attributes.md 1.3).
 [[nodiscard]] bool has_w(const std::array<float, 3>& inverse_w) noexcept {
     return !(inverse_w[0] == 1.0f && inverse_w[1] == 1.0f && inverse_w[2] == 1.0f);
 }
@@ -17,15 +17,15 @@ namespace {
     return plane;
 }
 
-// Rounded to binary32 first and then to the hypothesis' bits: two roundings, as depth.md 4.5 writes it.
+// Rounded to binary32 first and then to the bits of the hypothesis: two roundings, as in depth.md 4.5.
 int rounded_plane(const RationalPlane& plane, const TriangleLanes& lanes, int bits, float* out) noexcept {
     const int fallbacks = round_plane(plane, lanes, out);
     for (int i = 0; i < lanes.count; ++i) out[i] = round_mantissa(out[i], bits);
     return fallbacks;
 }
 
-// The projective coordinate in binary64: products u_i * (1 / w_i) of two binary32 are exact there, everything behind
-// them rounds to binary64.
+// The projective coordinate in binary64: the products u_i * (1 / w_i) of two binary32 are exact, every later operation
+// rounds to binary64.
 void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w,
                         const TriangleLanes& lanes, double* out) noexcept {
     if (is_constant(u)) return static_cast<void>(std::fill_n(out, lanes.count, double{u[0]}));
@@ -42,7 +42,7 @@ void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3
     }
 }
 
-// r and q as attributes of one call; false if a lane is not certain.
+// Computes r and q as attributes in one call; false if a lane is not certain.
 [[nodiscard]] bool divided_by_kernel(const QuotientCorners& corners, const TriangleLanes& lanes,
                                      const LaneKernels& kernels, double* out) noexcept {
     alignas(64) Lanes<float> r, q;
@@ -97,7 +97,8 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
                    const LaneKernels& kernels, double* out) noexcept {
     const bool is_plain = hypothesis.interpolant_bits == 24 && hypothesis.divide == DivideRule::exact;
     if (is_plain && divided_by_kernel(corners, lanes, kernels, out)) return 0;
-    // The hypothesis of binary64 interpolants: planes are the filter's own value, so there are no exact fallbacks.
+    // The hypothesis of binary64 interpolants: the filter's own value is the plane's value, so there are no exact
+    // fallbacks.
     if (hypothesis.interpolant_bits == full_double) {
         Lanes<double> q;
         interpolate_double(corners.r, corners.inverse_w, lanes, out);

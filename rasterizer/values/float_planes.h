@@ -1,15 +1,15 @@
-// rasterizer/values/float_planes.h - planes of depth, 1 / w and attributes by rasterizers that round every step to
+// rasterizer/values/float_planes.h - planes of depth, 1 / w and attributes for rasterizers that round every step to
 // binary32.
 //
-// Rule     reciprocal_area: corners 0 and 1 change places if the snapped triangle is clockwise in memory order; each
-//          difference of positions is multiplied by 1 / area before the slopes are made of it; the value at pixel (i,
-//          j) is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in the
-//          order of their y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from
-//          there + dx, then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0)
-//          dy), made by ordered_planes.h.
+// Rule     reciprocal_area: corners 0 and 1 are exchanged if the snapped triangle is clockwise in memory order; each
+//          difference of positions is multiplied by 1 / area before the slopes are computed from it; the value at pixel
+//          (i, j) is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in
+//          order of y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from there +
+//          dx, then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0) dy), with
+//          the plane from ordered_planes.h.
 // Source   mesa-rasterizers.md 2.4 and 3.3.
-// Numbers  Pixels are below 2^16, so they are exact. An area that rounds to 0 leaves no finite slope: NaN and
-//          infinities.
+// Numbers  Pixel coordinates are below 2^16, so they are exact. If the area rounds to 0, no slope is finite: NaN and
+//          infinities result.
 // Tests    tests/rasterizer/values/float_planes_test.cpp
 #pragma once
 #include <array>
@@ -24,7 +24,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// A binary32 whose operations read and leave zeros, of their sign, instead of numbers below 2^-126.
+// A binary32 whose operations flush operands and results below 2^-126 to zeros of the same sign.
 struct Flushed {
     float v = 0.0f;
 
@@ -39,10 +39,10 @@ struct Flushed {
     friend constexpr Flushed operator-(Flushed a) noexcept { return Flushed{-a.v}; }
 };
 
-// The value at the corner of pixel (0, 0) plus half a pixel, and its change to the next pixel right and down.
+// The value at the centre of pixel (0, 0), and its change to the next pixel right and down.
 struct FloatPlane {
     float origin = 0.0f, dx = 0.0f, dy = 0.0f;
-    // Of greatest_w: where the origin lies, and how row y of memory is counted: row_base + row_step y.
+    // For greatest_w: the position of the origin, and how row y of memory is counted: row_base + row_step y.
     float x0 = 0.0f, y0 = 0.0f, row_base = 0.0f, row_step = 1.0f;
     // What the numbers of pixels are raised by: where the sample lies, from where the origin is (coverage.md 12.2).
     float right = 0.0f, down = 0.0f;
@@ -75,7 +75,7 @@ struct FloatPlane {
     }
 };
 
-// What the planes of one triangle have in common: the order of its corners, and differences of their positions.
+// Common to all planes of one triangle: the order of its corners, and differences of their positions.
 class FloatPlanes {
   public:
     // With a sample the planes' origin is the corner of pixel (0, 0), and their points are those of the samples.
@@ -123,7 +123,7 @@ class FloatPlanes {
     [[nodiscard]] static constexpr Difference difference(const WindowPosition& a, const WindowPosition& b) noexcept {
         return {a[0] - b[0], a[1] - b[1]};
     }
-    // a b - c d: three roundings.
+    // a b - c d with three roundings.
     [[nodiscard]] static constexpr float less(float a, float b, float c, float d) noexcept {
         const float ab = a * b, cd = c * d;
         return ab - cd;
@@ -157,7 +157,7 @@ class FloatPlanes {
     float reciprocal_ = 0.0f;
 };
 
-// The planes of a set-up triangle, by the rules of its geometry.
+// The planes of a triangle after set-up, by the rules of its geometry.
 [[nodiscard]] inline FloatPlanes float_planes(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
     const RasterRules& rules = geometry.rules;
     const std::array<SubpixelPoint, 3> p = geometry.points(triangle);

@@ -13,7 +13,7 @@ namespace strata::rasterizer {
 
 namespace {
 
-// Whether a colour channel with these values at the corners is that value at every fragment.
+// True if a colour channel with these corner values has that value at every fragment.
 [[nodiscard]] bool is_kept(const std::array<float, 3>& values, const RasterRules& rules) noexcept {
     const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint32_t>(values[i]); };
     return rules.equal_colors == EqualColors::kept && bits(0) == bits(1) && bits(0) == bits(2);
@@ -21,7 +21,7 @@ namespace {
 
 }  // namespace
 
-// The general way drops fragments, so attributes come after it.
+// fill_values may drop fragments, so attributes are filled after it.
 int FragmentValues::fill_float_values(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       WeightLanes& weights) const {
     int fallbacks = 0;
@@ -35,7 +35,7 @@ int FragmentValues::fill_float_values(const DrawnTriangle& triangle, int first, 
     return fallbacks;
 }
 
-// By PlaneRule::greatest_w, whose depths have no other units than the depth range.
+// For PlaneRule::greatest_w, whose depths are always in the units of the depth range.
 void FragmentValues::fill_ordered_z(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept {
     const Geometry& geometry = triangle.geometry;
     const OrderedPlanes planes = ordered_planes(geometry, triangle.index);

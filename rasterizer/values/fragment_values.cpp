@@ -39,13 +39,13 @@ void to_codes(const Value* z, int count, const DepthConversion<Value>& to, std::
     return path == DepthPath::perspective_rq || path == DepthPath::depth_replace;
 }
 
-// The paths that are a value before they are a code.
+// True for the paths that compute a value before it is converted to a code.
 [[nodiscard]] bool is_value(DepthPath path, const DepthHypothesis& hypothesis) noexcept {
     return is_quotient(path) || path == DepthPath::float32_plane ||
            (path == DepthPath::window_z && hypothesis.window_z == WindowZRule::float32);
 }
 
-// The conversions that the kernels know.
+// True for the conversions that the kernels implement.
 [[nodiscard]] bool has_vector_codes(const DepthConversion<float>& to) noexcept {
     return !to.wraps && (to.kind == CodeKind::fixed || to.kind == CodeKind::binary32);
 }
@@ -64,7 +64,7 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
       value_to_code_{depth_conversion(depth.format, rules_.depth_rounding, code_units_, geometry.state.depth_near,
                                       geometry.state.depth_far)},
       chip_kernels_{chip_kernels()} {
-    // A reference by the stored path itself is a copy of that code.
+    // A reference by the stored path is a copy of the stored code, so it needs that code.
     needs_.code |= needs.reference;
     rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
     if (rules_.offset_rule == OffsetRule::fragments) offset_ = geometry.state.polygon_offset;
@@ -77,12 +77,13 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
              to_code_.least * z_units_, to_code_.greatest * z_units_,
              clips_fragments_};
     const bool is_float = depth.format == DepthFormat::d32f;
-    // The codes of float32, those of d32f by any path, and references are made from shader_z.
+    // Codes of float32, codes of d32f by any path, and references are computed from shader_z.
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_reversed_ = geometry.state.depth_order == DepthOrder::greater;
-    // Keys of reversed depth are those of the range (depth.md 2.9); the formats without a sign have no other codes.
+    // Keys of reversed depth are limited to the depth range (depth.md 2.9); the formats without a sign have no codes
+    // outside it.
     to_code_.wraps = rules_.depth_limits == DepthLimits::wrap && depth.path == DepthPath::float32 && !is_reversed_ &&
                      !geometry.state.depth_clamp && (to_code_.is_fixed() || is_float);
     if (rules_.depth_limits == DepthLimits::zero_to_one && depth.path == DepthPath::float32 && !is_reversed_ &&
@@ -145,7 +146,7 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
         return true;
     }
     const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
-    // round_plane converts a constant by itself, once (depth.md 3.2).
+    // round_plane converts a constant directly, with one rounding (depth.md 3.2).
     if (plane.is_constant()) return false;
     const DepthLanes out{to_code_, needs_.shader_z ? &batch.shader_z[f] : nullptr,
                          needs_.code ? &batch.code[f] : nullptr, needs_attributes_ ? &weights.b1[f] : nullptr,
@@ -154,7 +155,7 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
                            batch.count - first, out);
 }
 
-// `depth` is that of fragments `first` on.
+// depth[0] belongs to fragment `first`.
 void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights,
                                    double* depth) const noexcept {
     const auto begin = static_cast<std::size_t>(first);
@@ -179,7 +180,7 @@ void FragmentValues::fill_float_codes(int first, FragmentBatch& batch) const noe
     to_codes(&batch.shader_z[f], padded(batch.count - first), to_code_, &batch.code[f]);
 }
 
-// The exact plane in the buffer's own units, rounded once to binary32, and that cut: the chip's float formats.
+// The exact plane in the buffer's own units, rounded once to binary32 and then truncated: the chip's float formats.
 int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLanes& lanes,
                                        std::uint32_t* out) const noexcept {
     const bool in_units = z_units_ == code_units_;
@@ -196,7 +197,7 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
     switch (to_code_.kind) {
         case CodeKind::binary32: {
             DepthConversion<float> in_range = to_code_;
-            in_range.wraps = false;  // exact codes are what an audit sorts by
+            in_range.wraps = false;  // an audit sorts by exact codes, so they must not wrap
             to_codes(shader_z, padded(lanes.count), in_range, out);
             return 0;
         }
@@ -209,7 +210,7 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
     const std::uint32_t max = max_code(depth_.format);
     const bool in_codes = z_units_ == max;
     const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
-    // The exact plane knows no binary32 product: it rounds once, for product_even, too, a half up.
+    // The exact plane has no binary32 product: it rounds once, for product_even too, with a half rounded up.
     const double half = cuts(rules_.depth_rounding) ? 0.0 : 0.5;
     const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
     const std::uint32_t least = depth_code(to_code_.least, to_code_),
@@ -237,8 +238,8 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
     return 0;
 }
 
-// A path's depth as binary64 in the buffer's own units, before any
-// clamp: what is compared unquantised, and what value paths convert.
+// A path's depth as binary64 in the buffer's own units, before any clamp: used by unquantized comparison and converted
+// by value paths.
 int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                       const TriangleLanes& lanes, const float* shader_z, double* out) const {
     const DepthHypothesis& h = rules_.hypothesis;
@@ -278,14 +279,14 @@ int FragmentValues::fill_value_codes(const SetupTriangle& t, const DrawnTriangle
     return fallbacks;
 }
 
-// The compared depth (depth.md 6.1). Its code is made exactly as a pass that stored it by that path would make it.
+// The compared depth (depth.md 6.1). Its code is computed exactly as if a pass stored this path.
 int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                    FragmentBatch& batch, const WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);
     const DepthPath path = depth_.reference.value_or(depth_.path);
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
-    if (reference_is_stored_) {  // with the stored code, fill_value_codes
+    if (reference_is_stored_) {  // fill_value_codes wrote it with the stored code
         std::copy_n(&batch.code[f], own.count, &batch.reference_code[f]);
         return 0;
     }
@@ -300,8 +301,8 @@ int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& 
     return fallbacks;
 }
 
-// The general way. Fragments are dropped as soon as they are known
-// to be outside, so later arrays are filled for those that are left.
+// The general case. Fragments outside are dropped as early as possible, so that later arrays are filled only for the
+// remaining ones.
 int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                 WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);
@@ -329,7 +330,7 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     return fallbacks;
 }
 
-// Arrays that were not requested keep what they held before.
+// Arrays that were not requested are left unchanged.
 void FragmentValues::turn_into_keys(int first, FragmentBatch& batch) const noexcept {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
         if (needs_.shader_z) batch.shader_z[i] = depth_key(batch.shader_z[i]);

@@ -1,10 +1,10 @@
-// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table, one for each set, and their scalar
-// reference.
+// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table of functions, one table per
+// instruction set, and their scalar reference.
 //
-// Rule     The scalar reference below is the definition; every set gives the same bits (simd.h). `depth` has no scalar
-//          reference of its own: its meaning is FragmentValues::fill, and where it is null, or cannot decide, that
-//          runs.
-// Numbers  Loops run over whole blocks of lanes and may write up to 15 lanes beyond the count: usable_capacity.
+// Rule     The scalar reference below is the definition; every instruction set gives the same bits (simd.h). `depth`
+//          has no scalar reference of its own: its meaning is FragmentValues::fill, which runs if `depth` is null or a
+//          lane is not certain.
+// Numbers  Loops run over whole blocks of lanes and may write up to 15 lanes past the count: usable_capacity.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp runs every available set against the scalar reference.
 #pragma once
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// Rows of one triangle on their way into a batch, from where it was interrupted: `row` comes next, `rows` is their
-// number, and pixels [..., taken) of that row are in the batch before. y0 is the surface's row of row 0.
+// The rows of one triangle that are still to be appended to a batch: `row` is the next one of `rows`, and its pixels
+// [..., taken) are already in the batch. y0 is the surface row of row 0.
 struct RowRun {
     int row, rows;
     int taken;
@@ -29,16 +29,16 @@ struct RowRun {
     std::uint32_t primitive;
 };
 
-// The arrays that the kernel `depth` fills from a plane of depth: binary32 values, and the codes of those.
+// The arrays that the kernel `depth` fills from a plane of depth: binary32 values and their codes.
 struct DepthLanes {
     DepthConversion<float> to_code;  // fixed point or D32F
-    float* shader_z;                 // null: not wanted
-    std::uint32_t* code;             // null: not wanted
-    double* b1;                      // null: no one looks at the weights
+    float* shader_z;                 // null: not requested
+    std::uint32_t* code;             // null: not requested
+    double* b1;                      // null: the weights are not needed
     double* b2;
 };
 
-// Attributes that change over the triangle, before the division by the plane of 1 / w, and those that do not.
+// Attributes that vary over the triangle, before the division by the plane of 1 / w, and constant ones.
 struct AttributeLanes {
     struct Constant {
         float value;
@@ -55,7 +55,7 @@ struct AttributeLanes {
         plane[count] = p;
         out[count++] = lanes;
     }
-    // The values at the vertices go where this says: copied as a plane they would wait for their own stores.
+    // Returns the vertex values for the caller to fill in place: copying a whole plane would stall on its own stores.
     [[nodiscard]] std::array<double, 3>& add(float* lanes) noexcept {
         out[count] = lanes;
         return plane[count++].v;
@@ -80,16 +80,16 @@ struct FloatAttributeLanes {
 };
 
 struct LaneKernels {
-    // Appends the pixels of the spans until the rows are done (true), or the batch is full or holds the next one
-    // already (false).
+    // Appends the pixels of the spans until the rows are done (true), or the batch is full or already contains the next
+    // pixel (false).
     bool (*emit)(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept;
     // b1 and b2 at `count` pixels; not for Kind::snapped_wide.
     void (*weights)(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
                     double* b2) noexcept;
-    // Every plane rounded to binary32, divided by the rounded plane of 1 / w, and the constants; true if some lane is
+    // Every plane rounded to binary32 and divided by the rounded plane of 1 / w, and the constants; true if a lane is
     // not certain.
     bool (*attributes)(const AttributeLanes& attributes, const TriangleLanes& lanes) noexcept;
-    // Weights, the rounded plane and its codes in one; true if some lane is not certain.
+    // Weights, the rounded plane and its codes in one loop; true if a lane is not certain.
     bool (*depth)(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y,
                   int count, const DepthLanes& out) noexcept;
     // A plane stepped in binary32 at `count` pixels (float_planes.h).
@@ -99,12 +99,12 @@ struct LaneKernels {
                              int count) noexcept;
 };
 
-// The kernels of the chosen instruction set. A draw asks once, not once a triangle.
+// The kernels of the selected instruction set. Look them up once per draw, not per triangle.
 [[nodiscard]] const LaneKernels& lane_kernels() noexcept;
 
 namespace scalar {
 
-// The part of a span that the batch takes now: its pixels are claimed; 0 if the batch must be flushed first.
+// The number of pixels of a span that the batch takes now; they are claimed. 0 if the batch must be flushed first.
 [[nodiscard]] inline int claimed(const RowRun& run, int row, const RowSpan& span, PixelClaims& claims,
                                  int batch_count) noexcept {
     const int count = std::min(span.x1 - span.x0, usable_capacity - batch_count);
@@ -128,11 +128,11 @@ inline void append(FragmentBatch& batch, int held, int count, std::uint32_t pixe
     }
 }
 
-// The walk of both kernels: `span_of(row)` gives the spans, `append` writes the lanes.
+// The walk of both kernels: `span_of(row)` returns the span of a row, `append_row` writes the lanes.
 template <class SpanOf, class Append>
 [[gnu::always_inline]] inline bool emit_rows(RowRun& run, PixelClaims& claims, FragmentBatch& batch,
                                              const SpanOf& span_of, const Append& append_row) noexcept {
-    const RowRun rows = run;  // what the lanes that are written cannot change
+    const RowRun rows = run;  // a copy, which the compiler knows that the written lanes cannot change
     int held = batch.count, row = rows.row, taken = rows.taken;
     bool has_room = true;
     while (row < rows.rows) {

@@ -1,6 +1,6 @@
-// rasterizer/values/lane_kernels_simd.cpp - the kernels of lane_kernels.h for every instruction set; their meaning
-// stands there.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
+// rasterizer/values/lane_kernels_simd.cpp - the kernels of lane_kernels.h, compiled once per instruction set; that
+// header defines their meaning. How kernels are written: kernels.md. Tests:
+// tests/rasterizer/walk/tile_rasterizer_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/lane_kernels_simd.cpp"
 #include <bit>
@@ -14,14 +14,14 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A block of 16 pixels, or as many of them as the widest vector has lanes of 32 bits.
+// A block of 16 pixels, or as many as the widest vector has lanes of 32 bits.
 using Row32 = hn::CappedTag<std::int32_t, 16>;
 using Row16 = hn::Rebind<std::uint16_t, Row32>;
 
 alignas(64) constexpr std::int32_t counting32[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 alignas(64) constexpr std::uint16_t counting16[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-// Writes `count` pixels of a row from lane `held` on.
+// Writes `count` pixels of a row, starting at lane `held`.
 struct AppendRow {
     void operator()(FragmentBatch& batch, int held, int count, std::uint32_t pixel, int x, int y,
                     std::uint32_t primitive) const {
@@ -43,7 +43,7 @@ struct AppendRow {
     }
 };
 
-// The walk is the scalar reference's; it and what it calls are compiled here for this set.
+// The walk is that of the scalar reference; it and the functions it calls are compiled here for this instruction set.
 [[gnu::flatten]] bool emit(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
     const auto span_of = [&](int row) HWY_ATTR { return spans[row]; };
     return scalar::emit_rows(run, claims, batch, span_of, AppendRow{});
@@ -67,7 +67,7 @@ void weights(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t*
     weights_of<false>(w, x, y, count, b1, b2);
 }
 
-// The planes are filtered together, so each vector of weights is loaded once; `unsure` gathers over all of them.
+// The planes are filtered together, so each vector of weights is loaded once; `unsure` accumulates over all planes.
 template <bool exact>
 HWY_INLINE bool attributes_of(const AttributeLanes& a, const TriangleLanes& lanes) {
     const F64 d;
@@ -112,7 +112,8 @@ HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const 
     int row = -1;
     auto unsure = hn::Zero(U32{});
     for (int i = 0; i < count; i += step) {
-        // A vector within a row, as most of a large triangle are, shares what depends on y with the one before.
+        // Most vectors of a large triangle are within one row and share the terms that depend on y with the previous
+        // vector.
         const bool in_row = by_rows && i + step <= count && y[i] == y[i + step - 1];
         if (in_row && y[i] != row) {
             row = y[i];
@@ -121,7 +122,7 @@ HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const 
         const Weights b = in_row ? at.at(at.column_terms(numbers_from(x[i])), terms) : at.lanes(x + i, y + i);
         const V64 v = plane_at(plane, b);
         auto different = hn::Zero(U32{});
-        // The lanes beyond the count hold pixels of no triangle: they may be unsure for nothing, and cost time alone.
+        // Lanes past the count hold pixels outside the triangle. If they are not certain, the only cost is time.
         const V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : rounded(v, hn::Set(d, plane.error), different);
         unsure = hn::Or(unsure, different);
         if (out.shader_z != nullptr) hn::StoreU(z, F32{}, out.shader_z + i);
@@ -135,7 +136,7 @@ HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const 
 
 bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
            const DepthLanes& out) noexcept {
-    // A short run of fragments has few vectors that lie within one row.
+    // Short runs of fragments have few vectors within one row.
     const bool by_rows = count >= 64;
     if (w.kind == PixelWeights::Kind::unsnapped)
         return by_rows ? depth_of<true, true>(w, plane, x, y, count, out)
@@ -148,7 +149,7 @@ bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t*
 using Wide = hn::CappedTag<float, 16>;
 using WideVec = hn::Vec<Wide>;
 
-// Zeros of their sign instead of numbers below 2^-126.
+// Numbers  below 2^-126 become zeros of the same sign.
 HWY_INLINE WideVec flushed(WideVec v) {
     const Wide d;
     return hn::IfThenElse(hn::Lt(hn::Abs(v), hn::Set(d, 0x1p-126f)), hn::And(v, hn::SignBit(d)), v);
@@ -169,7 +170,7 @@ struct WidePlane {
     HWY_INLINE WideVec at(hn::Vec<hn::RebindToSigned<Wide>> x, hn::Vec<hn::RebindToSigned<Wide>> y) const {
         const Wide d;
         const hn::RebindToSigned<Wide> di;
-        // The set has a fused multiply-add of its own: rounded once, as the scalar reference's.
+        // The instruction set has a fused multiply-add, rounded once as in the scalar reference.
         if constexpr (rule == PlaneRule::reciprocal_area_fused)
             return hn::MulAdd(dy, across(y, down), hn::MulAdd(dx, across(x, right), origin));
         if constexpr (rule == PlaneRule::greatest_w) {
@@ -253,7 +254,7 @@ void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, cons
     float_attributes_of<PlaneRule::reciprocal_area_fused>(a, x, y, count);
 }
 #else
-// Without a fused multiply-add the scalar reference's exact emulation is the way.
+// Without a fused multiply-add the scalar reference's exact emulation is used.
 void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
                  float* out) noexcept {
     scalar::float_plane(rule, plane, x, y, count, out);

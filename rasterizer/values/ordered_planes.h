@@ -1,14 +1,15 @@
-// rasterizer/values/ordered_planes.h - planes in binary32 that begin at the corner of the greatest w
+// rasterizer/values/ordered_planes.h - planes in binary32 that start at the corner with the greatest w
 // (PlaneRule::greatest_w).
 //
-// Rule     Corners p2, p0, p1 are turned round so that the least y along the rows comes first, then so that the
-//          greatest w does; each step looks at the order before it, at its second corner and then at its third.
-//          Positions are snapped, in pixels from the centre of the first pixel (window.h). Depth: D = r / (x1 y2 - x2
-//          y1), dx = (y2 (z1 - z0) - y1 (z2 - z0)) D, dy = (x1 (z2 - z0) - x2 (z1 - z0)) D, C = z0 r + n, z_k = z (1 /
-//          w), r and n of the depth range. Others: sides times w, plane = (u0 M0 + u1 M1) + u2 M2. Value at pixel (i,
-//          j): (i - x0) dx + (C + (j - y0) dy). Each operation is rounded; operands and results below 2^-126 are zeros.
+// Rule     Corners p2, p0, p1 are rotated so that the least y along the rows comes first, then so that the greatest w
+//          does. Each of the two steps compares the corners in the order before it: if the second has the best value it
+//          rotates by one, and if the third has it by two (both, if they tie). Positions are snapped, in pixels from
+//          the centre of the first pixel (window.h). Depth: D = r / (x1 y2 - x2 y1), dx = (y2 (z1 - z0) - y1 (z2 - z0))
+//          D, dy = (x1 (z2 - z0) - x2 (z1 - z0)) D, C = z0 r + n, z_k = z (1 / w), r and n of the depth range.
+//          Attributes: sides times w, plane = (u0 M0 + u1 M1) + u2 M2. Value at pixel (i, j): (i - x0) dx + (C + (j -
+//          y0) dy). Each operation is rounded; operands and results below 2^-126 are zeros.
 // Source   swiftshader-rasterizer.md 2.
-// Numbers  Pixels are below 2^16, so they are exact. Sides without an area leave slopes of 0.
+// Numbers  Pixel coordinates are below 2^16, so they are exact. If the sides have no area, the slopes are 0.
 // Tests    tests/rasterizer/values/ordered_planes_test.cpp
 #pragma once
 #include "rasterizer/set_up/polygon_offset.h"
@@ -40,7 +41,7 @@ class OrderedPlanes {
         if (is_done_) scale_ = Flushed{1.0f / static_cast<float>(z_units(state, rules))}, least_ = Flushed{};
     }
 
-    // 0 to 1, not clamped, without polygon offset.
+    // The plane of depth, 0 to 1, not clamped, without polygon offset.
     [[nodiscard]] constexpr FloatPlane depth() const noexcept {
         const Side first = side(1), second = side(2);
         const Flushed z0 = depth_of(0), z1 = depth_of(1) - z0, z2 = depth_of(2) - z0;
@@ -51,20 +52,21 @@ class OrderedPlanes {
         plane.origin = in_range(z0).v;
         return plane;
     }
-    // What polygon offset adds to `plane`, which is depth().
+    // The polygon offset of `plane`, which is depth().
     [[nodiscard]] static constexpr float offset(const FloatPlane& plane, const PolygonOffset& by, float unit) noexcept {
         const auto size = [](float v) { return v < 0.0f ? -v : v; };
         const Flushed slope{std::max(size(plane.dx), size(plane.dy))};
         return (Flushed{unit} * Flushed{by.units} + slope * Flushed{by.factor}).v;
     }
-    // Of OffsetUnit::differences for float formats.
+    // The unit of OffsetUnit::differences for float formats.
     [[nodiscard]] constexpr float difference_unit() const noexcept {
         const Flushed z0 = depth_of(0);
         return static_cast<float>(
             float_offset_unit({in_range(z0).v, in_range(depth_of(1) - z0).v, in_range(depth_of(2) - z0).v}));
     }
 
-    // Of a value at corners 0, 1 and 2 as they were given, before it is divided by the plane of 1 / w.
+    // The plane of an attribute, given at corners 0, 1 and 2 in the caller's order, before the division by the plane of
+    // 1 / w.
     [[nodiscard]] constexpr FloatPlane plane(const std::array<float, 3>& value) const noexcept {
         const Flushed u0{value[order_[0]]}, u1{value[order_[1]]}, u2{value[order_[2]]};
         const Flushed w1{at(1).w}, w2{at(2).w}, q0 = reciprocal_w(0);
@@ -87,7 +89,7 @@ class OrderedPlanes {
     struct Side {
         Flushed x, y;
     };
-    // a b - c d: three roundings.
+    // a b - c d with three roundings.
     [[nodiscard]] static constexpr Flushed less(Flushed a, Flushed b, Flushed c, Flushed d) noexcept {
         return a * b - c * d;
     }
@@ -152,7 +154,7 @@ class OrderedPlanes {
     return {{&geometry.vertices[a], &geometry.vertices[b], &geometry.vertices[c]}, geometry.state, geometry.rules};
 }
 
-// r of an offset's units for a triangle's planes.
+// The unit r of the polygon offset for a triangle's planes.
 [[nodiscard]] inline float ordered_offset_unit(const OrderedPlanes& planes, const std::array<float, 3>& z,
                                                const RasterState& state, const RasterRules& rules) noexcept {
     const bool is_float = state.depth_format != DepthFormat::d16;

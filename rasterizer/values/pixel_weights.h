@@ -1,10 +1,10 @@
-// rasterizer/values/pixel_weights.h - the weights b1 and b2 of a triangle's corners 1 and 2 as functions of the pixel
-// alone.
+// rasterizer/values/pixel_weights.h - the weights b1 and b2 of a triangle's corners 1 and 2 as functions of the pixel.
 //
-// Rule     Snapped planes: b_i = e_i r with r = 1/A, rounded; the filter of plane.h allows for it. Unsnapped planes
-//          (PlaneOrigin::unsnapped) start at the unsnapped corners: the binary64 value below is the weight itself.
-// Numbers  e_i = (x sx + y sy) + c; if |c| + 2^16 (|sx| + |sy|) <= 2^53, every step is an integer that binary64 holds.
-//          Else e_i is taken from the 64-bit edge functions and rounded once.
+// Rule     Snapped planes: b_i = e_i r with r = 1/A, rounded; the filter of plane.h includes this error. Unsnapped
+//          planes (PlaneOrigin::unsnapped) start at the unsnapped corners: the binary64 value below is the weight
+//          itself.
+// Numbers  e_i = (x sx + y sy) + c; if |c| + 2^16 (|sx| + |sy|) <= 2^53, every step is an integer that binary64 holds
+//          exactly. Otherwise e_i is taken from the 64-bit edge functions and rounded once.
 // Tests    tests/rasterizer/values/plane_test.cpp, fragment_values_test.cpp
 #pragma once
 #include "rasterizer/coverage/coverage.h"
@@ -29,24 +29,24 @@ struct PixelWeights {
 
     Kind kind = Kind::unsnapped;
     double r;     // 1 / A, of the snapped or unsnapped corners
-    double area;  // A of the snapped corners; unsnapped ones leave it as it is
+    double area;  // A of the snapped corners; not set for unsnapped ones
     EdgePlane e1, e2;
-    double x0, y0, x1, y1, x2, y2;  // unsnapped corner 0, and corners 1 and 2 seen from it
+    double x0, y0, x1, y1, x2, y2;  // unsnapped corner 0, and corners 1 and 2 relative to it
 
-    // The wide kind is for edges whose values pass 2^53: then each is computed in 64-bit integers and rounded once.
+    // The wide kind is for edges whose values exceed 2^53: each is computed in 64-bit integers and rounded once.
     PixelWeights(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
         snap(geometry, triangle);
         r = 1.0 / area;
     }
-    // Of small triangle `k` of a group: never wide. The same integers.
+    // For small triangle `k` of a group: never wide, the same integers.
     PixelWeights(const Geometry& geometry, const TriangleRecord& triangle, const TriangleGroup& group,
                  std::size_t k) noexcept {
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
         snap(group, k);
         r = 1.0 / area;
     }
-    // r is 1: the edge values of the snapped corners themselves, wherever planes start.
+    // Selects r = 1: the weights are the edge values of the snapped corners, whatever the plane origin.
     struct EdgesAlone {};
     PixelWeights(EdgesAlone, const Geometry& geometry, const TriangleRecord& triangle) noexcept : r{1.0} {
         snap(geometry, triangle);
@@ -68,7 +68,7 @@ struct PixelWeights {
         e2 = plane(group, k, 2);
         kind = Kind::snapped;
     }
-    // False if the unsnapped corners lie on a line and have no plane.
+    // False if the unsnapped corners are collinear and therefore have no plane.
     [[nodiscard]] bool unsnap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
         const auto& corners = geometry.corners;
         const auto& p0 = corners[triangle.vertex[0]].unsnapped;
@@ -88,8 +88,8 @@ struct PixelWeights {
         return {static_cast<double>(edge.step_x()) * unit, static_cast<double>(edge.step_y()) * unit,
                 static_cast<double>(edge.at(pixel_centre(0, 0, subpixel_bits)))};
     }
-    // From the value at the box's first pixel back to pixel (0,
-    // 0); the tie was taken off for coverage and is put back.
+    // Extrapolates from the value at the box's first pixel back to pixel (0, 0). The tie term that was subtracted for
+    // coverage is added again.
     [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
         const auto number = [k](const TriangleGroup::PerTriangle& all) {
             return std::int64_t{static_cast<std::int32_t>(all[k])};

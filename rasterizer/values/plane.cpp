@@ -7,7 +7,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 namespace {
 
-// N (e0 v0 + e1 v1 + e2 v2), exactly.
+// The exact sum N (e0 v0 + e1 v1 + e2 v2).
 [[nodiscard]] ExactSum weighted_sum(const RationalPlane& plane, const EdgeValues& e) noexcept {
     ExactSum sum;
     for (std::size_t i = 0; i < 3; ++i) sum.add_product(e[i], plane.v[i], plane.numerator);
@@ -20,22 +20,22 @@ namespace {
     return sum.sign();
 }
 
-// V within 2^-49 of itself.
+// V with a relative error of at most 2^-49.
 [[nodiscard]] double quotient(const ExactSum& sum, const RationalPlane& plane, std::int64_t area) noexcept {
     return sum.approximation() / (static_cast<double>(area) * plane.denominator);
 }
 
-// To a code: floor, within [0, max].
+// Converts to a code: floor, clamped to [0, max].
 struct ToCode {
     double max;
     [[nodiscard]] std::uint32_t operator()(double v) const noexcept {
         v = v > 0.0 ? v : 0.0;
         v = v < max ? v : max;
-        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v));  // v >= 0: the cast floors
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v));  // v >= 0, so the conversion floors
     }
 };
 
-// Decide: the lanes that the filter leaves open get the exact word. Returns their number.
+// Computes the exact result of the lanes that the filter could not decide. Returns their number.
 template <class Rounding, class Exact, class Word>
 int decide(const FilterPlane& filter, double offset, double error, const Rounding& rounding, const Exact& exact_word,
            const TriangleLanes& lanes, Word* out) noexcept {
@@ -56,7 +56,7 @@ float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t 
     const double v = quotient(sum, plane, area);
     const auto low = static_cast<float>(v * (1.0 - 0x1p-48)), high = static_cast<float>(v * (1.0 + 0x1p-48));
     if (std::bit_cast<std::uint32_t>(low) == std::bit_cast<std::uint32_t>(high)) return low;
-    // Two neighbours at most: 25 bits hold the value half way between them.
+    // low and high are neighbours, so 25 bits hold the value half way between them.
     const double middle = (double{low} + double{high}) * 0.5;
     const int side = compare(sum, middle, plane, area);
     if (side == 0) return static_cast<float>(middle);  // a tie goes to the even one
@@ -68,7 +68,7 @@ std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::i
                          CodeRounding rounding) noexcept {
     const ExactSum sum = weighted_sum(plane, e);
     const double max = rounding.max;
-    // The estimate is within 2^-49 of V, so it misses the code by one at most; the comparisons are exact.
+    // The estimate is within 2^-49 of V, so it differs from the code by at most one; the comparisons are exact.
     double code = ToCode{max}(quotient(sum, plane, area) + rounding.half);
     while (code > 0.0 && compare(sum, code - rounding.half, plane, area) < 0) code -= 1.0;
     while (code < max && compare(sum, code + 1.0 - rounding.half, plane, area) >= 0) code += 1.0;
@@ -89,8 +89,8 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
     }
     const FilterPlane filter{plane, lanes.is_exact};
     const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
-    // One pass finds whether any lane is open; nearly always none is.
-    if (!unsure) return 0;  // an inexact plane is sure of all: its filter has no error
+    // The first loop only finds whether any lane is undecided; almost always none is.
+    if (!unsure) return 0;  // always so for inexact planes: their filter has no error
     const auto exact = [&](const EdgeValues& e) { return exact_float(plane, e, lanes.edges->area()); };
     return decide(filter, 0.0, filter.error, ToBinary32{}, exact, lanes, out);
 }
@@ -108,7 +108,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRoun
     const double* __restrict b2 = lanes.weight2;
     const ToCode to_code{static_cast<double>(rounding.max)};
     const double half = rounding.half;
-    const double error = lanes.is_exact ? filter.error + 0x1p-47 : 0.0;  // the sum with 1/2 rounds once more
+    const double error = lanes.is_exact ? filter.error + 0x1p-47 : 0.0;  // adding 1/2 rounds once more
     std::uint32_t unsure = 0;
     for (int i = 0; i < padded(count); ++i) {
         const RoundedEnds ends = rounded_ends(filter.at(b1[i], b2[i]) + half, error, to_code);

@@ -1,15 +1,16 @@
-// rasterizer/values/plane.h - the plane through three vertex values at pixel centres, correctly rounded.
+// rasterizer/values/plane.h - evaluates the plane through three vertex values at pixel centres, correctly rounded.
 //
 // Rule     V = N (e0 v0 + e1 v1 + e2 v2) / (A D), exact, then one rounding: to binary32 (nearest even), or to a code
-//          floor(V) or floor(V + 1/2). e_i edge values, A their sum; N and D turn one depth unit into another.
+//          floor(V) or floor(V + 1/2). e_i are the edge values, A is their sum; N and D convert one depth unit to
+//          another.
 // Source   depth.md 3. The filter is that of exact geometric predicates (Shewchuk 1997).
 // Numbers  Filter: b_i = e_i r with r = 1/A, v = w0 + (b1 (w1 - w0) + b2 (w2 - w0)), w_i = v_i N / D, all in binary64.
 //          With u = 2^-53 and M = max |w_i|: w_i is within 2u M; a difference within 6u M and at most 2M; b_i within 4u
 //          b_i (rounded e, A, 1/A, product) plus, for A > 2^53, 4u absolute (e is stepped along the span in binary64);
 //          b1 + b2 <= 1. So the products are within 4u 2M + u 2M + 6u M + 8u 2M = 32u M, their sum adds 2u M, the last
 //          sum with w0's own error 3u M, together less than 40u M; terms of second order stay below u M. The filter
-//          takes 64u M = 2^-47 M, and 2^-1000 for underflow. Where V - error and V + error round alike, V does too;
-//          otherwise exact_float and exact_code decide.
+//          uses 64u M = 2^-47 M, plus 2^-1000 for underflow. If V - error and V + error round to the same value, V does
+//          too; otherwise exact_float and exact_code decide.
 // Tests    tests/rasterizer/values/plane_test.cpp
 #pragma once
 #include <algorithm>
@@ -24,7 +25,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// Three corners' values of the same bits: 0 and -0 differ, and a NaN equals itself.
+// True if the three corner values have the same bits: 0 and -0 differ, and a NaN equals itself.
 [[nodiscard]] constexpr bool is_constant(const std::array<float, 3>& u) noexcept {
     const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
     return bits[0] == bits[1] && bits[0] == bits[2];
@@ -34,28 +35,28 @@ struct RationalPlane {
     std::array<double, 3> v{};
     double numerator = 1.0, denominator = 1.0;  // N and D: integers up to 2^24 - 1
 
-    // By bits: 0 and -0 differ, and a NaN equals itself.
+    // Compares bits: 0 and -0 differ, and a NaN equals itself.
     [[nodiscard]] bool is_constant() const noexcept {
         const auto bits = [this](std::size_t i) { return std::bit_cast<std::uint64_t>(v[i]); };
         return bits(0) == bits(1) && bits(0) == bits(2);
     }
 };
 
-// A rounding of a plane to codes 0..max: floor(V + half).
+// Rounds a plane to codes 0..max: floor(V + half).
 struct CodeRounding {
     double half = 0.0;
     std::uint32_t max = 0;
 };
 
-// The exact answers, by expansions; `e` are the edge values at the fragment. Slow: some microseconds.
+// The exact results, by expansions; `e` are the edge values at the fragment. Slow: some microseconds.
 [[nodiscard]] float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t area) noexcept;
 [[nodiscard]] std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::int64_t area,
                                        CodeRounding rounding) noexcept;
 // The value of a constant plane, rounded once.
 [[nodiscard]] float constant_float(const RationalPlane& plane, std::int64_t area) noexcept;
 
-// Loops over lanes run to whole blocks, so that they have no remainder; what stands in the lanes beyond the count is
-// never looked at. A batch is flushed early enough that there is room for them (lane_kernels.h).
+// Loops over lanes run to whole blocks, so that they need no remainder loop; the values of lanes past the count are not
+// used. A batch is flushed early enough to leave room for them (lane_kernels.h).
 inline constexpr int lane_block = 4;
 [[nodiscard]] constexpr int padded(int count) noexcept { return (count + lane_block - 1) & -lane_block; }
 
@@ -75,7 +76,7 @@ struct TriangleLanes {
     }
 };
 
-// The plane as the filter sees it.
+// The plane as the filter evaluates it.
 struct FilterPlane {
     double w0 = 0.0, d1 = 0.0, d2 = 0.0, error = 0.0;
 
@@ -93,8 +94,8 @@ struct FilterPlane {
     [[nodiscard]] double at(double b1, double b2) const noexcept { return w0 + (b1 * d1 + b2 * d2); }
 };
 
-// Filter, round: both ends of the interval in which a plane's value lies, rounded alike, as words. Where they are equal
-// they are the value's own rounding; where they differ the exact sum must decide.
+// The filter's rounding: both ends of the interval that contains a plane's value, rounded and returned as bits. If they
+// are equal, so is the rounding of the value; if they differ, the exact sum must decide.
 struct RoundedEnds {
     std::uint32_t low, high;
     [[nodiscard]] constexpr std::uint32_t difference() const noexcept { return low ^ high; }
@@ -104,16 +105,16 @@ template <class Rounding>
                                                                   const Rounding& rounding) noexcept {
     return {rounding(value - error), rounding(value + error)};
 }
-// To the word of the nearest binary32, ties to even.
+// Bits of the nearest binary32, ties to even.
 struct ToBinary32 {
     [[nodiscard]] std::uint32_t operator()(double v) const noexcept {
         return std::bit_cast<std::uint32_t>(static_cast<float>(v));
     }
 };
 
-// Rounds the plane at every lane to binary32. Returns the number of lanes that needed the exact arithmetic.
+// Rounds the plane at every lane to binary32. Returns the number of lanes that needed exact arithmetic.
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* out) noexcept;
-// Rounds it to codes.
+// Rounds the plane at every lane to codes. Returns the same number.
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
                 std::uint32_t* out) noexcept;
 

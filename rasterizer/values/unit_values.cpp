@@ -1,9 +1,9 @@
-// rasterizer/values/unit_values.cpp - the coordinates of texture units at a triangle's fragments.
+// rasterizer/values/unit_values.cpp - the texture coordinates of each texture unit at a triangle's fragments.
 //
-// Rule     Each of s, t, r, q as fragment_values.h says of every attribute: u (1/w) rounded to binary32 at the vertex,
-//          exact plane rounded once, over the plane of 1/w rounded once; under another DepthHypothesis as depth_paths.h
-//          interpolates r and q; where cut_coordinates.h applies, by its rule. Nothing is divided by q here: which
-//          operation does, and which does not, is the texture shader's affair.
+// Rule     Each of s, t, r, q is interpolated like every attribute in fragment_values.h: u (1/w) rounded to binary32 at
+//          the vertex, exact plane rounded once, divided by the plane of 1/w rounded once. Under another
+//          DepthHypothesis they are interpolated as depth_paths.h does r and q; where cut_coordinates.h applies, by its
+//          rule. Nothing is divided by q here: the texture shader decides which operation does.
 // Source   attributes.md 1.1 and 3.4 (GL 2.1 equation 3.8).
 // Tests    tests/rasterizer/values/unit_values_test.cpp
 #include <cassert>
@@ -31,7 +31,7 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
     }
     const DepthHypothesis& h = rules_.hypothesis;
     const bool cut = cuts_coordinates(rules_, w);
-    // Under the default hypothesis coordinates go with the other attributes through the kernel.
+    // Under the default hypothesis coordinates go through the kernel together with the other attributes.
     const bool is_plain = h.interpolant_bits >= 24 && h.divide == DivideRule::exact;
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);

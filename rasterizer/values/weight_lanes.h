@@ -1,5 +1,5 @@
-// rasterizer/values/weight_lanes.h - the weights of a batch's fragments as arrays (pixel_weights.h says which), and how
-// a fragment takes another one's place when some between them are dropped.
+// rasterizer/values/weight_lanes.h - the weights of a batch's fragments as arrays (defined in pixel_weights.h), and
+// moving a fragment to another lane when fragments before it are dropped.
 #pragma once
 #include <array>
 
@@ -7,13 +7,13 @@
 
 namespace strata::rasterizer {
 
-// The weights of a batch's fragments in their own triangles.
+// The weights of each fragment of a batch in its own triangle.
 struct alignas(64) WeightLanes {
     Lanes<double> b1, b2;
 };
 
-// Lane `from` becomes lane `to`.
-// Only arrays that are filled before fragments are dropped: `primitive` is the same in all lanes of the triangle.
+// Copies lane `from` to lane `to`. Only the arrays that are filled before fragments are dropped; `primitive` is the
+// same in all lanes of the triangle.
 inline void move_lane(std::size_t from, std::size_t to, FragmentBatch& batch, WeightLanes& weights) noexcept {
     batch.pixel[to] = batch.pixel[from];
     batch.x[to] = batch.x[from];

@@ -1,8 +1,9 @@
-// rasterizer/values/weights-inl.h - weights, planes and codes of neighbouring or scattered pixels, a vector of binary64
-// at a time. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
+// rasterizer/values/weights-inl.h - weights, planes and codes of neighbouring or scattered pixels, for a vector of
+// binary64 at a time. For *_simd.cpp only: Highway compiles it once per instruction set, in each file that includes
+// foreach_target.h.
 //
-// Rule     The operations and their order are those of PixelWeights, FilterPlane and depth_text-inl.h: every set gives
-//          the bits of the scalar reference in lane_kernels.h.
+// Rule     The operations and their order are those of PixelWeights, FilterPlane and depth_text-inl.h: every
+//          instruction set gives the bits of the scalar reference in lane_kernels.h.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/values/lane_kernels.h"
@@ -18,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using F64 = hn::CappedTag<double, 8>;  // as many lanes of everything else as of binary64
+using F64 = hn::CappedTag<double, 8>;  // vectors of every other type have as many lanes as those of binary64
 using F32 = hn::Rebind<float, F64>;
 using I32 = hn::Rebind<std::int32_t, F64>;
 using U32 = hn::Rebind<std::uint32_t, F64>;
@@ -26,14 +27,14 @@ using U16 = hn::Rebind<std::uint16_t, F64>;
 using V64 = hn::Vec<F64>;
 using V32 = hn::Vec<F32>;
 
-// hn::Iota goes through the stack, and waits for it.
+// A table, because hn::Iota writes to the stack and stalls on reading it back.
 alignas(64) constexpr double counting64[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 // Pixel coordinates as binary64.
 HWY_INLINE V64 coordinates(const std::uint16_t* p) {
     return hn::PromoteTo(F64{}, hn::PromoteTo(I32{}, hn::LoadU(U16{}, p)));
 }
-// first, first + 1 ...
+// first, first + 1, ...
 HWY_INLINE V64 numbers_from(int first) {
     return hn::Add(hn::Set(F64{}, static_cast<double>(first)), hn::Load(F64{}, counting64));
 }
@@ -42,8 +43,8 @@ struct Weights {
     V64 b1, b2;
 };
 
-// The weights of a kind. They are sums of what depends on the column and what depends on the row. What is the same in
-// all lanes is hoisted by the compiler.
+// The weights of one kind. They are sums of a term that depends on the column and one that depends on the row. The
+// compiler hoists what is the same in all lanes.
 template <bool unsnapped>
 class WeightsAt {
   public:
@@ -89,14 +90,14 @@ HWY_INLINE V64 plane_at(const FilterPlane& p, const Weights& b) {
     return hn::Add(hn::Set(d, p.w0), hn::Add(hn::Mul(b.b1, hn::Set(d, p.d1)), hn::Mul(b.b2, hn::Set(d, p.d2))));
 }
 
-// Low end of the filter's interval, rounded; `unsure` gathers the bits in which the high end differs.
+// Returns the low end of the filter's interval, rounded; `unsure` accumulates the bits in which the high end differs.
 HWY_INLINE V32 rounded(V64 v, V64 error, hn::Vec<U32>& unsure) {
     const V32 low = hn::DemoteTo(F32{}, hn::Sub(v, error)), high = hn::DemoteTo(F32{}, hn::Add(v, error));
     unsure = hn::Or(unsure, hn::Xor(hn::BitCast(U32{}, low), hn::BitCast(U32{}, high)));
     return low;
 }
 
-// a where it is greater (less) than b, else b: what x86 means by MAX and MIN of (a, b), for NaN and -0 too.
+// a if it is greater (less) than b, else b: the behaviour of x86's MAX and MIN of (a, b), also for NaN and -0.
 HWY_INLINE V32 greater_or_second(V32 a, V32 b) {
     return HWY_ARCH_X86 ? hn::Max(a, b) : hn::IfThenElse(hn::Gt(a, b), a, b);
 }
@@ -104,7 +105,7 @@ HWY_INLINE V32 less_or_second(V32 a, V32 b) {
     return HWY_ARCH_X86 ? hn::Min(a, b) : hn::IfThenElse(hn::Lt(a, b), a, b);
 }
 
-// The operations of depth_text-inl.h. D16F is not among them: its passes go lane by lane.
+// The operations of depth_text-inl.h. D16F is not among them: its passes run lane by lane.
 struct VectorLanes {
     HWY_INLINE static V32 all(float v) { return hn::Set(F32{}, v); }
     HWY_INLINE static V32 greater_or_second(V32 a, V32 b) { return HWY_NAMESPACE::greater_or_second(a, b); }
