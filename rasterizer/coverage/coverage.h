@@ -1,8 +1,9 @@
-// rasterizer/coverage/coverage.h - the pixels of a rectangle that a set-up triangle covers, row by row.
+// rasterizer/coverage/coverage.h - the pixels of a rectangle that a triangle covers, row by row.
 //
-// Rule     edge.h at every pixel centre; a row's covered pixels are one span because the triangle is convex.
+// Rule     edge.h at every pixel centre. The covered pixels of a row are one span because the triangle is convex.
 // Numbers  All integers: |E| <= 2^57 inside the guard band, a row of 2^16 pixels adds at most 2^16 * 2^28 * 2^12 =
-//          2^56. Tests    tests/rasterizer/coverage/coverage_test.cpp
+//          2^56.
+// Tests    tests/rasterizer/coverage/coverage_test.cpp
 #pragma once
 #include <algorithm>
 #include <array>
@@ -15,29 +16,29 @@ namespace strata::rasterizer {
 
 using EdgeValues = std::array<std::int64_t, 3>;
 
-// The centre of pixel (x, y): an integer number of subpixels because n >= 1.
+// The centre of pixel (x, y) in subpixels: an integer because n >= 1.
 [[nodiscard]] constexpr SubpixelPoint pixel_centre(int x, int y, int subpixel_bits) noexcept {
     const int half = 1 << (subpixel_bits - 1);
     return {x * 2 * half + half, y * 2 * half + half};
 }
 
-// The three sides of a triangle of either winding, edge i opposite corner i, turned so that the interior is positive.
+// The three sides of a triangle of either winding, edge i opposite corner i, oriented so that the interior is positive.
 class TriangleEdges {
   public:
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), 0) {}
-    // Of a triangle with negative w at the corners of `negative_w` (bit i): their edges are turned over, so that the
-    // covered pixels are again those where no edge value is negative, and a pixel on such a side is inside where it
-    // would be outside (coverage.md 5.8). For coverage alone: `at` has no such values.
+    // For a triangle with negative w at the corners of `negative_w` (bit i). Their edges are negated, so that the
+    // covered pixels are again those where no edge value is negative; the tie rule of such a side is inverted
+    // (coverage.md 5.8). For coverage only: `at` does not return the negated values.
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::uint8_t negative_w) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), negative_w) {}
 
     // Twice the area in square subpixels: the sum of the edge values at any point.
     [[nodiscard]] constexpr std::int64_t area() const noexcept { return area_; }
     [[nodiscard]] constexpr const Edge& edge(std::size_t i) const noexcept { return edge_[i]; }
-    // 0 if the edge owns its ties, else 1: the edge takes the centre if E - tie >= 0.
+    // 0 if the edge owns its ties, else 1: the edge covers the centre if E - tie >= 0.
     [[nodiscard]] constexpr std::int64_t tie(std::size_t i) const noexcept { return tie_[i]; }
-    // Two edge functions and the rest of the area: the three sum up exactly, so the first needs no products.
+    // Edge values 1 and 2, and the rest of the area for edge 0: the three sum up exactly, so edge 0 needs no products.
     [[nodiscard]] constexpr EdgeValues at(SubpixelPoint p) const noexcept {
         const std::int64_t e1 = edge_[1].at(p), e2 = edge_[2].at(p);
         return {area_ - e1 - e2, e1, e2};
@@ -57,7 +58,7 @@ class TriangleEdges {
     std::int64_t area_;
 };
 
-// The pixels whose centres lie in the bounding box of `p`; n is `subpixel_bits`.
+// The pixels whose centres are in the bounding box of `p`; n is `subpixel_bits`.
 [[nodiscard]] constexpr Rect centre_box(const std::array<SubpixelPoint, 3>& p, int subpixel_bits) noexcept {
     const int half = 1 << (subpixel_bits - 1);
     const auto least = [](std::int32_t a, std::int32_t b, std::int32_t c) { return std::min(std::min(a, b), c); };
@@ -71,13 +72,13 @@ class TriangleEdges {
     return {first(left), first(top), end(right), end(bottom)};
 }
 
-// Pixels [x0, x1) of a row that are covered, and the exact edge values at x0.
+// Covered pixels [x0, x1) of a row, and the exact edge values at x0.
 struct PixelSpan {
     int x0, x1;
     EdgeValues e;
 };
 
-// Edge values along the rows of a box of pixels.
+// Steps the edge values along the rows of a box of pixels.
 class RowWalker {
   public:
     RowWalker(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept
@@ -97,7 +98,7 @@ class RowWalker {
     void next_row() noexcept {
         for (std::size_t i = 0; i < 3; ++i) value_[i] += down_[i];
     }
-    // The covered span of the present row, empty if x0 >= x1.
+    // The covered span of the current row, empty if x0 >= x1.
     [[nodiscard]] PixelSpan span() const noexcept {
         std::int64_t first = 0, end = width_;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -112,8 +113,8 @@ class RowWalker {
     }
 
   private:
-    // Where an edge crosses a row. `beyond` is -width * rise: an edge value below it stays negative through the whole
-    // row. A falling edge is left to the right: its end is where -E - 1 reaches 0.
+    // Where an edge crosses a row. `beyond` is -width * rise: an edge value below it stays negative in the whole row. A
+    // falling edge ends its span on the right, where -E - 1 reaches 0.
     struct Crossing {
         std::int64_t rise;
         std::int64_t beyond;
@@ -122,9 +123,9 @@ class RowWalker {
         bool falls;
     };
 
-    // The least k >= 0 with e + k rise >= 0, at most the width, without a branch. The guess is never high, and low by
-    // less than 2: it is at most 2^16, its error below 2^-35, and an exact quotient that is no integer lies 1 / rise or
-    // more above one.
+    // The least k >= 0 with e + k rise >= 0, at most the width, without a branch. The estimate is never too high and is
+    // low by less than 2: it is at most 2^16 with an error below 2^-35, and an exact quotient that is not an integer is
+    // at least 1 / rise above one.
     [[nodiscard]] std::int64_t first_reached(std::int64_t e, const Crossing& c) const noexcept {
         const std::int64_t missing = std::clamp(e, c.beyond, std::int64_t{0});
         auto k = static_cast<std::int64_t>(static_cast<double>(-missing) * c.inverse);

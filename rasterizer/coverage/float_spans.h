@@ -1,13 +1,13 @@
-// rasterizer/coverage/float_spans.h - the pixels that a triangle covers by spans between its sides, stepped in binary32
-// from positions that are not snapped.
+// rasterizer/coverage/float_spans.h - the pixels that a triangle covers, by spans between sides that are stepped in
+// binary32 from unsnapped positions.
 //
-// Rule     CoverageRule::float_spans: corners by y, half a pixel right and up; each side runs over whole rows from
-//          ceil(y); row k of a part reaches from int(left + k slope) up to, not including, int(right + k slope). First
-//          the rows from the least to the middle corner, then those to the greatest. Nothing is drawn where 1 / area is
-//          not finite. int cuts toward zero; every operation is rounded to binary32.
+// Rule     CoverageRule::float_spans: corners sorted by y; 1/2 is added to x and subtracted from y. Each side runs over
+//          whole rows from ceil(y); row k of a part covers int(left + k slope) up to but excluding int(right + k
+//          slope). First come the rows from the lowest y to the middle corner, then those to the highest. Nothing is
+//          drawn if 1 / area is not finite. int truncates toward zero; every operation is rounded to binary32.
 // Source   mesa-rasterizers.md 3.1 and 3.2.
-// Numbers  Positions lie within the guard band of +-2^15 pixels, but slopes do not: x is clamped to the box before it
-//          becomes an integer.
+// Numbers  Positions are within the guard band of +-2^15 pixels, but slopes are unbounded: x is clamped to the box
+//          before the conversion to an integer.
 // Tests    tests/rasterizer/coverage/float_spans_test.cpp
 #pragma once
 #include <algorithm>
@@ -22,7 +22,7 @@ inline namespace strict {
 
 using WindowPosition = std::array<float, 2>;
 
-// The corners in the order of their y: which one is the least, the middle, the greatest.
+// The indices of the corners in order of y: lowest, middle, highest.
 [[nodiscard]] constexpr std::array<std::size_t, 3> by_height(const std::array<WindowPosition, 3>& p) noexcept {
     using Order = std::array<std::size_t, 3>;
     const float y0 = p[0][1], y1 = p[1][1], y2 = p[2][1];
@@ -30,7 +30,7 @@ using WindowPosition = std::array<float, 2>;
     return y0 <= y2 ? Order{1, 0, 2} : y2 <= y1 ? Order{2, 1, 0} : Order{1, 2, 0};
 }
 
-// Twice the area in binary32, positive for clockwise corners in memory order: its sign is the facing.
+// Twice the area in binary32, positive for corners that are clockwise in memory order: its sign decides the facing.
 [[nodiscard]] constexpr float float_area(const std::array<WindowPosition, 3>& p) noexcept {
     const float ex = p[0][0] - p[2][0], ey = p[0][1] - p[2][1], fx = p[1][0] - p[2][0], fy = p[1][1] - p[2][1];
     const float down = ex * fy, up = ey * fx;
@@ -50,11 +50,11 @@ class FloatSpans {
     }
     [[nodiscard]] bool is_drawn() const noexcept { return is_drawn_; }
 
-    // Calls visit(y, x0, x1) for every row of `box` that has covered pixels [x0, x1) there.
+    // Calls visit(y, x0, x1) for every row of `box` with covered pixels [x0, x1).
     template <class Visit>
     void visit(const Rect& box, const Visit& visit) const {
-        // A box without columns, of a triangle beside the region, has its bounds the other way round: std::clamp takes
-        // no such.
+        // For a triangle outside the region the box has no columns: its bounds are reversed, which std::clamp does not
+        // allow.
         if (!is_drawn_ || box.x0 >= box.x1) return;
         Side bottom = bottom_, longest = longest_, top = top_;
         const int rows = bottom.rows, rest = top.rows;
@@ -70,7 +70,7 @@ class FloatSpans {
   private:
     struct Side {
         float dx = 0, dy = 0, slope = 0;
-        float x = 0, y = 0;  // in its next row
+        float x = 0, y = 0;  // x and y in the side's next row
         int rows = 0;
     };
 
@@ -86,7 +86,7 @@ class FloatSpans {
         s.x = x + risen;
         return s;
     }
-    // x in row k of a side, cut to an integer within the columns [low, high].
+    // x in row k of a side, clamped to the columns [low, high] and truncated to an integer.
     [[nodiscard]] static int column(const Side& s, int k, int low, int high) noexcept {
         const float moved = static_cast<float>(k) * s.slope;
         const float x = s.x + moved;
@@ -114,17 +114,17 @@ class FloatSpans {
     bool is_drawn_ = false;
 };
 
-// Pixels that hold all that a triangle can cover: a pixel more on every side than its corners.
+// A box of all pixels that a triangle can cover: one pixel more on every side than its corners.
 [[nodiscard]] inline Rect float_box(const std::array<WindowPosition, 3>& p) noexcept {
     const auto [x0, x1] = std::minmax({p[0][0], p[1][0], p[2][0]});
     const auto [y0, y1] = std::minmax({p[0][1], p[1][1], p[2][1]});
     return {static_cast<int>(x0) - 2, static_cast<int>(y0) - 2, static_cast<int>(x1) + 3, static_cast<int>(y1) + 3};
 }
 
-// Boxes of at most this many pixels either way are drawn when triangles are set up, to see what is covered (coverage.md
-// 7.1).
+// Triangles whose boxes have at most this many pixels in each direction are rasterized at set-up, to find their covered
+// pixels (coverage.md 7.1).
 inline constexpr int seen_size = 12;
-// The covered pixels' box, of those in `box`; empty if there are none.
+// The bounding box of the covered pixels within `box`; empty if there are none.
 [[nodiscard]] inline Rect covered_box(const FloatSpans& spans, const Rect& box) {
     Rect covered{box.x1, box.y1, box.x0, box.y0};
     spans.visit(box, [&](int y, int x0, int x1) {

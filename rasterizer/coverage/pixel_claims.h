@@ -1,7 +1,7 @@
-// rasterizer/coverage/pixel_claims.h - which pixels of a region the present batch already holds.
+// rasterizer/coverage/pixel_claims.h - which pixels of a region are already in the current batch.
 //
-// Rule     A word stands for 32 pixels of a row: a bit a pixel, and above them the number of the batch that the bits
-//          are of. So a new batch forgets them all by taking the next number.
+// Rule     A 64-bit word stores 32 pixels of a row: one bit per pixel in the low half, and the number of the batch to
+//          which the bits belong in the high half. A new batch clears all of them by taking the next number.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp (no pixel twice in a batch)
 #pragma once
 #include <algorithm>
@@ -20,12 +20,12 @@ class PixelClaims {
 
     void next_batch() {
         if (++batch_ != 0) return;
-        std::ranges::fill(word_, std::uint64_t{0});  // after 2^32 batches the numbers start again
+        std::ranges::fill(word_, std::uint64_t{0});  // the number wraps after 2^32 batches
         batch_ = 1;
     }
 
-    // Claims `count` pixels of a row of the region from `column` on; false, and some of them claimed, if the batch
-    // holds one of them already: then it must end.
+    // Claims `count` pixels of a row of the region, starting at `column`. Returns false, possibly with some of them
+    // claimed, if the batch already contains one of them: the batch must then end.
     [[nodiscard]] bool claim(std::size_t row, unsigned column, unsigned count) noexcept {
         std::uint64_t* word = &word_[row * words_a_row_ + column / 32];
         for (column %= 32; count > 0; ++word, column = 0) {
@@ -42,8 +42,8 @@ class PixelClaims {
     struct Origin {
         std::size_t row, column;
     };
-    // Claims what `bits_of(row)` names, bit 0 at the column of `from`, in `rows` rows of at most 16 pixels; false as
-    // above. Up to `spare_rows` of them may lie below the region, with no bits.
+    // Claims the pixels whose bits `bits_of(row)` sets, bit 0 at the column of `from`, in `rows` rows of at most 16
+    // pixels; returns false as above. Up to `spare_rows` of the rows may be below the region, without bits.
     template <class BitsOf>
     [[nodiscard, gnu::always_inline]] bool claim_rows(Origin from, unsigned width, unsigned rows,
                                                       const BitsOf& bits_of) noexcept {
@@ -52,7 +52,7 @@ class PixelClaims {
         const unsigned shift = from.column % 32;
         const bool crosses = shift + width > 32;
         std::uint64_t twice = 0;
-        // Bits are written even if they are held already: the batch ends then, and its bits with it.
+        // Bits are written even if some are already set: the batch then ends, and its bits become invalid.
         const auto add = [&](std::uint64_t& to, std::uint32_t bits) {
             const std::uint64_t held = to >> 32 == batch_ ? to : number;
             twice |= held & bits;

@@ -1,5 +1,5 @@
-// rasterizer/coverage/small_coverage-inl.h - what of a small triangle is covered, as bits: four rows of 4 pixels, two
-// of 8 or one of 16 side by side. For *_simd.cpp alone, as weights-inl.h. Its meaning is scalar::emit_small of
+// rasterizer/coverage/small_coverage-inl.h - the covered pixels of a small triangle as bits, in blocks of four rows of
+// 4 pixels, two of 8 or one of 16. For *_simd.cpp only, like weights-inl.h. Its meaning is scalar::emit_small in
 // small_triangles.h. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
 #include <bit>
 
@@ -20,10 +20,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Block32 = hn::CappedTag<std::uint32_t, 16>;
 constexpr std::size_t block_part = hn::MaxLanes(Block32{}), block_parts = 16 / block_part;
 
-// A block is 16 pixels: four rows of 4, two of 8 or one of 16, by the width of the box.
+// A block is 16 pixels: four rows of 4, two of 8 or one of 16, depending on the width of the box.
 struct BlockShape {
     alignas(64) std::uint32_t column[16], row[16];
-    std::uint32_t first_column;  // its bits
+    std::uint32_t first_column;  // the bits of column 0
 };
 constexpr BlockShape shape_of(std::uint32_t width) {
     BlockShape shape{};
@@ -36,8 +36,8 @@ constexpr BlockShape shape_of(std::uint32_t width) {
 }
 constexpr BlockShape shapes[3] = {shape_of(4), shape_of(8), shape_of(16)};
 
-// The covered pixels of a small triangle as bits, one a pixel, block after block. `within_8` knows that the box lies in
-// 8 x 8 pixels: four blocks, whose loops end where the compiler can see it.
+// The covered pixels of a small triangle as bits, one per pixel, block after block. `within_8` states that the box is
+// within 8 x 8 pixels: four blocks, so that loops have a constant bound.
 template <bool within_8>
 class SmallCoverage {
   public:
@@ -46,7 +46,7 @@ class SmallCoverage {
           count_{within_8 ? 4u : ((g.height[k] << log_width_) + 15) / 16},
           shape_{shapes[log_width_ - 2]} {
         const Block32 d;
-        // Edge values at the 16 pixels of the first block, and what they change by from a block to the next.
+        // Edge values at the 16 pixels of the first block, and their change from one block to the next.
         hn::Vec<Block32> edge[3][block_parts], down[3];
         for (std::size_t i = 0; i < 3; ++i) {
             const auto value = hn::Set(d, g.value[i][k]), step = hn::Set(d, g.step[i][k]);
@@ -56,19 +56,19 @@ class SmallCoverage {
                                         hn::Mul(hn::Load(d, shape_.row + part * block_part), down_step));
             down[i] = hn::Set(d, g.down[i][k] << (4 - log_width_));
         }
-        // Columns beyond the box hold values that may have wrapped: their bits are cleared.
+        // Columns outside the box have values that may have wrapped: their bits are cleared.
         const std::uint32_t in_box = ((1u << g.width[k]) - 1) * shape_.first_column;
         for (std::uint32_t b = 0; b < count(); ++b) {
             std::uint32_t covered = 0;
             for (std::size_t part = 0; part < block_parts; ++part) {
-                // A pixel is covered where none of the three values has its sign bit set.
+                // A pixel is covered if none of the three values has its sign bit set.
                 covered |= not_negative(hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part]))
                            << part * block_part;
                 for (std::size_t i = 0; i < 3; ++i) edge[i][part] = hn::Add(edge[i][part], down[i]);
             }
             bits_[b / 4] |= std::uint64_t{covered & in_box} << b % 4 * 16;
         }
-        const std::uint32_t end = g.height[k] << log_width_;  // no rows below the box
+        const std::uint32_t end = g.height[k] << log_width_;  // clears the rows below the box
         bits_[(end - 1) / 64] &= ~std::uint64_t{0} >> (64 - end) % 64;
         for (std::uint32_t word = 0; word < (count() + 3) / 4; ++word) pixels_ += std::popcount(bits_[word]);
     }
@@ -77,14 +77,15 @@ class SmallCoverage {
         const std::uint32_t bit = r << log_width_;
         return static_cast<std::uint32_t>(bits_[bit / 64] >> bit % 64) & ((1u << (1u << log_width_)) - 1);
     }
-    // Rows [first_row, end_row) hold what is covered; there is something.
+    // Rows [first_row, end_row) include all covered pixels. Precondition: at least one pixel is covered.
     HWY_INLINE std::uint32_t first_row() const {
         return within_8 ? static_cast<std::uint32_t>(std::countr_zero(bits_[0])) / 8 : 0;
     }
     HWY_INLINE std::uint32_t end_row(std::uint32_t height) const {
         return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
     }
-    // `base` and the numbers of the covered pixels, ascending: pixels() of them, and room for block_part more.
+    // Writes `base` plus the index of each covered pixel, ascending: pixels() of them. `numbers` must have room for
+    // block_part more.
     HWY_INLINE void write_numbers(std::uint32_t* numbers, std::uint32_t base = 0) const {
         const Block32 d;
         for (std::uint32_t first = 0; first < 16 * count(); first += block_part) {
@@ -95,7 +96,7 @@ class SmallCoverage {
             numbers += std::popcount(own);
         }
     }
-    // Column and row, within the box, of pixels that are given by their numbers.
+    // Column and row, within the box, of pixels given by their indices.
     template <class Vec>
     HWY_INLINE Vec column(Vec number) const {
         return hn::And(number, hn::Set(hn::DFromV<Vec>{}, (1u << log_width()) - 1));
@@ -104,7 +105,7 @@ class SmallCoverage {
     HWY_INLINE Vec row(Vec number) const {
         return hn::ShiftRightSame(number, static_cast<int>(log_width()));
     }
-    // How many rows to claim: those below the box are empty.
+    // The number of rows to claim: those below the box are empty.
     HWY_INLINE std::uint32_t rows(std::uint32_t height) const { return within_8 ? 8 : height; }
 
   private:

@@ -1,10 +1,10 @@
-// rasterizer/coverage/small_triangles.h - triangles of few pixels: edge functions of 32 bits, a group of triangles at a
-// time, and all rows of a triangle as one bit mask.
+// rasterizer/coverage/small_triangles.h - triangles of few pixels: 32-bit edge functions, set up a group of triangles
+// at a time, and the coverage of a triangle as bit masks.
 //
-// Rule     Coverage is that of coverage.h. A batch takes a small triangle whole or not at all.
-// Numbers  Corners of at most 2^14 subpixels either way and boxes within theirs: |E| <= 2^14 2^14 2 = 2^29. Arithmetic
-//          is modulo 2^32, because pixels beyond the box and triangles that are not small may wrap: nothing looks
-//          there.
+// Rule     Coverage is that of coverage.h. A batch takes a small triangle completely or not at all.
+// Numbers  Corners are at most 2^14 subpixels apart in each direction and boxes are within them: |E| <= 2^14 2^14 2 =
+//          2^29. Arithmetic is modulo 2^32, because values at pixels outside the box and of triangles that are not
+//          small may wrap; these values are not used.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp
 #pragma once
 #include <algorithm>
@@ -21,21 +21,21 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-inline constexpr int usable_capacity = batch_capacity - 16;  // loops over lanes may write 15 beyond the count
+inline constexpr int usable_capacity = batch_capacity - 16;  // loops over lanes may write up to 15 lanes past the count
 
-// Triangles side by side. Edge values less the tie at the centre of the box's first pixel, and what they change by for
-// a pixel right and a pixel down: a centre is covered if all three are >= 0.
+// A group of triangles. Edge values, minus the tie, at the centre of the box's first pixel, and their change for one
+// pixel right and one down: a centre is covered if all three are >= 0.
 struct alignas(64) TriangleGroup {
     static constexpr int size = 16, max_width = 16, max_height = 15, max_extent = 1 << 14;
     static_assert(max_width * max_height <= usable_capacity);
     using PerTriangle = std::array<std::uint32_t, size>;
 
-    std::array<PerTriangle, 3> x, y;    // snapped corners: what comes in
+    std::array<PerTriangle, 3> x, y;    // snapped corners: the input
     PerTriangle x0, y0, width, height;  // pixel centres in the box and the clip; 0 by 0 if there are none
-    PerTriangle small;                  // 1: all that follows holds
-    PerTriangle area, turned;           // twice the area, without its sign; its sign as a mask
+    PerTriangle small;                  // 1: the triangle is small and the following fields are valid
+    PerTriangle area, turned;           // twice the absolute area; the sign of the area as a mask
     std::array<PerTriangle, 3> value, step, down, tie;
-    PerTriangle reached;  // 0: no centre is covered: the box has none, or all of it lies outside of an edge
+    PerTriangle reached;  // 0: no centre is covered, because the box has none or is completely outside one edge
 
     [[nodiscard]] Rect box(std::size_t k) const noexcept {
         const auto left = static_cast<int>(x0[k]), top = static_cast<int>(y0[k]);
@@ -43,7 +43,8 @@ struct alignas(64) TriangleGroup {
     }
 };
 
-// The corners of `count` triangles, vertices(k) naming those of one; the last one's stand in the rest of the group.
+// Loads the corners of `count` triangles; vertices(k) returns the vertex indices of one. The last triangle fills the
+// rest of the group.
 template <class Vertices>
 void load_corners(std::span<const WindowCorner> corners, std::size_t count, const Vertices& vertices,
                   TriangleGroup& group) noexcept {
@@ -64,7 +65,7 @@ struct GroupRules {
     TieRule tie_rule;
 };
 
-// Where a small triangle begins in the region.
+// The position of a small triangle in the region.
 struct RegionOrigin {
     std::uint32_t column, row;  // of the box's first pixel in the region
     std::uint32_t width;        // of the region
@@ -73,20 +74,20 @@ struct RegionOrigin {
 
 struct SmallKernels {
     void (*set_up)(const GroupRules& rules, TriangleGroup& group) noexcept;
-    // Sets up all but the edges and what they reach: boxes, areas, and which triangles are small.
+    // Sets up boxes, areas and which triangles are small, but neither edges nor `reached`.
     void (*set_up_boxes)(const GroupRules& rules, TriangleGroup& group) noexcept;
-    // Appends the pixels of small triangle `k`; false if the batch must be flushed first: then it holds one of them, or
-    // has no room.
+    // Appends the pixels of small triangle `k`. Returns false if the batch must be flushed first because it already
+    // contains one of them or has too little room.
     bool (*emit)(const TriangleGroup& group, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                  FragmentBatch& batch) noexcept;
 };
 
-// The kernels of the chosen instruction set. A draw asks once, not once a group.
+// The kernels of the selected instruction set. Look them up once per draw, not per group.
 [[nodiscard]] const SmallKernels& small_kernels() noexcept;
 
 namespace scalar {
 
-// The steps of set_up_group: loops that compilers vectorise.
+// The steps of set_up_group, as loops that compilers vectorize.
 inline void find_boxes(const GroupRules& rules, TriangleGroup& __restrict g) noexcept {
     const int bits = rules.subpixel_bits, half = 1 << (bits - 1);
     const Rect clip = rules.clip;
@@ -103,8 +104,8 @@ inline void find_boxes(const GroupRules& rules, TriangleGroup& __restrict g) noe
         g.y0[k] = static_cast<std::uint32_t>(y0);
         g.width[k] = static_cast<std::uint32_t>(width);
         g.height[k] = static_cast<std::uint32_t>(height);
-        // `room` is negative if the box is too wide or too high, the other difference if the corners lie too far
-        // apart: a set sign bit in either says that the triangle is not small.
+        // `room` is negative if the box is too wide or too high, the other difference if the corners are too far apart:
+        // if either sign bit is set, the triangle is not small.
         const std::int32_t room = std::min(TriangleGroup::max_width - width, TriangleGroup::max_height - height);
         const std::int32_t extent = std::max(right - left, bottom - top);
         g.small[k] = ~static_cast<std::uint32_t>(room | (TriangleGroup::max_extent - extent)) >> 31;
@@ -121,7 +122,7 @@ inline void find_areas(TriangleGroup& __restrict g) noexcept {
     }
 }
 
-// Edge `i` as Edge and TriangleEdges have it.
+// Edge `i` as in Edge and TriangleEdges.
 inline void find_edge(const GroupRules& rules, std::size_t i, TriangleGroup& __restrict g) noexcept {
     const bool left = rules.tie_rule == TieRule::top_left || rules.tie_rule == TieRule::bottom_left;
     const bool top = rules.tie_rule == TieRule::top_left || rules.tie_rule == TieRule::top_right;
@@ -144,7 +145,7 @@ inline void find_edge(const GroupRules& rules, std::size_t i, TriangleGroup& __r
     }
 }
 
-// An edge is largest in a corner of the box. What has wrapped belongs to triangles that are not small.
+// An edge function is largest at a corner of the box. Values that wrapped belong to triangles that are not small.
 inline void find_reached(TriangleGroup& __restrict g) noexcept {
     for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
         const auto if_positive = [](std::uint32_t v) { return v & ((v >> 31) - 1); };
@@ -167,7 +168,7 @@ inline void set_up_group(const GroupRules& rules, TriangleGroup& group) noexcept
     find_reached(group);
 }
 
-// The meaning of SmallKernels::emit: coverage first, because the batch takes all of the triangle or nothing.
+// The meaning of SmallKernels::emit: coverage first, because the batch takes all pixels of the triangle or none.
 inline bool emit_small(const TriangleGroup& g, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                        FragmentBatch& batch) noexcept {
     std::array<std::uint32_t, TriangleGroup::max_height> covered{};

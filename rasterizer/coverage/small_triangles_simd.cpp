@@ -1,6 +1,6 @@
-// rasterizer/coverage/small_triangles_simd.cpp - the kernels of small_triangles.h for every instruction set; their
-// meaning stands there.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
+// rasterizer/coverage/small_triangles_simd.cpp - the kernels of small_triangles.h, compiled once per instruction set;
+// that header defines their meaning. How kernels are written: kernels.md. Tests:
+// tests/rasterizer/walk/tile_rasterizer_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/coverage/small_triangles_simd.cpp"
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace strata::rasterizer::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectorised by the compiler, for this set.
+// Vectorized by the compiler for this instruction set.
 [[gnu::flatten]] void set_up(const GroupRules& rules, TriangleGroup& group) noexcept {
     scalar::set_up_group(rules, group);
 }
@@ -23,8 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
     scalar::set_up_boxes(rules, group);
 }
 
-// The numbers of the bits that are set in every byte, in ascending order.
-// A table instead of a loop over bits: the covered columns of eight neighbours are one load.
+// The indices of the set bits of every byte value, in ascending order. A table instead of a loop over bits: the covered
+// columns of eight adjacent pixels are one load.
 struct BitNumbers {
     std::uint8_t at[256][8];
 };
@@ -36,7 +36,7 @@ constexpr BitNumbers bit_numbers = [] {
     return numbers;
 }();
 
-// Appends the covered ones of eight neighbours, the first of them number `pixel` at (x, y).
+// Appends the covered pixels among eight adjacent ones; the first has index `pixel` and position (x, y).
 HWY_INLINE std::size_t append_eight(std::uint32_t covered, std::uint32_t pixel, std::uint32_t x, std::uint32_t y,
                                     std::size_t at, FragmentBatch& batch) {
     using Columns = hn::CappedTag<std::uint16_t, 8>;
@@ -71,7 +71,7 @@ HWY_INLINE void append(const SmallCoverage<within_8>& coverage, const TriangleGr
     batch.count = static_cast<int>(end);
 }
 
-// A box of at most 8 by 8 pixels claims eight rows, a number that the compiler knows; rows below the box have no bits.
+// A box of at most 8 by 8 pixels claims eight rows, a compile-time constant; rows below the box have no bits.
 template <bool within_8>
 HWY_INLINE bool emit_covered(const TriangleGroup& g, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                              FragmentBatch& batch) {

@@ -1,4 +1,4 @@
-// rasterizer/coverage/window_corner.h - a vertex in the window, and the box of pixels that a triangle can cover.
+// rasterizer/coverage/window_corner.h - a vertex in window space, and the box of pixels that a triangle can cover.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace strata::rasterizer {
 
-// A vertex in the window, shared by all triangles that it is a corner of.
+// A vertex in window space, shared by all triangles that use it.
 struct WindowCorner {
     // Snapped, y down, and moved where a sample is not the centre (window.h): coverage, area and facing start from it,
     // and planes unless PlaneOrigin::unsnapped says otherwise.
@@ -19,11 +19,11 @@ struct WindowCorner {
     float z = 0, inverse_w = 1;
 };
 
-// Pixels [x0, x1) x [y0, y1), counted from the viewport's corner.
+// Pixels [x0, x1) x [y0, y1), relative to the viewport's corner.
 struct PixelBox {
     std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
-// `box` lies in the viewport, which is at most 65535 pixels wide and high.
+// Precondition: `box` is within the viewport, which is at most 65535 pixels wide and high.
 [[nodiscard]] constexpr PixelBox in_viewport(const Rect& box, const Rect& viewport) noexcept {
     const auto x = [&](int column) { return static_cast<std::uint16_t>(column - viewport.x0); };
     const auto y = [&](int row) { return static_cast<std::uint16_t>(row - viewport.y0); };

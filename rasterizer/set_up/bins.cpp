@@ -1,7 +1,7 @@
-// rasterizer/set_up/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
-// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
-// have exactly the memory that they need.
-// Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
+// rasterizer/set_up/bins.cpp - which tiles a triangle may touch: those of its box of pixel centres, minus the tiles
+// completely outside one edge; for a small triangle the box is used alone. There are two passes, one that counts and
+// one that fills, so that the lists have exactly the required memory. Chunks of triangles run in parallel: where a
+// chunk writes in a tile's list follows from the counts of the chunks before it.
 #include <algorithm>
 #include <bit>
 #include <span>
@@ -16,7 +16,7 @@
 namespace strata::rasterizer {
 namespace {
 
-// The edge values at the pixel centre of `r` where they are largest decide: all three must reach a covered value.
+// Tests each edge at the pixel centre of `r` where its value is largest: all three must be covering values there.
 [[nodiscard]] bool may_cover(const TriangleEdges& edges, const Rect& r, int subpixel_bits) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Edge& edge = edges.edge(i);
@@ -33,7 +33,7 @@ namespace {
     return intersection({x, y, x + geometry.tile_size, y + geometry.tile_size}, viewport);
 }
 
-// FragmentWaves the tiles of one size that a triangle may touch, in their order.
+// Visits the tiles that a triangle may touch, in order of their numbers.
 class TileWalk {
   public:
     explicit TileWalk(const Geometry& geometry)
@@ -43,7 +43,7 @@ class TileWalk {
     void visit(const TriangleRecord& triangle, Visit&& visit) const {
         const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
         const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
-        if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly
+        if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // the most common case
         if (is_small(triangle.box) || geometry_.rules.coverage == CoverageRule::float_spans) {
             for (int y = y0; y <= y1; ++y)
                 for (int x = x0; x <= x1; ++x) visit(number(x, y));
@@ -68,7 +68,7 @@ class TileWalk {
     int shift_;
 };
 
-// Counts what goes into each tile. Neighbours mostly go into the same one, whose count is kept at hand.
+// Counts the triangles of each tile. Consecutive triangles mostly have the same tile, whose count is cached.
 class TileCounter {
   public:
     explicit TileCounter(std::uint32_t* counts) : counts_{counts}, count_{counts[0]} {}
@@ -76,7 +76,7 @@ class TileCounter {
     TileCounter(const TileCounter&) = delete;
     TileCounter& operator=(const TileCounter&) = delete;
 
-    // The tile's count before this one.
+    // Returns the tile's count before this triangle.
     std::uint32_t add(std::size_t tile) noexcept {
         if (tile != tile_) {
             counts_[tile_] = count_;
@@ -92,13 +92,14 @@ class TileCounter {
     std::uint32_t count_;
 };
 
-// The triangles in chunks and what each chunk has in each tile: first its count there, then where it writes next.
+// The triangles in chunks and, per chunk and tile, first the chunk's count and then its next write position.
 class ChunkedBins {
   public:
     ChunkedBins(std::size_t triangles, std::size_t tiles)
         : triangles_{triangles},
           tiles_{tiles},
-          // Not so many that their counts outgrow the caches; no matter how many threads there are.
+          // The number of chunks does not depend on the number of threads; it is limited so that the counts fit in the
+          // caches.
           chunks_{std::clamp<std::size_t>(std::min(triangles / 4096, (std::size_t{1} << 19) / tiles), 1, 64)},
           next_(chunks_ * tiles) {}
 
@@ -110,7 +111,8 @@ class ChunkedBins {
         });
     }
 
-    // Counts become offsets, tile by tile and in a tile chunk by chunk, and `start` the offsets of the tiles.
+    // Turns the counts into offsets, tile by tile and within a tile chunk by chunk; `start` receives the offsets of the
+    // tiles.
     void to_offsets(std::vector<std::uint32_t>& start) {
         start.resize(tiles_ + 1);
         std::uint64_t sum = 0;
@@ -152,7 +154,7 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
 
     const TileWalk walk{geometry};
     ChunkedBins bins{geometry.triangles.size(), tiles};
-    // The one tile of a triangle, for the second walk; `several` also stands for none.
+    // The only tile of each triangle, for the second pass; `several` also means none.
     constexpr std::uint32_t several = ~0u;
     UninitializedVector<std::uint32_t> only_tile(geometry.triangles.size());
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* counts) {

@@ -16,7 +16,7 @@ void check_viewport(const Requirements& state, const Rect& v) {
     state.within("viewport.y1", v.y1, v.y0, greatest_coordinate_px);
 }
 
-// Far outside of every viewport, and still to be moved about in an int.
+// Far outside every viewport, but small enough to be translated without overflow in an int.
 void check_scissor(const Requirements& state, const Rect& s) {
     constexpr int most = 1 << 30;
     state.within("scissor.x0", s.x0, -most, most);
@@ -25,7 +25,7 @@ void check_scissor(const Requirements& state, const Rect& s) {
     state.within("scissor.y1", s.y1, -most, most);
 }
 
-// Every number is below `limit`.
+// Every number must be below `limit`.
 void check_numbers(const Requirements& soup, const char* list, std::span<const std::uint32_t> numbers,
                    std::uint64_t limit) {
     std::uint32_t greatest = 0;
@@ -35,7 +35,7 @@ void check_numbers(const Requirements& soup, const char* list, std::span<const s
     soup.below({list, static_cast<std::size_t>(wrong - numbers.begin())}, *wrong, limit);
 }
 
-// r and q take two places of a vertex and the texture units sixteen; there may be other values between them.
+// r and q take two values of a vertex and the texture units sixteen; there may be other values between them.
 void check_extras(const Requirements& soup, const VertexExtras& extras, std::size_t vertices) {
     const std::size_t needed = (extras.has_rq ? 2 : 0) + (extras.has_units ? 4 * texture_units : 0);
     soup.within("extras.stride", extras.stride, needed, max_extras);

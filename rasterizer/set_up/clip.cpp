@@ -10,10 +10,10 @@
 namespace strata::rasterizer {
 namespace {
 
-// The share t of the way from a to b.
+// Interpolates from a (t = 0) to b (t = 1) in binary64, rounded once.
 [[nodiscard]] float mix(float a, float b, double t) noexcept { return static_cast<float>(a + t * (double{b} - a)); }
 
-// Whether the guard band holds the viewport, or there is none.
+// True if the guard band contains the viewport, or there is no guard band.
 [[nodiscard]] bool guard_holds(const Rect& viewport, const RasterRules& rules) noexcept {
     const int guard = guard_band(rules);
     return rules.clip != ClipVolume::guard_band ||
@@ -27,7 +27,7 @@ Clipper::Clipper(const RasterState& state, const RasterRules& rules)
       is_single_{rules.clip != ClipVolume::guard_band},
       is_depth_first_{rules.clip == ClipVolume::view_volume_depth_first},
       holds_view_volume_{state.clip_plane_count == 0 && guard_holds(state.viewport, rules)} {
-    if (state.window_positions) return;  // there is no clip space; set-up keeps positions within the guard band
+    if (state.window_positions) return;  // there is no clip space; set-up clamps positions to the guard band
     add({0, 0, 0, 1, -double{least_w}, Kind::w});
     const bool clips_z = !state.depth_clamp && rules.z_clip == ZClip::per_primitive;
     if (is_depth_first_)
@@ -49,7 +49,7 @@ void Clipper::add_near_and_far() noexcept {
 }
 
 void Clipper::add_guard_band(const RasterState& state, const RasterRules& rules) noexcept {
-    // |centre + half x / w| <= guard, times w: products are exact in binary64, so the sign of the distance is.
+    // |centre + half x / w| <= guard, times w: products are exact in binary64, so the sign of the distance is too.
     const double guard = guard_band(rules);
     const auto add_guard = [&](double half, double centre, bool is_x) {
         for (const double side : {-half, half})
@@ -62,7 +62,7 @@ void Clipper::add_guard_band(const RasterState& state, const RasterRules& rules)
     add_guard(0.5 * v.height(), y_sign * (v.y0 + 0.5 * v.height()), false);
 }
 
-// Their order decides which corners there are (coverage.md 2.8).
+// The order of the planes decides which corners result (coverage.md 2.8).
 void Clipper::add_view_volume(bool clips_z) noexcept {
     add({-1, 0, 0, 1, 0, Kind::other});
     add({1, 0, 0, 1, 0, Kind::other});
@@ -79,7 +79,8 @@ void Clipper::add_view_volume_depth_first(bool clips_z) noexcept {
     add({0, 1, 0, 1, 0, Kind::other});
 }
 
-// From the left in binary64, each step rounded (coverage.md 2.3): a vertex has one distance, whichever triangle asks.
+// Summed from left to right in binary64, each step rounded (coverage.md 2.3): a vertex has the same distance for every
+// triangle.
 double Clipper::distance(const Plane& plane, const ClipVertex& v) noexcept {
     double d = plane.x * v.x;
     d = d + plane.y * v.y;
@@ -105,8 +106,8 @@ std::uint32_t Clipper::outside_planes(const ClipVertex& v) const noexcept {
     return mask;
 }
 
-// Always from the inside end to the outside end, so that both
-// triangles of a shared side get the same bits (coverage.md 2.4).
+// Always from the inside end to the outside end, so that both triangles of a shared side get the same bits (coverage.md
+// 2.4).
 ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_in, const ClipVertex& out,
                              double d_out) noexcept {
     const double t = d_in / (d_in - d_out);
@@ -118,7 +119,7 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
     for (std::size_t i = 0; i < v.front.size(); ++i) v.front[i] = mix(in.front[i], out.front[i], t);
     for (std::size_t i = 0; i < v.back.size(); ++i) v.back[i] = mix(in.back[i], out.back[i], t);
     for (std::size_t i = 0; i < v.texcoord.size(); ++i) v.texcoord[i] = mix(in.texcoord[i], out.texcoord[i], t);
-    switch (plane.kind) {  // what the plane says holds exactly: window z of the corner is n or f
+    switch (plane.kind) {  // the value that is exact on the plane: window z of the corner is n or f
         case Kind::w: v.w = least_w; break;
         case Kind::z_is_minus_w: v.z = -v.w; break;
         case Kind::z_is_zero: v.z = 0.0f; break;
@@ -130,7 +131,7 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
 
 namespace {
 
-// Corner i of `from` becomes the next one of `to`. Returns its number there.
+// Appends corner i of `from` to `to`. Returns its index there.
 std::size_t append(const ClipPolygon& from, std::size_t i, ClipPolygon& to) noexcept {
     const auto n = static_cast<std::size_t>(to.count++);
     to.corner[n] = from.corner[i];
@@ -145,7 +146,7 @@ std::size_t append(const ClipPolygon& from, std::size_t i, ClipPolygon& to) noex
     return from + product;
 }
 
-// `value` of each number of two vertices.
+// Applies `value` to each pair of components of two vertices.
 template <class Value>
 [[nodiscard]] ClipVertex each(const ClipVertex& first, const ClipVertex& second, const Value& value) noexcept {
     static_assert(sizeof(ClipVertex) == 14 * sizeof(float));
@@ -168,8 +169,8 @@ struct FromInside {
 
 }  // namespace
 
-// One step of Sutherland and Hodgman. A corner on the plane is
-// kept and makes no second corner there (coverage.md 2.5).
+// One step of Sutherland and Hodgman. A corner on the plane is kept and does not create a second corner there
+// (coverage.md 2.5).
 void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
@@ -189,8 +190,8 @@ void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) 
     }
 }
 
-// Here a corner on the plane does make a second corner beside it, and the end that is nearer to the plane is where the
-// new corner starts (coverage.md 2.8).
+// Here a corner on the plane does create a second corner at the same point, and the new corner is computed from the end
+// that is nearer to the plane (coverage.md 2.8).
 void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
@@ -216,7 +217,8 @@ void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygo
     }
 }
 
-// A corner on the plane makes a second one beside it on the way out, and none on the way in (coverage.md 2.8).
+// A corner on the plane creates a second corner at the same point on the way out, and none on the way in (coverage.md
+// 2.8).
 void Clipper::cut_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
@@ -239,7 +241,7 @@ void Clipper::cut_depth_first(const Plane& plane, const ClipPolygon& from, ClipP
 
 void Clipper::clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept {
     ClipPolygon other;
-    // The view volume has no plane of w: inside its planes of x no w is negative.
+    // The view volume has no w plane: inside its x planes w is never negative.
     for (int i = is_single_ ? 1 : 0; i < count_; ++i) {
         if ((planes >> i & 1u) == 0) continue;
         const Plane& plane = plane_[static_cast<std::size_t>(i)];

@@ -8,7 +8,7 @@
 namespace strata::rasterizer {
 namespace {
 
-// |dz/dx| + |dz/dy| over the unsnapped positions, per pixel. Without an area there the plane is the snapped one.
+// |dz/dx| + |dz/dy| over the unsnapped positions, per pixel. If they have no area, the plane is the snapped one.
 [[nodiscard]] double steepness(const Geometry& geometry, const TriangleRecord& triangle,
                                const std::array<double, 3>& z) {
     const auto at = [&](std::size_t i) { return geometry.corners[triangle.vertex[i]].unsnapped; };
@@ -21,10 +21,10 @@ namespace {
     return (std::fabs(d1 * y2 - d2 * y1) + std::fabs(d2 * x1 - d1 * x2)) / std::fabs(area);
 }
 
-// A bound of what rounding each step to binary32 does to a depth (float_planes.h), to first order with room: the
-// rounded area may be off by 4 units of its two products, each slope by as much and 4 roundings, which counts over the
-// triangle's extent; the start at pixel (0, 0) and the steps from there round values of the size of slope times
-// position.
+// A bound on the effect of rounding each step to binary32 on a depth (float_planes.h), to first order with a margin:
+// the rounded area may be off by 4 units of its two products, each slope by the same plus 4 roundings, which
+// accumulates over the triangle's extent; the value at pixel (0, 0) and the steps from there round values of the size
+// of slope times position.
 [[nodiscard]] double step_error(const Geometry& geometry, const TriangleRecord& triangle,
                                 const std::array<double, 3>& z) {
     const auto at = geometry.positions(triangle);
@@ -35,7 +35,7 @@ namespace {
     const double relative = 8.0 * unit * (products / area + 1.0);
     if (!(relative < 0.25)) return std::numeric_limits<double>::infinity();
     const double d1 = std::fabs(z[1] - z[0]), d2 = std::fabs(z[2] - z[0]), d12 = std::fabs(z[2] - z[1]);
-    // Differences from either corner that the rules may start at.
+    // Differences from each corner at which the rules may start.
     const double d = d1 + d2 + d12, width = std::fabs(x1) + std::fabs(x2) + 2.0,
                  height = std::fabs(y1) + std::fabs(y2) + 2.0;
     const double across = d * height / area, down = d * width / area;
@@ -47,17 +47,17 @@ namespace {
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
-    // Planes from one corner of the triangle that was given may err by more than the corners of a piece tell.
+    // Planes from one corner of a source triangle may have larger errors than the corners of a piece imply.
     if (geometry.state.depth_order == DepthOrder::greater || geometry.rules.plane_rule == PlaneRule::greatest_w)
         return std::numeric_limits<double>::infinity();
     const auto larger = [](double a, double b) {
         return a > b ? a : b;
-    };  // without a branch, as std::max of a list is not
+    };  // without a branch, unlike std::max of a list
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
     const bool has_spans = geometry.rules.coverage == CoverageRule::float_spans;
     const double beyond = has_spans ? 1.0 : geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
-    // Memory is asked for this many triangles ahead, because a list names triangles here and there.
+    // Prefetch distance in triangles, because a list refers to triangles at scattered addresses.
     constexpr std::size_t ahead = 16;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const std::uint32_t i = triangles[k];

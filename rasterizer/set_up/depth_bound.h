@@ -1,12 +1,12 @@
-// rasterizer/set_up/depth_bound.h - how far away the fragments of some triangles can be at most, before any of them is
-// made.
+// rasterizer/set_up/depth_bound.h - an upper bound on the depth of the fragments of some triangles, before any fragment
+// is generated.
 //
-// Rule     No shader_z of a fragment is greater, and no code of DepthPath::float32 or exact is greater than the
-//          bound's. Of keys (DepthOrder::greater) nothing is said: the bound is infinite.
-// Numbers  A covered centre is a convex combination of the snapped corners, so over snapped positions the plane stays
-//          below its greatest corner. Planes over unsnapped positions are asked at most half a subpixel (1, if
-//          positions are cut) beyond: the bound adds |dz/dx| + |dz/dy| times that. 2^-20 of the magnitude covers all
-//          roundings to binary32.
+// Rule     No fragment has a greater shader_z, and none has a code of DepthPath::float32 or exact greater than the
+//          bound's code. With DepthOrder::greater the bound is infinite.
+// Numbers  A covered centre is a convex combination of the snapped corners, so a plane over snapped positions does not
+//          exceed its greatest corner. Planes over unsnapped positions are evaluated at most half a subpixel (1 if
+//          positions are truncated) outside the triangle: the bound adds |dz/dx| + |dz/dy| times that. 2^-20 of the
+//          magnitude covers all roundings to binary32.
 // Tests    tests/rasterizer/set_up/depth_bound_test.cpp
 #pragma once
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace strata::rasterizer {
 
-// In the units of shader_z; -infinity for no triangles.
+// The bound in the units of shader_z; -infinity for no triangles.
 [[nodiscard]] double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles);
 
 }  // namespace strata::rasterizer

@@ -12,14 +12,14 @@
 namespace strata::rasterizer {
 namespace {
 
-// Vertices or triangles in chunks. They follow from the count alone, so no result depends on the number of threads
-// (numbers.md 2.2). Of a large mesh there are no more than 64, each with memory of its own.
+// Divides vertices or triangles into chunks. The chunks depend only on the count, so no result depends on the number of
+// threads (numbers.md 2.2). A large mesh has at most 64, because each has its own memory.
 class Chunks {
   public:
     explicit Chunks(std::size_t count)
         : count_{count}, size_{std::max<std::size_t>(1024, (count / 64 + 16) & ~std::size_t{15})} {}
     [[nodiscard]] std::size_t number() const noexcept { return (count_ + size_ - 1) / size_; }
-    // Calls body(chunk number, begin, end) for all of them.
+    // Calls body(chunk number, begin, end) for every chunk.
     template <class Body>
     void for_each(int threads, const Body& body) const {
         parallel_for(number(), threads, [&](std::size_t c) { body(c, c * size_, std::min(count_, (c + 1) * size_)); });
@@ -29,7 +29,7 @@ class Chunks {
     std::size_t count_, size_;
 };
 
-// The triangles of a soup by their numbers in its listing.
+// Looks up the triangles of a soup by their position in its list.
 class Listing {
   public:
     explicit Listing(const TriangleSoup& soup) : soup_{soup} {
@@ -39,7 +39,7 @@ class Listing {
         return soup_.order.empty() ? start_.back() : soup_.order.size();
     }
 
-    // `run` is where the last one was found: mostly, so is this one.
+    // `run` is where the previous triangle was found; the next one is mostly in the same run.
     [[nodiscard]] SourceTriangle at(std::uint32_t primitive, std::size_t& run) const {
         const std::uint32_t number = soup_.order.empty() ? primitive : soup_.order[primitive];
         if (number < start_[run] || number >= start_[run + 1])
@@ -49,14 +49,14 @@ class Listing {
         return {{first + index[0], first + index[1], first + index[2]}, number, primitive, &soup_.runs[run]};
     }
 
-    // How many triangles of run `run` stand side by side from `primitive` on, in submission order, and where their
-    // indices do.
+    // The number of triangles of run `run` that are contiguous from `primitive` on in submission order, with contiguous
+    // indices.
     [[nodiscard]] std::size_t side_by_side(std::size_t primitive, std::size_t run) const {
         return soup_.order.empty() && primitive >= start_[run] && primitive < start_[run + 1]
                    ? start_[run + 1] - primitive
                    : 0;
     }
-    // Of triangle `number` of the listing.
+    // The indices of triangle `number` of the list.
     [[nodiscard]] const std::uint32_t* indices(std::size_t number, std::size_t run) const {
         const TriangleRun& its = soup_.runs[run];
         return (its.lent != nullptr ? its.lent : &soup_.indices[its.first_index]) + 3 * (number - start_[run]);
@@ -64,7 +64,7 @@ class Listing {
 
   private:
     const TriangleSoup& soup_;
-    std::vector<std::uint32_t> start_{0};  // where each run's triangles begin; one entry more than there are runs
+    std::vector<std::uint32_t> start_{0};  // first triangle of each run; one entry more than there are runs
 };
 
 void add(SetupCounters& sum, const SetupCounters& part) {
@@ -78,12 +78,12 @@ void add(SetupCounters& sum, const SetupCounters& part) {
     sum.non_finite += part.non_finite;
 }
 
-// The indices of a chunk's first triangle and first new vertex.
+// Where a chunk's triangles and new vertices start in the geometry.
 struct ChunkStart {
     std::size_t triangle = 0, vertex = 0;
 };
 
-// Puts the chunks one behind the other, each freed as soon as it is copied; the vertices that each made are renumbered.
+// Concatenates the chunks and renumbers the vertices that each created; each chunk is freed as soon as it is copied.
 void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometry) {
     const std::size_t given = geometry.vertices.size();
     std::vector<ChunkStart> start(chunks.size());
@@ -103,7 +103,7 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
     parallel_for(chunks.size(), threads, [&](std::size_t c) {
         const SetupChunk chunk = std::move(chunks[c]);
         const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
-        // A chunk numbers its new vertices from `given` on; they move behind those of the chunks before it.
+        // A chunk numbers its new vertices from `given` on; they move after those of the chunks before it.
         const auto moved = static_cast<std::uint32_t>(start[c].vertex - given);
         const auto triangles = at(geometry.triangles, start[c].triangle);
         std::ranges::copy(chunk.triangles, triangles);
@@ -148,7 +148,7 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
 
 namespace {
 
-// Ties as memory's rows have them.
+// The tie rule in the row order of memory.
 RasterRules in_memory_rows(RasterRules rules, const RasterState& state) {
     using enum TieRule;
     if (rules.y_axis == YAxis::memory || state.y_direction != YDirection::up) return rules;
@@ -168,7 +168,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     const bool settles = state.window_positions && rules.w_signs == WSigns::by_corner;
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     Chunks{soup.vertices.size()}.for_each(threads, [&](std::size_t, std::size_t begin, std::size_t end) {
-        constexpr std::size_t few = 1024;  // as stay in the caches between one step and the next
+        constexpr std::size_t few = 1024;  // few enough to stay in the caches from one step to the next
         for (std::size_t at = begin; at < end; at += few) {
             const auto own = std::span{soup.vertices}.subspan(at, std::min(few, end - at));
             if (source) source(at, own);

@@ -1,5 +1,5 @@
-// rasterizer/set_up/geometry.h - what comes in (clip-space vertices) and what is made of it once a frame (set-up
-// triangles, binned).
+// rasterizer/set_up/geometry.h - the input of set-up (clip-space vertices) and its output, which is computed once per
+// frame (triangles, binned by tile).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,21 +17,22 @@ namespace strata::rasterizer {
 inline constexpr int color_channels = 4, texcoord_channels = 2;
 inline constexpr int attribute_count = color_channels + texcoord_channels;  // r g b a s t
 
-// A vertex as the vertex stage leaves it: clip space, or window x, y, z and w under RasterState::window_positions.
+// A vertex after the vertex stage: clip space, or window x, y, z and w with RasterState::window_positions.
 struct ClipVertex {
     float x = 0, y = 0, z = 0, w = 1;
     std::array<float, 4> front{1, 1, 1, 1};  // colour of front-facing triangles
-    std::array<float, 4> back{1, 1, 1, 1};   // and of back-facing ones (two-sided lighting)
+    std::array<float, 4> back{1, 1, 1, 1};   // colour of back-facing triangles (two-sided lighting)
     std::array<float, 2> texcoord{0, 0};
 };
 
-// Further values of vertices, interpolated by perspective like the colours: `stride` a vertex, none if it is 0.
+// Additional vertex values, interpolated with perspective like the colours: `stride` values per vertex, none if it is
+// 0.
 inline constexpr std::size_t max_extras = 18;
 struct VertexExtras {
     std::size_t stride = 0;
     bool has_rq = false;  // the first two are r and q, whose quotient is the depth of perspective_rq and depth_replace,
                           // r in units of vertex z (rules.window_z)
-    bool has_units = false;  // the last sixteen are s, t, r, q of the texture units, one after the other
+    bool has_units = false;  // the last sixteen are s, t, r, q of each texture unit
     std::vector<float> values;
     [[nodiscard]] const float* of(std::size_t vertex) const noexcept { return &values[vertex * stride]; }
     [[nodiscard]] const float* units_of(std::size_t vertex) const noexcept {
@@ -43,35 +44,37 @@ struct VertexExtras {
 struct TriangleRun {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;
-    std::uint32_t object = 0;  // whose triangles these are: the caller's number
+    std::uint32_t object = 0;  // identifies the object of these triangles; chosen by the caller
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
-    // Where its indices stand if not in the soup: lent by a caller that has checked them, and counted from
+    // The indices, if they are not in the soup: borrowed from a caller that has checked them, relative to
     // `first_vertex`.
     const std::uint32_t* lent = nullptr;
     std::uint32_t first_vertex = 0;
 };
 
-// The input of one draw. Runs cover triples of `indices`, or lent ones; triangles are numbered through the runs, in
-// their order.
+// The input of one draw. Runs refer to triples of `indices` or to borrowed ones; triangles are numbered through the
+// runs in their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
     UninitializedVector<std::uint32_t> indices;
     std::vector<TriangleRun> runs;
-    std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
+    std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter's
+                                       // algorithm)
     VertexExtras extras;
 };
 
-// A triangle after clipping, snapping and facing; one source triangle may become several (fan from its first corner).
-// Corner order is that of submission: geforce3's depth and colour depend on it.
+// A triangle after clipping, snapping and the facing test; one source triangle may become several (a fan from its first
+// corner). Corners are in submission order: geforce3's depth and colour depend on it.
 struct TriangleRecord {
     std::array<std::uint32_t, 3> vertex{};  // into Geometry::vertices and Geometry::corners
     std::uint32_t primitive = 0;            // submission index of the source triangle
     std::uint32_t material = 0;
-    PixelBox box;  // the pixels of the viewport whose centres lie in its bounding box: there are some
+    PixelBox box;  // the pixels of the viewport whose centres are in its bounding box; not empty
     bool front_facing : 1 = true;
-    // The box has at most tiny_size pixels either way, the corners lie at most TriangleGroup::max_extent apart, and
-    // `covered` says which pixels of the box are covered: row by row, tiny_size bits a row. Some are.
+    // If set, the box has at most tiny_size pixels in each direction, the corners are at most TriangleGroup::max_extent
+    // apart, and `covered` has a bit for each covered pixel of the box: row by row, tiny_size bits per row. At least
+    // one bit is set.
     bool is_tiny : 1 = false;
     std::uint8_t negative_w = 0;  // bit i: w of corner i is negative (WSigns::by_corner)
     std::uint16_t covered = 0;
@@ -92,49 +95,49 @@ struct SetupTriangle {
     bool front_facing = true;
 };
 
-// Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle. A source
-// triangle is in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped`
-// counts those that were cut and not found outside (coverage.md 7.1).
+// Exact counts of the dropped triangles by reason; `first_non_finite` is a source triangle. A source triangle is
+// counted in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped` counts
+// those that were clipped and not found outside (coverage.md 7.1).
 struct SetupCounters {
     std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, uncovered = 0, non_finite = 0;
     std::uint32_t first_non_finite = 0;
     friend bool operator==(const SetupCounters&, const SetupCounters&) = default;
 };
 
-// Everything that later passes need, computed once. Bins are empty when no tile size was asked for.
+// The input of all later passes, computed once. Bins are empty if no tile size was requested.
 struct Geometry {
     RasterState state;
     RasterRules rules;
-    UninitializedVector<ClipVertex> vertices;       // the soup's, then those that clipping made
-    UninitializedVector<WindowCorner> corners;      // the same vertices in the window
-    VertexExtras extras;                            // of the same vertices
+    UninitializedVector<ClipVertex> vertices;       // the soup's, then those that clipping created
+    UninitializedVector<WindowCorner> corners;      // the same vertices in window space
+    VertexExtras extras;                            // for the same vertices
     UninitializedVector<TriangleRecord> triangles;  // in submission order
-    std::vector<std::array<double, 3>> offset_z;    // of every triangle; empty without polygon offset
-    // Of every triangle: the vertices of the one that was given, of which this may be a piece; empty but for
+    std::vector<std::array<double, 3>> offset_z;    // per triangle; empty without polygon offset
+    // Per triangle, the vertices of the source triangle, of which it may be a piece; empty except for
     // PlaneCorners::given.
     std::vector<std::array<std::uint32_t, 3>> given;
     SetupCounters counters;
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
     std::vector<std::uint32_t> bin_start;              // tiles_x * tiles_y + 1 offsets into bin_triangles
     UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
-    UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
+    UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list for a region that is the whole frame
 
-    // The vertices that planes go through.
+    // The vertices that define the planes of triangle i.
     [[nodiscard]] const std::array<std::uint32_t, 3>& plane_vertices(std::size_t i) const noexcept {
         return given.empty() ? triangles[i].vertex : given[i];
     }
-    // The triangles that may touch a tile, ascending; `tile` counts row by row.
+    // The triangles that may touch a tile, ascending; tiles are numbered row by row.
     [[nodiscard]] std::span<const std::uint32_t> bin(std::size_t tile) const {
         return std::span{bin_triangles}.subspan(bin_start[tile], bin_start[tile + 1] - bin_start[tile]);
     }
     [[nodiscard]] std::array<SubpixelPoint, 3> points(const TriangleRecord& t) const noexcept {
         return {corners[t.vertex[0]].p, corners[t.vertex[1]].p, corners[t.vertex[2]].p};
     }
-    // Before snapping, in pixels.
+    // Positions before snapping, in pixels.
     [[nodiscard]] std::array<std::array<float, 2>, 3> positions(const TriangleRecord& t) const noexcept {
         return {corners[t.vertex[0]].unsnapped, corners[t.vertex[1]].unsnapped, corners[t.vertex[2]].unsnapped};
     }
-    // Vertex z of the corners with polygon offset, in units of rules.window_z.
+    // Vertex z of the corners including polygon offset, in units of rules.window_z.
     [[nodiscard]] std::array<double, 3> depths(std::size_t i) const noexcept {
         if (!offset_z.empty()) return offset_z[i];
         const auto& [a, b, c] = triangles[i].vertex;
@@ -143,20 +146,20 @@ struct Geometry {
     [[nodiscard]] SetupTriangle triangle(std::size_t i) const noexcept;
 };
 
-// Writes a soup's vertices from number `begin` on.
+// Writes the vertices of a soup, starting at vertex `begin`.
 using VertexSource = std::function<void(std::size_t begin, std::span<ClipVertex> vertices)>;
 
-// Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`. The
-// vertices become the geometry's: who moves the soup in saves their copy. With a source they have no values yet, and
-// get them from it, some at a time, just before they are set up. Throws InputError (check_input.h).
+// Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel; the result does not depend on
+// `threads`. The geometry takes over the vertices: moving the soup in saves a copy. With a source the vertices have no
+// values yet; the source writes them in portions just before they are set up. Throws InputError (check_input.h).
 [[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads,
                               const VertexSource& source = {});
 
-// Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport,
-// row-major; in parallel, result independent of `threads`.
+// Sorts the triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport, row-major; in
+// parallel, the result does not depend on `threads`.
 void bin_triangles(Geometry& geometry, int tile_size, int threads = 1);
 
-// The rectangle of tile number `tile` of the viewport.
+// The rectangle of tile `tile` of the viewport.
 [[nodiscard]] Rect tile_rect(const Geometry& geometry, std::size_t tile);
 
 }  // namespace strata::rasterizer

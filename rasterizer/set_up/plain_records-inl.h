@@ -1,6 +1,6 @@
-// rasterizer/set_up/plain_records-inl.h - what the kernels of plain_triangles.h have in common: triangles side by side,
-// their corners, and their records. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h
-// asks. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
+// rasterizer/set_up/plain_records-inl.h - common parts of the kernels of plain_triangles.h: loading the corners of a
+// group of triangles and writing their records. For *_simd.cpp only: Highway compiles it once per instruction set, in
+// each file that includes foreach_target.h. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -31,7 +31,7 @@ alignas(64) constexpr std::uint32_t numbers[group_size] = {0, 1, 2, 3, 4, 5, 6, 
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(I{}, v); }
 
-// The words of the records of a group, four and four side by side.
+// The words of a group's records, in groups of four.
 struct Records {
     alignas(64) std::array<std::uint32_t, 4> first[group_size], second[group_size];
 };
@@ -43,12 +43,12 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
     return static_cast<std::uint32_t>(bytes[1]) << 8 | bytes[0];
 }
 
-// A corner is three words of 64 bits: its snapped x and y, the same before snapping, z and 1 / w.
+// A corner is three 64-bit words: snapped x and y, unsnapped x and y, z and 1 / w.
 static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0 &&
               offsetof(WindowCorner, unsnapped) == sizeof(std::uint64_t));
 using Words = hn::Repartition<std::uint64_t, U>;
-// Two words from `corners` on of some corners, of every second triangle from the one of `index` on: a load each, where
-// a gather takes as long as three.
+// Loads two words of each corner, starting at `corners`, for every second triangle from the one at `index`: one load
+// per corner, because a gather takes as long as three loads.
 template <class D>
 HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::uint32_t* index) {
     if constexpr (hn::MaxLanes(D{}) == 2) {
@@ -59,7 +59,7 @@ HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::u
         return hn::Combine(d, load_words(half, corners, index + next), load_words(half, corners, index));
     }
 }
-// The halves of word `word`, 0 or 1, of corner `index` of `lanes` triangles.
+// The halves of word `word` (0 or 1) of corner `index` of `lanes` triangles.
 HWY_INLINE void load_halves(const WindowCorner* corners, std::size_t word, const std::uint32_t* index, VI& low,
                             VI& high) {
     const auto* const words = reinterpret_cast<const std::uint64_t*>(corners) + word;
@@ -72,16 +72,17 @@ HWY_INLINE void load_halves(const WindowCorner* corners, std::size_t word, const
     high = hn::ConcatOdd(I{}, behind, before);
 }
 
-// What a kernel finds of `lanes` triangles: boxes of pixels of the window, 0 by 0 if there are none in the viewport.
+// A kernel's results for `lanes` triangles: boxes of window pixels, 0 by 0 if none is in the viewport.
 struct PlainShapes {
     Mask is_degenerate, is_negative;  // the sign of the area
     VI x0, y0, width, height;
-    Mask is_tiny;       // as their records say, and
-    VI covered;         // which pixels are covered
+    Mask is_tiny;       // as in the record
+    VI covered;         // the covered pixels, as in the record
     Mask is_uncovered;  // known to cover nothing
 };
 
-// Their records, from number `first` of the group on, their fates, and as bits which are kept.
+// Adds their records, starting at record `first` of the group, and their fates; sets a bit of kept_bits for each kept
+// triangle.
 HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& s, const std::uint32_t* indices,
                             std::uint32_t primitive, std::size_t first, Records& records, PlainFates& fates,
                             std::uint32_t& kept_bits) {
@@ -111,8 +112,8 @@ HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& 
         pair(hn::Or(facing, tiny), hn::IfThenElseZero(s.is_tiny, s.covered)), U{}, records.second[first].data());
 }
 
-// SetUpPlainTriangles. `find(rules, indices, corners, first, shapes)`: the shapes of `lanes` triangles, from number
-// `first` of the group on; false if one of them is not plain.
+// SetUpPlainTriangles. `find(rules, indices, corners, first, shapes)` computes the shapes of `lanes` triangles,
+// starting at triangle `first` of the group; it returns false if one of them is not plain.
 template <auto find>
 bool set_up_plain_group(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
                         std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out,
@@ -129,7 +130,7 @@ bool set_up_plain_group(const PlainTriangleRules& rules, const std::uint32_t* in
         add_records(rules, shapes, indices, primitive, first, records, found, kept);
     }
     for (std::size_t k = 0; k < group_size; ++k) {
-        // Written whether it is kept or not: the next one takes its place.
+        // Written whether it is kept or not: if not, the next record overwrites it.
         auto* const bytes = reinterpret_cast<std::byte*>(out);
         std::memcpy(bytes, &records.first[k], sizeof records.first[k]);
         std::memcpy(bytes + sizeof records.first[k], &records.second[k], sizeof records.second[k]);

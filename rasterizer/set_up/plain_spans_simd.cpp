@@ -1,10 +1,10 @@
-// rasterizer/set_up/plain_spans_simd.cpp - plain_triangles.h where pixels are covered by float spans, for every
-// instruction set.
+// rasterizer/set_up/plain_spans_simd.cpp - plain_triangles.h for coverage by float spans, compiled once per instruction
+// set.
 //
-// Rule     FloatSpans and covered_box of float_spans.h, a triangle a lane: the same operations of binary32 in the same
+// Rule     FloatSpans and covered_box of float_spans.h, one triangle per lane: the same binary32 operations in the same
 //          order.
-// Numbers  Positions are finite, and so are x and slopes of the lanes that count (find_shapes): MIN and MAX meet no
-//          NaN, and 0 of either sign becomes the same integer.
+// Numbers  Positions are finite, and so are x and slopes of the lanes that are used (find_shapes): MIN and MAX get no
+//          NaN, and 0 of either sign converts to the same integer.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_spans_simd.cpp"
@@ -33,7 +33,7 @@ HWY_INLINE Point chosen(FloatMask is_first, const Point& a, const Point& b) {
     return {hn::IfThenElse(is_first, a.x, b.x), hn::IfThenElse(is_first, a.y, b.y)};
 }
 
-// by_height.
+// by_height in vectors.
 struct Heights {
     Point least, middle, greatest;
 
@@ -41,7 +41,7 @@ struct Heights {
         const FloatMask rises = hn::Le(p[0].y, p[1].y);
         const FloatMask rises_on = hn::Le(p[1].y, p[2].y), last_is_least = hn::Le(p[2].y, p[0].y);
         const FloatMask first_is_middle = hn::Le(p[0].y, p[2].y), last_is_low = hn::Le(p[2].y, p[1].y);
-        // 0 1 2, 2 0 1 or 0 2 1; else 1 0 2, 2 1 0 or 1 2 0.
+        // rises: the order is 0 1 2, 2 0 1 or 0 2 1; otherwise 1 0 2, 2 1 0 or 1 2 0.
         const FloatMask falls_last = hn::And(hn::Not(rises_on), last_is_least);
         const FloatMask falls_all = hn::And(hn::Not(first_is_middle), last_is_low);
         least = chosen(rises, chosen(falls_last, p[2], p[0]), chosen(falls_all, p[2], p[1]));
@@ -51,7 +51,7 @@ struct Heights {
     }
 };
 
-// FloatSpans::Side.
+// FloatSpans::Side in vectors.
 struct Side {
     VF dx, dy, slope, x, y;
     VI rows;
@@ -67,11 +67,11 @@ struct Side {
         x = hn::Add(x, hn::Mul(hn::ConvertTo(F{}, by), slope));
         y = hn::Add(y, hn::ConvertTo(F{}, by));
     }
-    // In row k, cut to an integer within the columns [low, high].
+    // x in row k, clamped to the columns [low, high] and truncated to an integer.
     HWY_INLINE VI column(VF k, VF low, VF high) const {
         return hn::ConvertTo(I{}, hn::Min(hn::Max(hn::Add(x, hn::Mul(k, slope)), low), high));
     }
-    // One of two, lane by lane; what remains to be drawn of it.
+    // Selects one of two sides per lane, with only the values that are still needed.
     HWY_INLINE Side(FloatMask is_first, const Side& a, const Side& b)
         : dx{a.dx},
           dy{a.dy},
@@ -81,12 +81,12 @@ struct Side {
           rows{a.rows} {}
 };
 
-// Boxes of pixels: x0 and y0 are in them, x1 and y1 are not.
+// Boxes of pixels [x0, x1) x [y0, y1).
 struct Boxes {
     VI x0, y0, x1, y1;
 };
 
-// The part of FloatSpans::visit: widens `covered` by the rows' pixels within `box`, of the triangles that are `seen`.
+// FloatSpans::part: extends `covered` by the pixels of the rows within `box`, for the triangles in `seen`.
 HWY_INLINE void see_part(const Side& left, const Side& right, VI rows, const Boxes& box, Mask seen, Boxes& covered) {
     const VF low = hn::ConvertTo(F{}, box.x0), high = hn::ConvertTo(F{}, box.x1);
     const VI y = hn::ConvertTo(I{}, left.y), end = hn::Min(rows, hn::Sub(box.y1, y));
@@ -104,7 +104,7 @@ HWY_INLINE void see_part(const Side& left, const Side& right, VI rows, const Box
     }
 }
 
-// float_box in the viewport.
+// float_box within the viewport.
 HWY_INLINE Boxes boxes_of(const Rect& viewport, const Point (&p)[3]) {
     const auto least = [](VF a, VF b, VF c) HWY_ATTR { return hn::ConvertTo(I{}, hn::Min(hn::Min(a, b), c)); };
     const auto most = [](VF a, VF b, VF c) HWY_ATTR { return hn::ConvertTo(I{}, hn::Max(hn::Max(a, b), c)); };
@@ -120,7 +120,7 @@ HWY_INLINE VF float_area(const Point (&p)[3]) {
     return hn::Sub(hn::Mul(ex, fy), hn::Mul(ey, fx));
 }
 
-// False if a side is so flat that its x might not be finite.
+// Returns false if a side is so flat that its x might not be finite.
 HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t* indices, const WindowCorner* corners,
                             std::size_t first, PlainShapes& shapes) {
     Point p[3];

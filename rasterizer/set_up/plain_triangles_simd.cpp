@@ -1,4 +1,5 @@
-// rasterizer/set_up/plain_triangles_simd.cpp - plain_triangles.h for every instruction set.
+// rasterizer/set_up/plain_triangles_simd.cpp - plain_triangles.h for coverage by edge functions, compiled once per
+// instruction set.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_triangles_simd.cpp"
@@ -13,7 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 HWY_INLINE VI least(VI a, VI b, VI c) { return hn::Min(hn::Min(a, b), c); }
 HWY_INLINE VI most(VI a, VI b, VI c) { return hn::Max(hn::Max(a, b), c); }
-// v, or -v where `turned` is all ones.
+// v, or -v if `turned` is all ones.
 HWY_INLINE VI turn(VI v, VI turned) { return hn::Sub(hn::Xor(v, turned), turned); }
 
 // find_boxes, find_areas and find_edge of small_triangles.h, in registers.
@@ -41,7 +42,7 @@ HWY_INLINE Boxes boxes_of(const GroupRules& rules, const VI (&x)[3], const VI (&
     return b;
 }
 
-// An edge at the centre of the box's first pixel, less its tie, and what it changes by.
+// An edge value at the centre of the box's first pixel, minus its tie, and its changes per pixel.
 struct EdgeLanes {
     VI value, step, down;
 };
@@ -60,7 +61,7 @@ HWY_INLINE EdgeLanes edge_of(const GroupRules& rules, const Boxes& b, VI from_x,
     return {hn::Sub(value, tie), hn::ShiftLeftSame(hn::Neg(dy), bits), hn::ShiftLeftSame(dx, bits)};
 }
 
-// The covered pixels of boxes of tiny_size pixels; of larger ones nothing is said.
+// The covered pixels of boxes of tiny_size pixels; unspecified for larger ones.
 HWY_INLINE VI coverage_of(const Boxes& b, const EdgeLanes (&edge)[3], Mask is_tiny) {
     VI covered = hn::Zero(I{});
     VI row[3] = {edge[0].value, edge[1].value, edge[2].value};
@@ -81,7 +82,7 @@ HWY_INLINE VI coverage_of(const Boxes& b, const EdgeLanes (&edge)[3], Mask is_ti
     return covered;
 }
 
-// False if one is not small.
+// Returns false if one of the triangles is not small.
 HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t* indices, const WindowCorner* corners,
                             std::size_t first, PlainShapes& shapes) {
     VI x[3], y[3];

@@ -1,4 +1,5 @@
-// rasterizer/set_up/plain_vertices_simd.cpp - plain_vertices.h for every instruction set.
+// rasterizer/set_up/plain_vertices_simd.cpp - Highway kernel for plain_vertices.h: sets up vertices that need neither
+// clipping nor special cases, compiled once per instruction set.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
@@ -21,10 +22,10 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 constexpr std::size_t lanes = hn::MaxLanes(F{});
 
-// A vertex is 14 floats: x y z w, then what is interpolated. A corner is three pairs of words.
+// ClipVertex: 14 floats, x y z w and then the attributes. WindowCorner: three pairs of 32-bit words.
 constexpr std::size_t components = sizeof(ClipVertex) / sizeof(float);
 
-// The greatest magnitude yet, as bits: infinities and NaN are the greatest.
+// Running maximum of |v|, compared as integer bits so that infinity and NaN exceed every finite value.
 class Magnitude {
   public:
     HWY_INLINE Magnitude() : greatest_{hn::Zero(I{})} {}
@@ -32,15 +33,15 @@ class Magnitude {
     HWY_INLINE hn::Mask<F> is_finite() const {
         return hn::RebindMask(F{}, hn::Lt(greatest_, hn::Set(I{}, 0x7f800000)));
     }
-    // Of all lanes.
+    // Maximum over all lanes, broadcast.
     HWY_INLINE VF greatest() const { return hn::BitCast(F{}, hn::MaxOfLanes(I{}, greatest_)); }
 
   private:
     hn::Vec<I> greatest_;
 };
 
-// Whether the attributes of `lanes` vertices are surely finite, and what they are over w: if the greatest number of all
-// vertices is, over the least w. They nearly always are.
+// Conservative test that all attributes of `lanes` vertices, and the attributes divided by w, are finite: the largest
+// magnitude times the largest |1 / w| must be finite. False negatives are rare.
 HWY_INLINE bool attributes_are_finite(const float* vertices, VF inverse_w) {
     Magnitude values, factors, products;
     for (std::size_t i = 0; i < lanes * components; i += lanes) values.add(hn::LoadU(F{}, vertices + i));
@@ -52,7 +53,7 @@ HWY_INLINE bool attributes_are_finite(const float* vertices, VF inverse_w) {
 
 HWY_INLINE hn::Mask<F> within(VF low, VF c, VF high) { return hn::And(hn::Ge(c, low), hn::Le(c, high)); }
 
-// As within_viewport of clip.h, and somewhat further: inside all planes.
+// Like within_viewport in clip.h, but x and y may reach r.reach * w: still inside all clip planes.
 HWY_INLINE hn::Mask<F> within_planes(const VF (&p)[4], const PlainVertexRules& r) {
     const VF w = p[3], least_z = r.symmetric ? hn::Neg(w) : hn::Zero(F{});
     const VF x = hn::Mul(hn::Set(F{}, r.reach[0]), w), y = hn::Mul(hn::Set(F{}, r.reach[1]), w);
@@ -71,7 +72,8 @@ HWY_INLINE hn::Vec<I> snapped(const PlainVertexRules& r, VF c) {
     return r.rounds ? hn::NearestInt(scaled) : hn::ConvertTo(I{}, scaled);
 }
 
-// Writes `lanes` corners: pairs of words, then three pairs a corner.
+// Stores `lanes` WindowCorners. Two 32-bit values are packed into one 64-bit word; a corner is three such words,
+// interleaved.
 static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0 &&
               offsetof(WindowCorner, unsnapped) == 8 && offsetof(WindowCorner, z) == 16);
 template <class V>
@@ -92,8 +94,8 @@ HWY_INLINE void store_corners(hn::Vec<I> x, hn::Vec<I> y, const VF (&value)[4], 
     store([](auto v) HWY_ATTR { return hn::UpperHalf(hn::Half<hn::DFromV<decltype(v)>>{}, v); }, words + 3 * lanes / 2);
 }
 
-// The corners of `lanes` vertices, and which of them are plain.
-// The others may hold anything: set_up_vertex writes them again.
+// Returns a mask of the plain vertices (plain_vertices.h). The other corners are unspecified; set_up_vertex overwrites
+// them.
 HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, WindowCorner* corners) {
     const F d;
     alignas(64) float positions[4 * lanes];

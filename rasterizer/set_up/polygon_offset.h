@@ -1,14 +1,16 @@
-// rasterizer/set_up/polygon_offset.h - what glPolygonOffset adds to the window z of a triangle's corners.
+// rasterizer/set_up/polygon_offset.h - the polygon offset (glPolygonOffset) of the window z of a triangle's corners.
 //
 // Rule     o = m * factor + r * units, m = max(|dz/dx|, |dz/dy|) per pixel of the snapped triangle; no slope term if
-//          factor is 0 (0 * infinity). r: one code of a fixed-point format (OffsetUnit::two_codes: two), or 2^(e - 23)
-//          with e the exponent of the largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units
-//          (OffsetUnit::buffer). OffsetUnit::differences: for D16 1.01 / 65535, else 2^(e - 23) with e that of the
-//          largest of |z0|, |z1 - z0 + n| and |z2 - z0 + n|, n being where the depth range maps 0. The chip's own sum
-//          is offset_value.h. z and o are in vertex z units; |o| <= 2^64, further out nothing changes.
-// Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
+//          factor is 0 (0 * infinity). r is one code of a fixed-point format (OffsetUnit::two_codes: two), or 2^(e -
+//          23) where e is the exponent of the largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in
+//          buffer units (OffsetUnit::buffer). OffsetUnit::differences: 1.01 / 65535 for D16, else 2^(e - 23) where e is
+//          the exponent of the largest of |z0|, |z1 - z0 + n| and |z2 - z0 + n|, n being the value to which the depth
+//          range maps 0. The chip's own sum is in offset_value.h. z and o are in vertex z units; |o| <= 2^64: larger
+//          offsets have the same effect.
+// Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A uses that max).
 // Numbers  binary64, each operation rounded; a difference of coordinates is exact, so m is within 2^-49 of the true
-//          slope. Tests    tests/rasterizer/set_up/polygon_offset_test.cpp
+//          slope.
+// Tests    tests/rasterizer/set_up/polygon_offset_test.cpp
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,7 +23,7 @@ inline namespace strict {
 
 [[nodiscard]] constexpr double magnitude(double v) noexcept { return v < 0.0 ? -v : v; }
 
-// 2^(e - 23), e the exponent of the largest |z|; below the normal numbers of binary32, e = -126.
+// 2^(e - 23), where e is the exponent of the largest |z|; if that is below the normal numbers of binary32, e = -126.
 [[nodiscard]] constexpr double float_offset_unit(const std::array<float, 3>& z) noexcept {
     const float largest = std::max({z[0] < 0 ? -z[0] : z[0], z[1] < 0 ? -z[1] : z[1], z[2] < 0 ? -z[2] : z[2]});
     const std::uint32_t exponent = std::max(std::bit_cast<std::uint32_t>(largest) >> 23, 1u);  // biased by 127
@@ -46,7 +48,7 @@ inline namespace strict {
     return codes * z_units(state, rules) / max_code(state.depth_format);
 }
 
-// The steeper of |dz/dx| and |dz/dy|, per pixel; `p` has an area.
+// The larger of |dz/dx| and |dz/dy|, per pixel. Precondition: the area of `p` is not 0.
 [[nodiscard]] constexpr double largest_slope(const std::array<SubpixelPoint, 3>& p, const std::array<double, 3>& z,
                                              int subpixel_bits) noexcept {
     const double x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y;  // at most 2^28: exact as integers

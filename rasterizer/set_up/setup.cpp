@@ -35,8 +35,8 @@ template <std::size_t n>
 
 constexpr std::uint8_t all_corners = 7;
 
-// The sign of a piece's area, 0 if it covers nothing, a box of the pixels that it may cover, and whether it is known to
-// cover none there.
+// The sign of a piece's area (0 if it covers nothing), the box of pixels that it may cover, and whether it is known to
+// cover none of them.
 struct PieceShape {
     std::int64_t area_sign;
     Rect box;
@@ -52,7 +52,7 @@ struct PieceShape {
     const std::array position{a->unsnapped, b->unsnapped, c->unsnapped};
     const FloatSpans spans{position};
     if (!spans.is_drawn()) return {0, {}};
-    const int sign = float_area(position) > 0.0f ? 1 : -1;  // what is drawn has an area
+    const int sign = float_area(position) > 0.0f ? 1 : -1;  // triangles that are drawn have an area
     const Rect box = intersection(float_box(position), viewport);
     if (box.area() == 0 || std::max(box.width(), box.height()) > seen_size) return {sign, box};
     const Rect covered = covered_box(spans, box);
@@ -84,8 +84,8 @@ bool TriangleSetup::extras_finite(const float* extras, float inverse_w) const no
     return true;
 }
 
-// The corner of a vertex that lies inside all planes, and its marks. A position that overflows drops its triangles; a
-// colour that does drops those alone that show its side.
+// Projects a vertex that is inside all planes and returns its marks. A position that overflows drops its triangles; a
+// colour that overflows drops only those that show its side.
 VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, VertexOrigin origin,
                                    WindowCorner& corner) const noexcept {
     const WindowVertex w = window_.project(v, origin);
@@ -105,7 +105,7 @@ void TriangleSetup::set_up_vertex(std::size_t i) noexcept {
     marks_[i] = marks;
 }
 
-// Sixteen at a time by the kernel; what it does not find plain, and the rest, one by one with the same bits.
+// Sixteen at a time by the kernel; vertices that are not plain, and the rest, one by one with the same bits.
 void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept {
     std::size_t i = begin;
     for (; set_up_plain_ != nullptr && i + plain_vertex_count <= end; i += plain_vertex_count) {
@@ -127,7 +127,7 @@ void TriangleSetup::find_marked() noexcept {
     any_marked_ = all != 0;
 }
 
-// Positive area is clockwise as memory shows it, rows downwards; with y up the window shows the same picture.
+// A positive area is clockwise in memory orientation, rows downwards. With y up the window shows the same image.
 bool TriangleSetup::is_front(std::int64_t area, bool mirrored) const noexcept {
     const bool clockwise = (area > 0) == (state_.y_direction == YDirection::up);
     return (clockwise == (state_.front_face == FrontFace::clockwise)) != mirrored;
@@ -143,7 +143,7 @@ bool TriangleSetup::is_culled(bool front) const noexcept {
     return false;  // unreachable: the enum is closed
 }
 
-// The order of the tests is the order in which fates count.
+// The order of the tests decides which fate is counted.
 TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTriangle& triangle,
                                              SetupChunk& out) const {
     const auto& [a, b, c] = piece.corner;
@@ -152,7 +152,7 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     bool front = is_front(shape.area_sign, triangle.run->mirrored);
     if (rules_.area_sign == AreaSign::single && rules_.coverage == CoverageRule::snapped_edges &&
         !state_.window_positions) {
-        // A piece of another turn than its triangle's has its left sides on the right: it covers nothing.
+        // A piece whose winding differs from that of its triangle has left and right exchanged: it covers nothing.
         const int turn = single_turn(triangle);
         front = turn == 0 ? !triangle.run->mirrored : is_front(turn, triangle.run->mirrored);
         if ((turn > 0) != (shape.area_sign > 0) || turn == 0) shape.area_sign = 0;
@@ -161,8 +161,8 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if (shape.area_sign == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
     const std::uint8_t negative = negative_w(piece.corner);
-    // A triangle that reaches through infinity may cover any pixel of the window; behind the eye with all of itself,
-    // none.
+    // A triangle that extends through infinity may cover any pixel of the window; a triangle completely behind the eye
+    // covers none.
     const Rect box = intersection(negative == 0 ? shape.box : state_.viewport, state_.viewport);
     if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
     if (shape.is_uncovered && negative == 0) return Fate::uncovered;
@@ -182,8 +182,8 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     return Fate::kept;
 }
 
-// The sign of the area of the given corners, as binary32 finds it, in memory's rows; odd numbers of negative w turn it
-// round.
+// The sign of the area of the given corners, computed in binary32 in memory rows; an odd number of negative w inverts
+// it.
 int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
     std::array<float, 3> x{}, y{};
     bool is_negative = window_.is_turned();
@@ -200,8 +200,7 @@ int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
     return is_negative ? -turn : turn;
 }
 
-// Window z of the corners and polygon offset: an exact sum, or the roundings of planes that are stepped (coverage.md
-// 9.4).
+// Window z of the corners plus polygon offset: an exact sum, or with the roundings of stepped planes (coverage.md 9.4).
 std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept {
     const auto& [a, b, c] = corner;
     const std::array p{a->p, b->p, c->p};
@@ -210,7 +209,7 @@ std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCo
         const double offset = polygon_offset(p, z, state_, rules_);
         return {z[0] + offset, z[1] + offset, z[2] + offset};
     }
-    // An offset of nothing limits nothing.
+    // An offset of zero must not clamp z.
     if (state_.polygon_offset.factor == 0.0f && state_.polygon_offset.units == 0.0f) return {z[0], z[1], z[2]};
     const float offset = stepped_offset(corner, state_, rules_);
     std::array<double, 3> moved{};
@@ -221,7 +220,7 @@ std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCo
     return moved;
 }
 
-// Bit i: corner i has a negative w. In clip space none is left (clip.h).
+// Bit i is set if w of corner i is negative. Clipping leaves none in clip space (clip.h).
 std::uint8_t TriangleSetup::negative_w(const std::array<const WindowCorner*, 3>& corner) const noexcept {
     std::uint8_t negative = 0;
     for (std::size_t i = 0; i < 3 && state_.window_positions && rules_.w_signs == WSigns::by_corner; ++i)
@@ -229,7 +228,7 @@ std::uint8_t TriangleSetup::negative_w(const std::array<const WindowCorner*, 3>&
     return negative;
 }
 
-// By z alone, in a w buffer too (coverage.md 6.4).
+// Tests only z, with a w buffer too (coverage.md 6.4).
 bool TriangleSetup::is_out_of_range(const std::array<const WindowCorner*, 3>& corner) const noexcept {
     if (!state_.range_culls_triangles) return false;
     const double units = z_units(state_, rules_);
@@ -285,7 +284,7 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
         const auto last = first + static_cast<std::uint32_t>(i);
         Piece fan{
             {first, last - 1, last}, {&corner[0], &corner[i - 1], &corner[i]}, marks[0] | marks[i - 1] | marks[i]};
-        // The view volume's fan names its common corner last (coverage.md 2.8).
+        // The view volume's fan has its common corner last (coverage.md 2.8).
         if (rules_.clip == ClipVolume::view_volume) {
             std::rotate(fan.vertex.begin(), fan.vertex.begin() + 1, fan.vertex.end());
             std::rotate(fan.corner.begin(), fan.corner.begin() + 1, fan.corner.end());
@@ -303,8 +302,8 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
     return fate;
 }
 
-// Outside of one plane with all three vertices: nothing needs to
-// be cut. Only the planes that some vertex is outside of cut it.
+// If all three vertices are outside the same plane, the triangle is outside. Otherwise only the planes that some vertex
+// is outside of clip it.
 void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     const auto& [a, b, c] = triangle.vertex;
     const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
@@ -323,8 +322,8 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     count(fate, triangle, out.counters);
 }
 
-// Boxes and areas are found for a whole group at once. Marked triangles, those with an offset, and those of window
-// positions (whose w may be negative) go the general way.
+// Boxes and areas are computed for a whole group at once. Marked triangles, those with an offset and those with window
+// positions (whose w may be negative) take the general path.
 void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
     TriangleGroup group;
     load_corners(

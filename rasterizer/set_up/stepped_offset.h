@@ -1,9 +1,9 @@
-// rasterizer/set_up/stepped_offset.h - polygon offset by rasterizers whose planes are stepped in binary32
+// rasterizer/set_up/stepped_offset.h - polygon offset of rasterizers whose planes are stepped in binary32
 // (RasterRules::plane_rule): each operation rounded, from the unsnapped positions.
 //
 // Rule     o = max(|dz/dx|, |dz/dy|) * factor + r units; the slopes are components of the cross product of two sides,
 //          times 1 / area. least_corner: the sides p0 - p2 and p1 - p2; o is added to z of each corner, which is then
-//          limited to the range of z. Else: p0 - p1 and p2 - p0, corners 0 and 1 having changed places if the snapped
+//          clamped to the range of z. Otherwise: p0 - p1 and p2 - p0, with corners 0 and 1 exchanged if the snapped
 //          triangle is clockwise in memory order; o is added to the plane's value at each fragment.
 // Source   coverage.md 9.4; mesa-rasterizers.md 1.3.
 // Tests    tests/rasterizer/set_up/polygon_offset_test.cpp
@@ -16,13 +16,13 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// A corner in the window: x, y, z.
+// A corner in window space: x, y, z.
 using OffsetCorner = std::array<float, 3>;
 
 struct SteppedOffset {
     PlaneRule rule;
     bool is_clockwise;
-    float factor, units;  // `units` is r units of the rule
+    float factor, units;  // `units` is the product r units of the rule
 
     [[nodiscard]] constexpr float of(const std::array<OffsetCorner, 3>& corners) const noexcept {
         const float sloped = factor == 0.0f ? 0.0f : largest_slope(corners) * factor;
@@ -33,7 +33,7 @@ struct SteppedOffset {
     [[nodiscard]] static constexpr OffsetCorner side(const OffsetCorner& a, const OffsetCorner& b) noexcept {
         return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     }
-    // a b - c d: three roundings.
+    // a b - c d with three roundings.
     [[nodiscard]] static constexpr float less(float a, float b, float c, float d) noexcept {
         const float ab = a * b, cd = c * d;
         return ab - cd;
@@ -48,13 +48,14 @@ struct SteppedOffset {
     }
 };
 
-// Whether an enabled offset is added to the values of fragments and not to the corners.
+// True if an enabled offset is added to the values of fragments rather than to the corners.
 [[nodiscard]] constexpr bool offsets_planes(const RasterState& state, const RasterRules& rules) noexcept {
     return state.polygon_offset.enabled && rules.plane_rule != PlaneRule::exact &&
-           rules.plane_rule != PlaneRule::least_corner;  // of greatest_w too, whose own offset is ordered_planes.h's
+           rules.plane_rule != PlaneRule::least_corner;  // also for greatest_w, whose offset is computed by
+                                                         // ordered_planes.h
 }
 
-// The offset of one set-up piece, by its corners in the window.
+// The offset of one piece, from its window-space corners.
 [[nodiscard]] constexpr float stepped_offset(const std::array<const WindowCorner*, 3>& corner, const RasterState& state,
                                              const RasterRules& rules) noexcept {
     const auto& [a, b, c] = corner;

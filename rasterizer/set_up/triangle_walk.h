@@ -1,5 +1,6 @@
-// rasterizer/set_up/triangle_walk.h - the triangles of a region, a group at a time, and the rows of a large one:
-// what every walk over a region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
+// rasterizer/set_up/triangle_walk.h - visits the triangles of a region, a group at a time, and finds the spans of a
+// large one: the beginning of every walk over a region. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp,
+// rows_test.cpp
 #pragma once
 #include <algorithm>
 #include <span>
@@ -10,13 +11,13 @@
 
 namespace strata::rasterizer {
 
-inline constexpr int max_span_rows = 128;  // found at a time
+inline constexpr int max_span_rows = 128;  // rows whose spans are found at a time
 
 struct RowSpan {
     int x0, x1;  // pixels [x0, x1) of a row of the surface
 };
 
-// The rules of `geometry` for its triangles in `region`: clipped by the viewport and the scissor.
+// The rules of `geometry` for its triangles in `region`: clipped by viewport and scissor.
 [[nodiscard]] inline GroupRules group_rules(const Geometry& geometry, const Rect& region) noexcept {
     GroupRules rules{intersection(region, geometry.state.viewport), geometry.rules.subpixel_bits,
                      geometry.rules.tie_rule};
@@ -24,8 +25,7 @@ struct RowSpan {
     return rules;
 }
 
-// Sets up `triangles` (indices into geometry.triangles), of which there are some and no more than a group has, in
-// `group`.
+// Sets up `triangles` (indices into geometry.triangles; at least one, at most a group's size) in `group`.
 inline void set_up_group(const Geometry& geometry, const GroupRules& rules, const SmallKernels& kernels,
                          std::span<const std::uint32_t> triangles, TriangleGroup& group) {
     const auto vertices = [&](std::size_t k) -> const auto& { return geometry.triangles[triangles[k]].vertex; };
@@ -33,8 +33,8 @@ inline void set_up_group(const Geometry& geometry, const GroupRules& rules, cons
     kernels.set_up(rules, group);
 }
 
-// Calls visit(part) for `triangles` group after group. Triangles and corners of the groups to come are prefetched
-// meanwhile, and the colours of the corners if they `have_colors`.
+// Calls visit(part) for `triangles`, group after group. Prefetches the triangles and corners of the next groups, and
+// the colours of the corners if `have_colors`.
 template <class Visit>
 void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> triangles, const Visit& visit,
                     bool have_colors = false) {
@@ -44,7 +44,7 @@ void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> tri
         return rest.first(std::min(size, rest.size()));
     };
     for (std::size_t at = 0; at < triangles.size(); at += size) {
-        // Records two groups ahead; corners one group ahead, whose records have come by then.
+        // Records are prefetched two groups ahead, corners one group ahead, when their records have arrived.
         for (const std::uint32_t t : part(at + 2 * size)) __builtin_prefetch(&geometry.triangles[t]);
         for (const std::uint32_t t : part(at + size))
             for (const std::uint32_t v : geometry.triangles[t].vertex) {
@@ -55,7 +55,7 @@ void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> tri
     }
 }
 
-// Whether every pixel of `box` is covered: the centres where the edge values are least decide.
+// True if every pixel of `box` is covered: tests each edge at the pixel centre where its value is least.
 [[nodiscard]] inline bool covers(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept {
     for (std::size_t i = 0; i < 3; ++i) {
         const Edge& edge = edges.edge(i);
@@ -66,7 +66,7 @@ void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> tri
     return true;
 }
 
-// The covered span of each of `rows`; at most max_span_rows rows.
+// Finds the covered span of each of `rows`; at most max_span_rows rows.
 inline void find_spans(const TriangleEdges& edges, const Rect& rows, int subpixel_bits, RowSpan* spans) noexcept {
     RowSpan* const end = spans + rows.height();
     if (covers(edges, rows, subpixel_bits)) return std::fill(spans, end, RowSpan{rows.x0, rows.x1});

@@ -1,14 +1,16 @@
-// rasterizer/set_up/window.h - from clip space to the window: divide by w, viewport, snapping.
+// rasterizer/set_up/window.h - from clip space to window space: division by w, viewport, snapping.
 //
 // Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
-//          once (rules.viewport, which may ask whether clipping made the vertex); all in binary32, for WDivide::nv20 by
-//          nv20_arithmetic.h. y up turns the sign of the y scale; YAxis::clip with y up: y is measured upwards from the
-//          viewport's lower side, and turned round when it is snapped. half_pixel_first: offsets are half a pixel less,
-//          which snapped positions have again. z goes to n..f, or to n..f times 2^n - 1 with scale and offset
-//          pre-multiplied (buffer units; a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
+//          once (rules.viewport, which may depend on whether clipping created the vertex); all in binary32, for
+//          WDivide::nv20 by nv20_arithmetic.h. With y up the y scale changes its sign. YAxis::clip with y up: y is
+//          measured upwards from the viewport's lower side and flipped when it is snapped. half_pixel_first: offsets
+//          are half a pixel smaller, which is added back to snapped positions. z is mapped to n..f, or to n..f times
+//          2^n - 1 with scale and offset pre-multiplied (buffer units; the unit of a float depth buffer is 1). x and y
+//          are truncated or rounded to 1/2^n.
 // Source   GL 2.1 2.11.1; coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
-// Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
-//          rounding is the only one. Tests    tests/rasterizer/set_up/window_test.cpp
+// Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the conversion
+//          to binary32 is the only rounding.
+// Tests    tests/rasterizer/set_up/window_test.cpp
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -29,7 +31,7 @@ struct WindowVertex {
     float x, y, z, inverse_w;
 };
 
-// Whose vertex it is that is projected (ViewportArithmetic::fused_given).
+// Whether the projected vertex is a given one or created by clipping (ViewportArithmetic::fused_given).
 enum class VertexOrigin : std::uint8_t { given, made_by_clip };
 
 // The number of vertex z units in depth 1.0: the depth buffer's own, or 1.
@@ -37,8 +39,8 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return rules.window_z == WindowZ::buffer_units ? buffer_units(state.depth_format) : 1.0;
 }
 
-// A w of any sign, zero and infinity acting as 2^-64 and 2^64: 1 / w and its products stay finite. NaN stays. The
-// chip's reciprocal has these limits (chip-float-depth.md 8).
+// w with its magnitude limited to 2^-64 .. 2^64, also for zero and infinity: 1 / w and its products stay finite. NaN is
+// returned unchanged. The chip's reciprocal has these limits (chip-float-depth.md 8).
 [[nodiscard]] constexpr float settled_w(float w) noexcept {
     const bool is_negative = std::bit_cast<std::uint32_t>(w) >> 31 != 0;
     float size = is_negative ? -w : w;
@@ -47,7 +49,7 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return is_negative ? -size : size;
 }
 
-// v in subpixels; |v| * 2^n < 2^30.
+// v in subpixels. Precondition: |v| * 2^n < 2^30.
 [[nodiscard]] constexpr std::int32_t snap(float v, int subpixel_bits, Snap rule) noexcept {
     const double scaled = double{v} * (1 << subpixel_bits);  // exact
     if (rule == Snap::toward_zero) return static_cast<std::int32_t>(scaled);
@@ -56,8 +58,8 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return static_cast<std::int32_t>((scaled + round_at_one) - round_at_one);
 }
 
-// Scale and offset of each axis for one draw, computed in binary64 where
-// depth is concerned and rounded once to binary32 (coverage.md 3.1).
+// Scale and offset of each axis for one draw. Those of depth are computed in binary64 and rounded once to binary32
+// (coverage.md 3.1).
 class WindowTransform {
   public:
     constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
@@ -86,8 +88,8 @@ class WindowTransform {
               static_cast<float>((symmetric ? (n + f) * 0.5 : n) * units)};
     }
 
-    // Inside the planes of clip.h w is at least least_w. Window positions
-    // know no planes: what is not finite then is found by set-up.
+    // Inside the planes of clip.h, w is at least least_w. Window positions are not clipped: set-up finds values that
+    // are not finite.
     [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v,
                                                  VertexOrigin origin = VertexOrigin::given) const noexcept {
         if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
@@ -116,8 +118,8 @@ class WindowTransform {
         return {v.x + less, is_turned_ ? static_cast<float>(rows_) - y : y};
     }
 
-    // A vertex that may lie anywhere, snapped, in subpixels from the centre of the first pixel, rows counted as
-    // rules.y_axis says: what is too large for 32 bits becomes the least number, and a w of 0 counts as 1.
+    // A vertex at any position, snapped, in subpixels from the centre of the first pixel, with rows in the direction of
+    // rules.y_axis. Values that do not fit in 32 bits become the least integer; a w of 0 is treated as 1.
     [[nodiscard]] constexpr SubpixelPoint from_first_centre(const ClipVertex& v) const noexcept {
         const float inverse_w = v.w == 0.0f ? 1.0f : 1.0f / v.w;
         const auto place = [&](const Axis& axis, float c) {
@@ -129,11 +131,11 @@ class WindowTransform {
         };
         return {place(x_, v.x), place(y_, v.y)};
     }
-    // Pixel row `y` of memory, counted so.
+    // Pixel row `y` of memory in that direction.
     [[nodiscard]] constexpr int counted_row(int y) const noexcept { return is_turned_ ? rows_ - 1 - y : y; }
     [[nodiscard]] constexpr bool is_turned() const noexcept { return is_turned_; }
 
-    // For sixteen at a time, where no more is done than these rules say.
+    // The rules for the kernel of sixteen vertices; empty if this transform needs more than they describe.
     [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
         if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate ||
             is_turned_)
@@ -162,7 +164,7 @@ class WindowTransform {
         const float scaled = axis.scale * c;
         return scaled + axis.offset;
     }
-    // The projection by the vertex engine's own product, sum and reciprocal (numbers.md 4.5).
+    // The projection with the vertex engine's own product, sum and reciprocal (numbers.md 4.5).
     [[nodiscard]] constexpr WindowVertex project_nv20(const ClipVertex& v) const noexcept {
         const float inverse_w = nv20::reciprocal(v.w);
         const auto mapped = [&](const Axis& axis, float c) {
@@ -174,7 +176,8 @@ class WindowTransform {
     [[nodiscard]] static constexpr std::int32_t wrapped(std::int32_t a, std::int32_t b) noexcept {
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
     }
-    // Clipping left the vertex inside the guard band but for rounding. NaN stays: set-up counts it.
+    // Clamps to the guard band: clipping leaves the vertex inside it except for rounding. NaN is returned unchanged and
+    // counted by set-up.
     [[nodiscard]] constexpr float within_guard(float c) const noexcept {
         return c > guard_ ? guard_ : (c < -guard_ ? -guard_ : c);
     }

@@ -1,4 +1,4 @@
-// rasterizer/walk/batch_sink.h - who takes the batches that a walk makes.
+// rasterizer/walk/batch_sink.h - the callback that receives the batches of a walk.
 #pragma once
 #include <type_traits>
 
@@ -6,7 +6,7 @@ namespace strata::rasterizer {
 
 struct FragmentBatch;
 
-// A borrowed callable, called once a batch.
+// A non-owning reference to a callable, which is called once per batch.
 class BatchSink {
   public:
     template <class F>

@@ -1,4 +1,5 @@
-// rasterizer/walk/depth_drawn.h - how many fragments a pass of rows made, and how many of them passed its depth test.
+// rasterizer/walk/depth_drawn.h - the number of fragments of a depth-only pass, and how many of them passed the depth
+// test.
 #pragma once
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// rasterizer/walk/depth_rows_simd.cpp - draw_float_rows of rows.h for every instruction set.
+// rasterizer/walk/depth_rows_simd.cpp - draw_float_rows of rows.h, compiled once per instruction set.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/walk/rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/depth_rows_simd.cpp"
@@ -22,8 +22,8 @@ struct DepthState {
 
 template <bool is_fixed>
 struct DepthOf {
-    // The planes of one triangle. Members are copies and const, so
-    // that stores of codes cannot make the compiler read them again.
+    // The planes of one triangle. Members are const copies, so that the compiler does not reload them after stores of
+    // codes.
     template <bool unsnapped>
     class Shade {
       public:

@@ -1,15 +1,15 @@
-// rasterizer/walk/row_walk-inl.h - triangles as short rows of neighbouring pixels, for passes that need no batch: they
-// take each triangle whole, in submission order, and so may read, change and write a pixel where it is stored. For
-// *_simd.cpp alone, as weights-inl.h.
+// rasterizer/walk/row_walk-inl.h - walks triangles as short rows of adjacent pixels, for passes that need no batch:
+// each triangle is shaded completely, in submission order, so a pass can read, change and write the stored pixel
+// directly. For *_simd.cpp only, like weights-inl.h.
 //
-// Rule     A pixel is visited as often, in the same order and with the same weights as TileRasterizer makes fragments
-//          of it. `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row,
-//          weights) for every row that has a covered pixel, at last finish(how many were covered). One that takes
-//          (pixels, weights), too, is given those of a small triangle side by side, and rows of large triangles alone,
-//          covered from their first lane on. One that `takes_edges` is given edge values of the snapped corners in the
-//          place of weights, whatever z is counted in.
-// Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits:
-//          the constants of an edge are below 2^50 there (row_walk_suits).
+// Rule     A pixel is visited as often, in the same order and with the same weights as TileRasterizer generates
+//          fragments for it. `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle} is
+//          constructed, called as (row, weights) for every row that has a covered pixel, and at last finish(number of
+//          covered pixels). A Shade that also has (pixels, weights) gets the pixels of a small triangle this way,
+//          several per call, and rows only for large triangles, covered from their first lane on. A Shade that
+//          `takes_edges` gets the edge values of the snapped corners instead of weights, whatever the units of z.
+// Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not occur with up to 8 subpixel
+//          bits: the constants of an edge are below 2^50 then (row_walk_suits).
 // Tests    tests/rasterizer/walk/rows_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/coverage/small_coverage-inl.h"
@@ -31,7 +31,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using RowMask = hn::Mask<F32>;
 constexpr std::uint32_t row_lanes = hn::MaxLanes(F64{});
 
-// Neighbours (x, y), (x + 1, y) ... and which of them are covered; `pixel` is the first one's number in the region.
+// Adjacent pixels (x, y), (x + 1, y) ... and which of them are covered; `pixel` is the index of the first in the
+// region.
 struct Row {
     std::size_t pixel;
     int x, y;
@@ -41,7 +42,7 @@ struct Row {
     HWY_INLINE hn::Vec<I32> rows() const { return hn::Set(I32{}, y); }
 };
 
-// Pixels (x, y), wherever they lie: the covered ones come first, the other lanes are some pixel of the region.
+// Pixels (x, y) at arbitrary positions: the covered ones come first, the other lanes are some pixel of the region.
 struct Pixels {
     hn::Vec<U32> pixel;
     hn::Vec<I32> x, y;
@@ -61,15 +62,15 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
     return bytes[0];
 }
 
-// The slow paths below take copies of the plane. If they took it by reference, the compiler would keep it in memory in
-// the fast path, too.
+// The slow paths below take copies of the plane. By reference, the compiler would keep it in memory in the fast path
+// too.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
     return FilterPlane{plane, triangle.weights.is_exact()};
 }
 
-// Replaces the covered values that the filter left unsure by the exact ones.
+// Replaces the covered values that the filter could not decide by the exact ones.
 template <class Where>
 HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, const Geometry& geometry,
                        std::uint32_t index, const Where& where) {
@@ -84,8 +85,8 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
-// A plane at each pixel, rounded once: the filter gives the rounding of nearly every lane, the exact sum decides the
-// others. Planes from unsnapped corners have no exact value to fall back on: binary64 is the definition there.
+// A plane at each pixel, rounded once: the filter gives the rounding of nearly every lane, and the exact sum decides
+// the others. Planes from unsnapped corners have no exact fallback: binary64 is the definition there.
 template <bool unsnapped, class Where>
 HWY_INLINE V32 rounded_plane(const FilterPlane& filter, const Weights& b, const RationalPlane& plane,
                              const Geometry& geometry, std::uint32_t index, const Where& where) {
@@ -96,14 +97,14 @@ HWY_INLINE V32 rounded_plane(const FilterPlane& filter, const Weights& b, const 
     return decided(low, unsure, plane, geometry, index, where);
 }
 
-// LESS of stored codes. D32F codes compare as the floats that they are, because a clear may have left any float there.
+// LESS of stored codes. D32F codes are compared as floats, because a clear may have stored any float.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
     return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
                     : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
 }
 
-// The terms of weights that depend on the column alone, or on the row alone, for up to `count` neighbours: `from`
-// gives those of row_lanes neighbours, `of` those of one in all lanes.
+// The terms of weights that depend only on the column, or only on the row, for up to `count` pixels: `from` returns
+// those of row_lanes adjacent pixels, `of` those of one pixel in all lanes.
 template <int count>
 class TermTable {
   public:
@@ -126,8 +127,8 @@ concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b)
 template <class Shade>
 concept takes_edges = Shade::takes_edges;
 
-// Draws the triangles of a list in a region. `State` is what the pass keeps; a Shade is made for each triangle (or
-// each max_span_rows rows of a large one) and dies after its finish().
+// Draws a list of triangles in a region. `State` is the state of the pass. A Shade is constructed for each triangle (or
+// for each max_span_rows rows of a large one) and destroyed after its finish().
 template <template <bool> class Shade, class State>
 class RowWalk {
   public:
@@ -139,7 +140,9 @@ class RowWalk {
           kernels_{small_kernels()} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
-        if constexpr (row_lanes >= row_walk_lanes) draw_groups(triangles);  // for other sets none of it is compiled
+        if constexpr (row_lanes >= row_walk_lanes)
+            draw_groups(triangles);  // not compiled for narrower instruction
+                                     // sets
     }
 
   private:
@@ -167,7 +170,7 @@ class RowWalk {
                static_cast<std::size_t>(x - region_.x0);
     }
 
-    // `of_group`: nothing, or the group and the triangle's lane of it.
+    // `of_group`: empty, or the group and the triangle's lane in it.
     template <class... OfGroup>
     [[nodiscard]] HWY_INLINE DrawnTriangle drawn(std::uint32_t index, const OfGroup&... of_group) const {
         if constexpr (takes_edges<Shade<true>>)
@@ -195,7 +198,7 @@ class RowWalk {
         }
     }
 
-    // Its pixels side by side, row after row.
+    // Draws a small triangle's covered pixels packed into vectors, row after row.
     template <bool unsnapped, bool within_8>
     HWY_INLINE void draw_pixels(const SmallCoverage<within_8>& coverage, const DrawnTriangle& triangle, std::size_t k) {
         const U32 d;
@@ -234,7 +237,8 @@ class RowWalk {
             columns[part] = at.column_terms(numbers_from(x0 + static_cast<int>(part * row_lanes)));
             row_terms.set(part * row_lanes, at.row_terms(numbers_from(y0 + static_cast<int>(part * row_lanes))));
         }
-        // The compiler must assume that a store to a target changes any member: what the loop needs is read before it.
+        // The compiler must assume that a store to a target changes any member, so the loop's inputs are read before
+        // it.
         const auto width = static_cast<std::size_t>(region_.width());
         const std::uint32_t first_row = coverage.first_row(), end_row = coverage.end_row(group_.height[k]);
         std::size_t first = pixel(x0, y0) + first_row * width;
@@ -265,7 +269,7 @@ class RowWalk {
         }
     }
 
-    // Draws a triangle by covered spans. The terms of the columns are computed once for all rows.
+    // Draws a triangle by covered spans. The column terms are computed once for all rows.
     template <bool unsnapped>
     HWY_INLINE void draw_spans(const DrawnTriangle& triangle, const Rect& rows) {
         const WeightsAt<unsnapped> at{triangle.weights};

@@ -8,8 +8,8 @@ namespace strata::rasterizer {
 
 namespace {
 
-// What any walk over rows needs. Of the sets, those from AVX2 on have row_walk_lanes; row tables hold max_row_pixels
-// columns.
+// Requirements of every walk over rows. Instruction sets from AVX2 on have row_walk_lanes; row tables have
+// max_row_pixels columns.
 [[nodiscard]] bool can_walk(const Geometry& geometry, const Rect& region) noexcept {
     return chosen_simd() >= Simd::avx2 && geometry.state.depth_order == DepthOrder::less &&
            !geometry.state.window_positions && geometry.rules.plane_rule == PlaneRule::exact &&
@@ -21,7 +21,7 @@ namespace {
 
 bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
-    // Of binary32, D16F and D24F have no vector conversion, and codes of a binary32 product have none either.
+    // D16F and D24F have no vector conversion from binary32, nor have codes of a binary32 product.
     const bool has_conversion = depth.format != DepthFormat::d16f && depth.format != DepthFormat::d24f;
     return can_walk(geometry, region) && depth.path == DepthPath::float32 && has_conversion && !clips_fragments &&
            geometry.rules.depth_limits == DepthLimits::clamp &&

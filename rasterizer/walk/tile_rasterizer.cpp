@@ -7,7 +7,7 @@
 #include "rasterizer/values/fragment_values.h"
 
 namespace strata::rasterizer {
-// One call of draw: what is constant for it, and the batch being filled.
+// One call of draw: its constants, and the batch being filled.
 class TileRasterizer::Pass {
   public:
     Pass(TileRasterizer& owner, const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs,
@@ -23,7 +23,7 @@ class TileRasterizer::Pass {
           rules_{group_rules(geometry, owner.region_)} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
-        flush();  // the claims of an earlier draw say nothing about this one
+        flush();  // the claims of an earlier draw do not apply to this one
         const bool by_spans = geometry_.rules.coverage == CoverageRule::float_spans;
         const auto draw_part = [&](auto group) {
             if (by_spans) {
@@ -57,19 +57,20 @@ class TileRasterizer::Pass {
         }
     }
 
-    // A batch has one material: what shades it is chosen once for all its fragments.
+    // A batch has one material, so its shading is chosen once for all its fragments.
     void use_material(std::uint32_t material) {
         if (material != batch_.material) flush();
         batch_.material = material;
     }
 
-    // Rows that follow one another go together. Where the two parts of a triangle meet in one, it begins a run of its
-    // own.
+    // Consecutive rows are emitted together. If the two parts of a triangle share a row, the second part starts a new
+    // run there.
     void draw_float_spans(std::uint32_t index) {
         const FloatSpans spans{geometry_.positions(geometry_.triangles[index])};
         if (!spans.is_drawn()) return;
         int first_y = 0, rows = 0;
-        std::optional<DrawnTriangle> triangle;  // most have no pixel in a region
+        std::optional<DrawnTriangle> triangle;  // constructed on demand, because most triangles have no pixel in a
+                                                // region
         const auto emit_rows = [&] {
             if (!triangle) use_material(triangle.emplace(geometry_, index).record.material);
             RowRun run = row_run(*triangle, {0, first_y, 0, first_y + rows});
@@ -94,8 +95,8 @@ class TileRasterizer::Pass {
         const RegionOrigin origin{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
                                   group_.y0[k] - static_cast<std::uint32_t>(region.y0),
                                   static_cast<std::uint32_t>(region.width()), record.primitive};
-        // A pixel is held already, or the room is short: the batch goes
-        // on its way, and an empty one takes every small triangle.
+        // The batch already contains a pixel or has too little room: it is flushed. An empty batch has room for any
+        // small triangle.
         if (!small_.emit(group_, k, origin, owner_.claims_, batch_)) {
             flush();
             static_cast<void>(small_.emit(group_, k, origin, owner_.claims_, batch_));
@@ -106,7 +107,7 @@ class TileRasterizer::Pass {
     void draw_large(std::uint32_t index) {
         const DrawnTriangle triangle{geometry_, index};
         const Rect corners = centre_box(geometry_.points(triangle.record), rules_.subpixel_bits);
-        // A negative w takes the triangle beyond its corners.
+        // With a negative w the triangle extends beyond its corners.
         const Rect box = triangle.record.negative_w == 0 ? intersection(corners, rules_.clip) : rules_.clip;
         for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
             rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
@@ -120,7 +121,7 @@ class TileRasterizer::Pass {
         return {0, rows.height(), 0, rows.y0, region.x0, region.y0, region.width(), triangle.record.primitive};
     }
 
-    // The kernel stops where the batch is full or holds the next pixel, and goes on from there with an empty one.
+    // The kernel stops if the batch is full or contains the next pixel, and continues with an empty one.
     void emit(const DrawnTriangle& triangle, const Rect& rows) {
         const TriangleEdges edges{geometry_.points(triangle.record), geometry_.rules.tie_rule,
                                   triangle.record.negative_w};
@@ -150,7 +151,7 @@ class TileRasterizer::Pass {
     bool has_colors_;
     GroupRules rules_;
     TriangleGroup group_;
-    // The present triangle's first fragment in the batch that has no values yet: between triangles all have theirs.
+    // The current triangle's first fragment in the batch without values; between triangles all fragments have values.
     int first_ = 0;
     std::array<RowSpan, max_span_rows + 1> spans_;
 };

@@ -1,7 +1,8 @@
-// rasterizer/walk/tile_rasterizer.h - walks set-up triangles over a region and hands out batches of fragments.
+// rasterizer/walk/tile_rasterizer.h - walks the triangles of a Geometry over a region and passes batches of fragments
+// to a sink.
 //
-// Rule     Fragments come in submission order per pixel; coverage and values are a function of the set-up triangle and
-//          the pixel alone, never of the region, the tile size or the walk.
+// Rule     Fragments of a pixel come in submission order. Coverage and values are functions of the triangle after
+//          set-up and the pixel, never of the region, the tile size or the walk.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp
 #pragma once
 #include <span>
@@ -14,18 +15,19 @@
 
 namespace strata::rasterizer {
 
-// Walks one region; it may draw many lists, one after the other, and is used by one thread at a time.
+// Walks one region. It can draw several lists, one after the other, from one thread at a time.
 class TileRasterizer {
   public:
-    // The region lies inside the viewport of every geometry that it will walk.
+    // The region must be inside the viewport of every geometry that is drawn.
     explicit TileRasterizer(Rect region);
 
-    // Rasterizes `triangles` (indices into geometry.triangles, ascending) and calls `sink` with every batch that has
-    // fragments. Scissor and, with ZClip::per_fragment, the depth range have been applied.
+    // Rasterizes `triangles` (indices into geometry.triangles, ascending) and calls `sink` with every nonempty batch.
+    // Scissor and, with ZClip::per_fragment, the depth range are already applied.
     void draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
               const FragmentNeeds& needs, BatchSink sink);
 
-    // Fragments whose filtered depth or attribute needed the exact arithmetic of plane.h; for tests and statistics.
+    // The number of fragments whose filtered depth or attribute needed the exact arithmetic of plane.h, for tests and
+    // statistics.
     [[nodiscard]] std::uint64_t exact_fallbacks() const noexcept { return exact_fallbacks_; }
 
   private:

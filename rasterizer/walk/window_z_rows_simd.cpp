@@ -1,8 +1,8 @@
-// rasterizer/walk/window_z_rows_simd.cpp - draw_depth_rows of rows.h where the chip interpolates window z, for every
-// instruction set.
+// rasterizer/walk/window_z_rows_simd.cpp - draw_window_z_rows of rows.h, where the chip interpolates window z, compiled
+// once per instruction set.
 //
-// Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops what lies outside of the depth range, of
-//          triangles that have a corner there (chip_values.cpp). Corners that are not narrow go lane by lane.
+// Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops fragments outside the depth range, for
+//          triangles that have a corner outside it (chip_values.cpp). Corners that are not narrow run lane by lane.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/walk/window_z_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/window_z_rows_simd.cpp"
@@ -18,7 +18,7 @@ namespace strata::rasterizer::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// State of a depth pass over all its triangles. Behind the region's `pixels` codes stand spare words.
+// State of a depth pass over all its triangles. The region's `pixels` codes are followed by spare words.
 struct WindowZState {
     ChipDepth depth;
     std::uint32_t* codes;
@@ -40,7 +40,7 @@ struct WindowZOf {
                     NarrowWindowZ{window_z_corners(triangle.geometry, triangle.index, state.depth.offset),
                                   triangle.geometry.rules.hypothesis}} {}
 
-        // Neighbours, where they are stored.
+        // Adjacent pixels, at their stored positions.
         HWY_INLINE void operator()(const Row& row, const Weights& e) {
             RowMask covered = row.covered;
             const auto code = code_at(row, e, covered);
@@ -49,7 +49,7 @@ struct WindowZOf {
             hn::BlendedStore(code, hn::RebindMask(U32{}, passed), U32{}, stored);
             passed_ += hn::CountTrue(F32{}, passed);
         }
-        // Pixels of a small triangle, each at most once; the lanes beyond them write spare words back.
+        // Pixels of a small triangle, each at most once; lanes past the last one write spare words back.
         HWY_INLINE void operator()(const Pixels& pixels, const Weights& e) {
             RowMask covered = pixels.covered;
             const auto code = code_at(pixels, e, covered);
@@ -83,7 +83,7 @@ struct WindowZOf {
               greatest_{state.depth.greatest},
               depth_{corners} {}
 
-        // The codes; takes from `covered` what the depth range removes.
+        // Returns the codes; removes from `covered` the lanes outside the depth range.
         template <class Where>
         HWY_INLINE hn::Vec<U32> code_at(const Where& where, const Weights& edge, RowMask& covered) {
             const Corners e = edge_values(edge, all(area_));
