@@ -1,11 +1,12 @@
-// rasterizer/chip/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
+// rasterizer/chip/color_weights.h - interpolates vertex colours with 8-bit weights, as NV2A (GeForce3 class) does.
 //
-// Rule     Vertex colours to 8 bits first: their leading bits (InterpolationHypothesis), times 255, nearest, a half up.
-//          Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the two others), exactly. w0 =
-//          floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2 c2 + 128) >> 8, over 255
-//          in binary32. Unequal 1/w: perspective_weights.h; or PerspectiveColor::edge_products [A]: p_i = e_i (1/w_i),
-//          b_i = p_i (1 / ((p0 + p1) + p2)) in binary64, cut to 24 bits; or weight_products [A]: p_i = b_i (1/w_i) cut
-//          to 24 bits, normalised with a reciprocal cut to 28.
+// Rule     Vertex colours are first converted to 8 bits: their leading bits (InterpolationHypothesis), times 255, to
+//          nearest, a half rounds up. Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the
+//          two others), exactly. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 +
+//          w2 c2 + 128) >> 8, divided by 255 in binary32. If 1/w differs: perspective_weights.h; or
+//          PerspectiveColor::edge_products [A]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64,
+//          truncated to 24 bits; or weight_products [A]: p_i = b_i (1/w_i) truncated to 24 bits, normalized with a
+//          reciprocal truncated to 28 bits.
 // Source   attributes.md 2.2 to 2.5; chip-depth.md 8; chip-float-depth.md 7.
 // Tests    tests/rasterizer/chip/color_weights_test.cpp
 #pragma once
@@ -21,7 +22,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// `bits` leading ones of c count, 1 to 24.
+// Uses the `bits` leading mantissa bits of c, 1 to 24.
 [[nodiscard]] constexpr std::int32_t to_color_code(float c, int bits = 24) noexcept {
     if (!(c > 0.0f)) return 0;
     if (c >= 1.0f) return 255;
@@ -30,7 +31,7 @@ inline namespace strict {
     return static_cast<std::int32_t>(double{kept} * 255.0 + 0.5);
 }
 
-// The weights of one triangle. `area` is twice its area; edge values and area are in one unit, whichever.
+// The weights of one triangle. `area` is twice its area; edge values and area are in the same unit, which may be any.
 class ColorWeights {
   public:
     ColorWeights(const std::array<float, 3>& w, const std::array<float, 3>& inverse_w, std::int64_t area,
@@ -41,7 +42,7 @@ class ColorWeights {
           rule_{rule},
           is_affine_{inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2]} {}
 
-    // w0, w1, w2 in 1/256 at a fragment with edge values `e`.
+    // w0, w1, w2 in units of 1/256 at a fragment with edge values `e`.
     [[nodiscard]] std::array<std::int32_t, 3> at(const EdgeValues& e) const noexcept {
         return from(is_affine_ ? affine(e) : perspective(e));
     }
@@ -60,13 +61,14 @@ class ColorWeights {
         for (double& b : p) b = cut_bits(b * (by_weights ? cut_bits(r, 28) : r), 24);
         return p;
     }
-    // 256ths of the outer corners are cut, and the middle one takes the rest: they always add up to 256.
+    // The weights of the outer corners are truncated to 1/256, and the middle one takes the rest: the sum is always
+    // 256.
     [[nodiscard]] static std::array<std::int32_t, 3> from(const Weights& b) noexcept {
         const std::size_t rest = remainder_vertex(b);
         const auto whole = [&](std::size_t i) {
             if (i != rest) return static_cast<std::int32_t>(256.0 * b[i]);
-            // floor(256 (1 - x)) = 256 - ceil(256 x); x = high + low exactly, and low alone never crosses a multiple of
-            // 1/256.
+            // floor(256 (1 - x)) = 256 - ceil(256 x). x = high + low exactly, and low is too small to cross a multiple
+            // of 1/256.
             const TwoTerms x = two_sum(b[(i + 1) % 3], b[(i + 2) % 3]);
             const double scaled = 256.0 * x.high;
             const auto down = static_cast<std::int32_t>(scaled);
@@ -83,7 +85,7 @@ class ColorWeights {
     bool is_affine_;
 };
 
-// One channel: `c` are vertex codes.
+// Interpolates one channel; `c` are the vertex codes.
 [[nodiscard]] constexpr float weighted_color(const std::array<std::int32_t, 3>& w,
                                              const std::array<std::int32_t, 3>& c) noexcept {
     return static_cast<float>((w[0] * c[0] + w[1] * c[1] + w[2] * c[2] + 128) >> 8) / 255.0f;

@@ -1,8 +1,8 @@
 // rasterizer/chip/offset_value.h - polygon offset as NV2A (GeForce3 class) adds it to a fragment's value.
 //
-// Rule     v = cut(value, 24); with offset v = cut(v + o, 24), o = cut(cut(slope * factor, 24) + bias, 24), slope cut
-//          to 24 bits, everything toward zero and in the buffer's own units. The slope of a z buffer is the larger of
-//          |dz/dx| and |dz/dy| of the triangle, per pixel.
+// Rule     v = trunc(value, 24); with offset v = trunc(v + o, 24), o = trunc(trunc(slope * factor, 24) + bias, 24),
+//          slope truncated to 24 bits. trunc(x, 24) truncates toward zero to 24 bits; everything is in the buffer's own
+//          units. The slope of a z buffer is the larger of |dz/dx| and |dz/dy| of the triangle, per pixel.
 // Source   coverage.md 9.3, chip-float-depth.md 2.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once
@@ -13,11 +13,11 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// high + low cut toward zero to 24 bits; |low| is at most half a unit in the last place of high.
+// high + low truncated toward zero to 24 bits. Precondition: |low| is at most half a unit in the last place of high.
 [[nodiscard]] constexpr double cut_sum_24(TwoTerms s) noexcept {
     const double cut = cut_bits(s.high, 24);
     const bool is_below = cut == s.high && s.low != 0.0 && (s.low < 0.0) != (s.high < 0.0);
-    // The magnitude is a hair less than `high`, which has 24 bits: the one before it.
+    // `high` has 24 bits and the sum is slightly smaller in magnitude: the previous value.
     return is_below ? cut_bits(std::bit_cast<double>(std::bit_cast<std::uint64_t>(cut) - 1), 24) : cut;
 }
 

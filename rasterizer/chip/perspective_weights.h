@@ -1,13 +1,14 @@
-// rasterizer/chip/perspective_weights.h - the weights of NV2A's interpolator where w differs: colours, coordinates, w
-// buffer.
+// rasterizer/chip/perspective_weights.h - the weights of NV2A's interpolator if w differs between the corners, for
+// colours, texture coordinates and the w buffer.
 //
-// Rule     q_i = |1 / w_i| cut to 24 bits; e' cut like a weight's; S = the sum of the whole products |e'_i| q_i, each
-//          cut to a multiple of 2^(ex - 28), ex the largest exponent of them; r of S as in cut_weight.h; p_i = |e'_i|
-//          q_i cut to 25 bits; b_i = p_i r cut to 24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
-// Source   chip-float-depth.md 4.1 and 7; the last bits of p, q or r are open (4.4 there).
-// Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded there. A corner's
-//          edge value and its w have one sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes do. |1 /
-//          w| is at least 2^-126 and at most 2^126 (signs of w) and |e'| below 2^58: nothing overflows.
+// Rule     q_i = |1 / w_i| truncated to 24 bits; e' truncated as in cut_weight.h; S = the sum of the exact products
+//          |e'_i| q_i, each truncated to a multiple of 2^(ex - 28), where ex is the largest of their exponents; r of S
+//          as in cut_weight.h; p_i = |e'_i| q_i truncated to 25 bits; b_i = p_i r truncated to 24 bits; the remainder
+//          vertex (that of colours) takes 1 - (b' + b'').
+// Source   chip-float-depth.md 4.1 and 7; the last bits of p, q or r are not certain (4.4 there).
+// Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded. A corner's edge
+//          value and its w have the same sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes suffice.
+//          |1 / w| is at least 2^-126 and at most 2^126 (signs of w) and |e'| is below 2^58: nothing overflows.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp, perspective_colors_test.cpp
 #pragma once
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// The sum of three products, of which the adder keeps 29 bits from the largest one's first on.
+// The sum of three products. The adder keeps 29 bits of each, counted from the first bit of the largest.
 [[nodiscard]] constexpr double aligned_sum(const std::array<double, 3>& p) noexcept {
     const double unit = power_of_two(std::max({exponent_of(p[0]), exponent_of(p[1]), exponent_of(p[2]), -500}) - 28);
     std::int64_t sum = 0;
@@ -31,7 +32,7 @@ class PerspectiveWeights {
         : hypothesis_{hypothesis} {
         for (std::size_t i = 0; i < 3; ++i) q_[i] = cut_bits(1.0 / (w[i] < 0.0f ? -double{w[i]} : double{w[i]}), 24);
     }
-    // Before the remainder.
+    // The weights before the remainder is assigned.
     [[nodiscard]] constexpr std::array<double, 3> cut_at(const EdgeValues& e) const noexcept {
         std::array<double, 3> b{};
         for (std::size_t i = 0; i < 3; ++i) b[i] = cut_edge(e[i] < 0 ? -e[i] : e[i]) * q_[i];

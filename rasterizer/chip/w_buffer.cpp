@@ -6,7 +6,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 namespace {
 
-// The first row of `rows` in which the triangle covers anything, and its span; empty if there is none.
+// The first row of `rows` in which the triangle covers a pixel, and its span; empty if there is none.
 struct FirstRow {
     int y = 0, x0 = 0, x1 = 0;
 };
@@ -19,7 +19,7 @@ struct FirstRow {
     return {};
 }
 
-// Exact w at a pixel's centre but for binary64: the sum of e over the sum of e / w.
+// w at a pixel's centre, exact except for binary64 rounding: the sum of e over the sum of e / w.
 [[nodiscard]] double w_at(const EdgeValues& e, const std::array<float, 3>& w) noexcept {
     double above = 0.0, below = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -37,7 +37,7 @@ double w_slope(const SetupTriangle& t, const std::array<float, 3>& w, const Rect
     const TriangleEdges edges{t.p, rules.tie_rule};
     const FirstRow row = first_row(edges, intersection(clip, centre_box(t.p, bits)), bits);
     if (row.x0 >= row.x1) return 0.0;
-    // The chip starts below the topmost corner: the pixel of the first row that is nearest to it.
+    // The chip starts below the topmost corner: at the pixel of the first row that is nearest to it.
     const auto top = std::min_element(t.p.begin(), t.p.end(), [](auto a, auto b) { return a.y < b.y; });
     const int x = std::clamp(top->x >> bits, row.x0, row.x1 - 1);
     // 1 / w is linear: its steeper axis is that of w.

@@ -1,11 +1,12 @@
-// rasterizer/chip/w_buffer.h - the depth of NV2A's w buffer: w itself, interpolated by perspective weights.
+// rasterizer/chip/w_buffer.h - the depth of NV2A's w buffer: w itself, interpolated with perspective weights.
 //
-// Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product cut toward zero
-//          to 2^(ex - 28), ex the largest exponent of w1 and the products; the sum cut to 24 bits, offset added
-//          (offset_value.h). w_i are binary32, times the pass's scale rounded once. The slope of the offset is |w(P) -
-//          w(Q)| of two neighbouring pixels along the steeper axis, one number a triangle (WSlope).
-// Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the place of P and Q are open there.
-// Numbers  Differences and products in binary64: exact but for the remainder's product, which is rounded there.
+// Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product truncated
+//          toward zero to 2^(ex - 28), where ex is the largest exponent of w1 and the products; the sum truncated to 24
+//          bits, offset added (offset_value.h). w_i are binary32, times the pass's scale, rounded once. The slope of
+//          the offset is |w(P) - w(Q)| of two adjacent pixels along the steeper axis, one number per triangle (WSlope).
+// Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the positions of P and Q are not certain
+//          there.
+// Numbers  Differences and products are in binary64: exact except for the remainder's product, which is rounded.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once
 #include <algorithm>
@@ -31,7 +32,7 @@ class WBuffer {
           last_{double{w[2]} - double{w[1]}},
           offset_{offset},
           sum_bits_{hypothesis.sum_bits} {}
-    // 24 significant bits, with offset, not clamped.
+    // 24 significant bits, including the offset, not clamped.
     [[nodiscard]] constexpr double value(const EdgeValues& e) const noexcept {
         const std::array<double, 3> b = weights_.at(e);
         const double p0 = b[0] * first_, p2 = b[2] * last_;
@@ -47,7 +48,7 @@ class WBuffer {
     int sum_bits_;
 };
 
-// |w(P) - w(Q)| of a triangle that is drawn within `clip`; 0 if it covers nothing of it.
+// |w(P) - w(Q)| of a triangle drawn within `clip`; 0 if it covers no pixel there.
 [[nodiscard]] double w_slope(const SetupTriangle& t, const std::array<float, 3>& w, const Rect& clip,
                              const RasterRules& rules) noexcept;
 

@@ -1,13 +1,13 @@
 // rasterizer/chip/window_z.h - window depth as NV2A (GeForce3 class) computes it, for every depth format.
 //
 // Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the reference;
-//          the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of the three
-//          terms; the sum cut to 24 bits, offset added (offset_value.h). z are binary32 in buffer units; z and
-//          differences below 2^-126 are 0.
-// Source   measured on silicon: chip-depth.md 1, chip-float-depth.md 1 to 3.
-// Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other acts as any z below 2^-24 of it does;
-//          times 24 bits of weight 109 bits. Nearly all differences have 29 bits or fewer, and their products are exact
-//          in binary64.
+//          the others add b_j (z_j - z_R), each truncated toward zero to 2^(ex - 28), where ex is the largest exponent
+//          of the three terms; the sum is truncated to 24 bits, offset added (offset_value.h). z are binary32 in buffer
+//          units; z and differences below 2^-126 are 0.
+// Source   measured on hardware: chip-depth.md 1, chip-float-depth.md 1 to 3.
+// Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other has the same effect as any z below
+//          2^-24 of it; times 24 bits of weight gives 109 bits. Nearly all differences have 29 bits or fewer, and their
+//          products are exact in binary64.
 // Tests    tests/rasterizer/chip/window_z_test.cpp
 #pragma once
 #include <algorithm>
@@ -46,7 +46,8 @@ struct Dyadic {
     return {Wide{(bits & 0x7fffff) | 0x800000u}, static_cast<int>(bits >> 23 & 0xff) - 150, (bits >> 31) != 0};
 }
 
-// a - b. A term whose exponent is more than 60 below the other's becomes the unit of that place: no cut can tell.
+// a - b. A term whose exponent is more than 60 below the other's is replaced by one unit at that distance, because
+// truncation cannot distinguish them.
 [[nodiscard]] constexpr Dyadic difference(float a, float b) noexcept {
     Dyadic x = as_dyadic(a), y = as_dyadic(b);
     if (x.magnitude == 0) x.exponent = y.exponent;
@@ -72,15 +73,15 @@ struct Dyadic {
     return result;
 }
 
-// z and differences that the chip takes as 0 (chip-float-depth.md 3.3).
+// z and differences below this are 0 on the chip (chip-float-depth.md 3.3).
 inline constexpr double least_depth = 0x1p-126;
-// A difference of so many bits times a weight of 24 is exact in binary64.
+// A difference of this many bits times a weight of 24 bits is exact in binary64.
 inline constexpr int narrow_bits = 29;
 [[nodiscard]] constexpr float flushed_depth(float z) noexcept {
     return z < static_cast<float>(least_depth) && z > -static_cast<float>(least_depth) ? 0.0f : z;
 }
 
-// The corner that the others are seen from: that of the largest exponent.
+// The corner to which the others are relative: the one whose edge value has the largest exponent.
 [[nodiscard]] constexpr std::size_t reference_vertex(const EdgeValues& e) noexcept {
     const auto width = [&](std::size_t i) {
         return std::bit_width(static_cast<std::uint64_t>(e[i] < 0 ? -e[i] : e[i]));
@@ -89,7 +90,7 @@ inline constexpr int narrow_bits = 29;
     return width(0) >= width(2) ? 0 : 2;
 }
 
-// The chip's depth of one triangle: differences of corners are taken once, weights and sum at every fragment.
+// The chip's depth of one triangle. Differences of corners are computed once, weights and sum per fragment.
 class WindowZ24 {
   public:
     constexpr WindowZ24(const std::array<double, 3>& z, std::int64_t area, const DepthHypothesis& hypothesis = {},
@@ -109,7 +110,8 @@ class WindowZ24 {
             for (std::size_t i = 0; i < 3; ++i)
                 if (narrow_[r][i] != 0.0) difference_[r][i] = difference(z_[i], z_[r]);
     }
-    // The value at a fragment with edge values `e`, in buffer units, with offset: 24 significant bits, not clamped.
+    // The value at a fragment with edge values `e`, in buffer units, including the offset: 24 significant bits, not
+    // clamped.
     [[nodiscard]] constexpr double value(const EdgeValues& e) const noexcept {
         return offset_value(is_narrow_ ? narrow_sum(e) : wide_sum(e), offset_);
     }
@@ -117,7 +119,7 @@ class WindowZ24 {
   private:
     static constexpr int none = -10000;  // the exponent of 0
 
-    // sign * magnitude * 2^exponent of a weight times a difference.
+    // A weight times a difference, as sign * magnitude * 2^exponent.
     struct Term {
         Wide magnitude = 0;
         int exponent = 0;
@@ -130,8 +132,8 @@ class WindowZ24 {
         [[nodiscard]] constexpr int leading_exponent() const noexcept {
             return magnitude == 0 ? none : bit_width(magnitude) - 1 + exponent;
         }
-        // In units of 2^unit, toward zero; below 2^29 because the unit is 28 places under the largest term. The
-        // exponent of a zero means nothing: two corners at depth 0 put it any number of places above the unit.
+        // In units of 2^unit, truncated toward zero; below 2^29 because the unit is 28 bits below the largest term. The
+        // exponent of a zero is meaningless: with two corners at depth 0 it may be any number of bits above the unit.
         [[nodiscard]] constexpr std::int64_t cut(int unit) const noexcept {
             if (magnitude == 0) return 0;
             const int right = unit - exponent;
@@ -150,7 +152,7 @@ class WindowZ24 {
         const int unit = largest - (sum_bits_ - 1);
         return two_sum(double{z_[r]}, static_cast<double>(pj.cut(unit) + pk.cut(unit)) * power_of_two(unit));
     }
-    // The same where every product is exact in binary64.
+    // The same if every product is exact in binary64.
     [[nodiscard]] constexpr TwoTerms narrow_sum(const EdgeValues& e) const noexcept {
         const std::size_t r = reference_vertex(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
         const std::array<double, 3> b = weights_.at(e);
@@ -168,7 +170,8 @@ class WindowZ24 {
     int sum_bits_;
     std::array<float, 3> z_{};
     std::array<std::array<double, 3>, 3> narrow_{};      // [r][i] = z_i - z_r
-    std::array<std::array<Dyadic, 3>, 3> difference_{};  // the same in full, where binary64 does not hold it
+    std::array<std::array<Dyadic, 3>, 3> difference_{};  // the same without rounding, for differences that binary64
+                                                         // cannot represent
     bool is_narrow_ = false;
 };
 

@@ -1,14 +1,15 @@
-// rasterizer/rules/depth_code.h - window depth to its stored code. Depth is compared on stored codes only.
+// rasterizer/rules/depth_code.h - converts window depth to its stored code. Depth is compared only as stored codes.
 //
-// Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (DepthRounding); NaN is 0.
-//          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
-//          integers. D16F: depth 1 is its greatest value, 511.9375; the depth cut to 12 bits of mantissa, an exponent
-//          field of 0 flushed to 0, whatever the rule. D24F: depth 1 is 1e30; binary32 without its sign, its mantissa
-//          cut to 16 bits, what is below 2^-126 flushed to 0. The text of it all is depth_text-inl.h's. Under
-//          DepthLimits::wrap nothing is clamped (depth.md 2.9).
+// Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (DepthRounding); NaN is 0. D32F: the
+//          float itself, clamped to [0,1] and with -0 replaced by +0, so the codes of each format are ordered like
+//          unsigned integers. D16F: depth 1 is its greatest value, 511.9375; the mantissa is truncated to 12 bits and
+//          an exponent field of 0 is flushed to 0, whatever the rounding rule. D24F: depth 1 is 1e30; binary32 without
+//          its sign, mantissa truncated to 16 bits, values below 2^-126 flushed to 0. The conversions are in
+//          depth_text-inl.h. Under DepthLimits::wrap nothing is clamped (depth.md 2.9).
 // Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F and
 //          D24F: chip-float-depth.md 3.
-// Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
+// Numbers  Scaling is in binary64: a product of 24 by 24 bits is exact, while binary32 cannot represent halves of a
+//          code above z = 0.5.
 // Tests    tests/rasterizer/rules/depth_code_test.cpp, tests/rasterizer/values/d16f_paths_test.cpp
 #pragma once
 #include <algorithm>
@@ -19,29 +20,29 @@
 
 namespace strata::rasterizer {
 
-// d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
-// d24f: 8 bits of exponent, 16 of mantissa, no sign.
+// d16f: 4 bits of exponent, 12 of mantissa, no sign; values below the smallest normal one are 0. d24f: 8 bits of
+// exponent, 16 of mantissa, no sign.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f, d24f };
-// How a value becomes a fixed-point code: cut; to nearest with a half going up; scaled in binary32, and that product to
-// nearest with a half going to the even code; or 16 bits scaled in binary32 and cut, 24 bits as by floor. The float
-// formats do not look at it.
+// The rounding of a value to a fixed-point code. floor: truncated. nearest: to nearest, a half rounds up. product_even:
+// scaled in binary32, and that product to nearest, a half to the even code. product_floor: 16 bits are scaled in
+// binary32 and truncated, 24 bits as by floor. The float formats ignore it.
 enum class DepthRounding : std::uint8_t { floor, nearest, product_even, product_floor };
 
 [[nodiscard]] constexpr bool cuts(DepthRounding rounding) noexcept {
     return rounding == DepthRounding::floor || rounding == DepthRounding::product_floor;
 }
 
-// The ways in which formats make a code of a value.
+// The conversions from a value to a code.
 enum class CodeKind : std::uint8_t { fixed, fixed_product, fixed_cut_product, binary32, d16f, d24f };
 
-// How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds
-// exactly.
+// The conversion of values in one unit to codes of one format. `Limit` is binary32 for values in [0,1], whose limits it
+// represents exactly.
 template <class Limit>
 struct DepthConversion {
     CodeKind kind;
-    Limit least, greatest;  // the depth range, in the values' unit
-    double scale, half;     // the buffer's units in one of the values', and what rounding adds before the cut
-    bool wraps = false;     // DepthLimits::wrap: the range limits nothing; to_wrapped_code
+    Limit least, greatest;  // the depth range, in the unit of the values
+    double scale, half;     // buffer units per unit of the values; what rounding adds before truncation
+    bool wraps = false;     // DepthLimits::wrap: the range is not applied; to_wrapped_code is used
     [[nodiscard]] constexpr bool is_fixed() const noexcept {
         return kind == CodeKind::fixed || kind == CodeKind::fixed_product || kind == CodeKind::fixed_cut_product;
     }
@@ -49,13 +50,13 @@ struct DepthConversion {
 
 inline namespace strict {
 
-// An order-preserving code of any float that is not NaN: what depths that are no stored codes are sorted by.
+// An order-preserving code of any float except NaN: the sort key of depths that are not stored codes.
 [[nodiscard]] constexpr std::uint32_t ordered_code(float z) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(z == 0.0f ? 0.0f : z);  // -0 is 0
     return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
 }
 
-// The value of depth 1.0 in D24F: the limit that drivers gave the chip (depth.md 1.3).
+// The value of depth 1.0 in D24F: the limit that the chip's drivers used (depth.md 1.3).
 inline constexpr float max_d24f = 1e30f;
 
 // The code of depth 1.0: 2^n - 1, the bits of 1.0f, or those of 1e30.
@@ -97,38 +98,39 @@ inline constexpr float max_d16f = 511.9375f;
     return 1.0;  // unreachable: the enum is closed
 }
 
-// D16F's own values, [0, 511.9375]: the leading bits of the binary64, less the code of 2^-7. Only 0 and above.
+// For values in D16F's own units, [0, 511.9375]: the leading bits of the binary64 minus those of 2^-7. Negative values
+// and NaN give 0.
 [[nodiscard]] constexpr std::uint32_t to_d16f_code(double value) noexcept {
     if (!(value > 0.0)) return 0;
     if (value >= max_d16f) return 0xffffu;
     constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-7);
-    // A code below has the exponent field 0, and the chip stores 0 in its place (depth.md 2.3).
+    // A code below it has exponent field 0, and the chip stores 0 instead (depth.md 2.3).
     constexpr std::uint32_t least_normal = 0x1000;
     const auto bits = std::bit_cast<std::uint64_t>(value);
-    // Of binary64's 52 bits of mantissa 12 stay; the cut is the only rounding.
+    // 12 of the 52 mantissa bits of binary64 remain; this truncation is the only rounding.
     const auto code = static_cast<std::uint32_t>(bits < least ? 0 : (bits - least) >> 40);
     return code < least_normal ? 0 : code;
 }
-// D24F's own values, [0, FLT_MAX]: the leading bits of the binary64, less the code of 2^-127.
+// For values in D24F's own units, [0, FLT_MAX]: the leading bits of the binary64 minus those of 2^-127.
 [[nodiscard]] constexpr std::uint32_t to_d24f_code(double value) noexcept {
     constexpr double least = 0x1p-126, greatest = 0x1.fffffep127;
     if (!(value >= least)) return 0;
-    constexpr std::uint32_t below = 1023 - 127;  // what binary64 adds to the exponent's field
+    constexpr std::uint32_t below = 1023 - 127;  // difference of the exponent biases of binary64 and D24F
     const double bounded = value < greatest ? value : greatest;
     return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(bounded) >> 36) - (below << 16);
 }
-// The value of a code, exact (depth.md 1.3). Codes below 2^16 are not made, and those of an exponent of all ones are
-// beyond binary32.
+// The exact value of a code (depth.md 1.3). Codes below 2^16 do not occur, and codes whose exponent is all ones exceed
+// the range of binary32.
 [[nodiscard]] constexpr double d24f_value(std::uint32_t code) noexcept {
     const std::uint64_t bits = std::uint64_t{code + ((1023 - 127) << 16)} << 36;
     return code < 0x10000 ? 0.0 : std::bit_cast<double>(bits);
 }
-// The value of a code, exact (depth.md 1.2).
+// The exact value of a code (depth.md 1.2).
 [[nodiscard]] constexpr float d16f_value(std::uint32_t code) noexcept {
     return code == 0 ? 0.0f : std::bit_cast<float>((code << 11) + 0x3c000000u);
 }
 
-// The operations of one lane.
+// The operations of depth_text-inl.h on a single value.
 template <class Value>
 struct OneLane {
     static constexpr Value all(Value v) noexcept { return v; }
@@ -139,9 +141,9 @@ struct OneLane {
     }
     static constexpr double times(Value v, double scale) noexcept { return double{v} * scale; }
     static constexpr std::uint32_t cut_sum(double v, double half) noexcept {
-        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v + half));  // vectors have no unsigned cast
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v + half));  // vectors have no unsigned conversion
     }
-    // A sum with this number has a unit of 1 in the last place.
+    // The unit in the last place of a sum with this number is 1.
     static constexpr std::uint32_t nearest_even_of_product(double v) noexcept {
         constexpr double round_at_one = 0x1.8p52;
         return static_cast<std::uint32_t>((double{static_cast<float>(v)} + round_at_one) - round_at_one);
@@ -155,7 +157,7 @@ struct OneLane {
 
 #include "rasterizer/rules/depth_text-inl.h"
 
-// The code of one value; where many are converted, the kind is chosen outside the loop.
+// The code of one value. Loops over many values select the kind outside the loop.
 template <class Value>
 [[nodiscard]] constexpr std::uint32_t depth_code(Value z, const DepthConversion<Value>& to) noexcept {
     switch (to.kind) {
@@ -169,16 +171,16 @@ template <class Value>
     return 0;  // unreachable: the enum is closed
 }
 
-// The code under DepthLimits::wrap of a value, where depth 1 is 1: D32F keeps it; in fixed point it is scaled, rounded
-// as ever, cut toward zero to an integer with a sign, and that integer's lowest 32 bits are compared, of which the
-// target keeps its own (depth.md 2.9).
+// The code of a value under DepthLimits::wrap, where depth 1 is 1: D32F keeps the value. In fixed point it is scaled
+// and rounded as usual and truncated toward zero to a signed integer; the lowest 32 bits are compared, and the target
+// stores as many of them as it has (depth.md 2.9).
 [[nodiscard]] constexpr std::uint32_t to_wrapped_code(float z, const DepthConversion<float>& to) noexcept {
     constexpr double most = 0x1p62;  // its lowest 32 bits are 0
     if (to.kind == CodeKind::binary32) return std::bit_cast<std::uint32_t>(z);
     const double exact = double{z} * to.scale;
     const bool is_product = to.kind == CodeKind::fixed_product || to.kind == CodeKind::fixed_cut_product;
     const double scaled = is_product ? double{static_cast<float>(exact)} : exact;
-    const double bounded = scaled > -most && scaled < most ? scaled : 0.0;  // NaN is 0, too
+    const double bounded = scaled > -most && scaled < most ? scaled : 0.0;  // NaN gives 0 too
     const auto whole = static_cast<std::int64_t>(bounded + (bounded < 0 ? -to.half : to.half));
     if (to.kind != CodeKind::fixed_product) return static_cast<std::uint32_t>(whole);
     const double rest = bounded - static_cast<double>(whole), distance = rest < 0 ? -rest : rest;
@@ -186,15 +188,15 @@ template <class Value>
     return static_cast<std::uint32_t>(whole + (goes_on ? (rest < 0 ? -1 : 1) : 0));
 }
 
-// Whether a code lies beyond the depth range: only DepthLimits::wrap makes such.
+// True if a code is outside the depth range, which occurs only under DepthLimits::wrap.
 [[nodiscard]] constexpr bool is_beyond_range(std::uint32_t code, DepthFormat format) noexcept {
     return code > max_code(format);
 }
 
-// A limit of the depth range, within [0,1] as glDepthRange clamps it; -0 and NaN become 0.
+// A limit of the depth range, clamped to [0,1] as glDepthRange does; -0 and NaN become 0.
 [[nodiscard]] constexpr float range_limit(float z) noexcept { return z > 0.0f ? std::min(z, 1.0f) : 0.0f; }
 
-// Of values whose unit is such that depth 1.0 is `units`: 1, or the buffer's own units.
+// The conversion of values for which depth 1.0 is `units`: 1, or the buffer's own units.
 template <class Limit>
 [[nodiscard]] constexpr DepthConversion<Limit> depth_conversion(DepthFormat format, DepthRounding rounding, Limit units,
                                                                 float near = 0.0f, float far = 1.0f) noexcept {
@@ -213,7 +215,7 @@ template <class Limit>
     return depth_code(z, depth_conversion(format, rounding, 1.0f));
 }
 
-// A code in the buffer's own units, exact.
+// The exact value of a code in the buffer's own units.
 [[nodiscard]] constexpr double buffer_value(std::uint32_t code, DepthFormat format) noexcept {
     switch (code_kind(format)) {
         case CodeKind::fixed:
@@ -226,7 +228,7 @@ template <class Limit>
     return 0.0;  // unreachable: the enum is closed
 }
 
-// k / (2^n - 1) rounded once to binary64, for pictures and reports; comparisons use codes.
+// k / (2^n - 1) rounded once to binary64, for images and reports; comparisons use codes.
 [[nodiscard]] constexpr double depth_value(std::uint32_t code, DepthFormat format) noexcept {
     return buffer_value(code, format) / buffer_units(format);
 }

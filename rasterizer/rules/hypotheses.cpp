@@ -3,7 +3,7 @@
 namespace strata::rasterizer {
 namespace {
 
-// The list, and a way to append the given rules changed, if that changes them.
+// The list being built; appends a changed copy of the given rules if the change has an effect.
 struct List {
     std::vector<NamedHypothesis> all;
 

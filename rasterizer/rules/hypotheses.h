@@ -1,8 +1,8 @@
-// rasterizer/rules/hypotheses.h - every constant of the rules that is not known for certain, with its other values, by
+// rasterizer/rules/hypotheses.h - lists the alternative values of every constant of the rules that is not certain, by
 // name.
 //
-// Rule     A list holds the given rules first ("as given"), then the rules with each other value of one constant after
-//          the other. The subject is what the constant can change at all.
+// Rule     A list has the given rules first ("as given"), then the rules with each alternative value of one constant
+//          after the other. The subject is the kind of value that the constant can affect.
 // Source   depth_hypothesis.h, interpolation_hypothesis.h.
 // Tests    tests/rasterizer/rules/hypotheses_test.cpp
 #pragma once
@@ -13,12 +13,12 @@
 
 namespace strata::rasterizer {
 
-// Which of a fragment's values a constant can change at all.
+// The kind of fragment value that a constant can affect.
 enum class Subject : std::uint8_t {
     window_depth,   // depths that are written
-    texture_depth,  // depths made of r and q: replaced, or compared with a texel
+    texture_depth,  // depths computed from r and q: replaced, or compared with a texel
     color,
-    coordinates  // of textures
+    coordinates  // texture coordinates
 };
 
 struct NamedHypothesis {
@@ -27,7 +27,7 @@ struct NamedHypothesis {
     Subject subject{};
 };
 
-// The alternatives of depth_hypothesis.h, and of depth_rounding.
+// The alternatives of depth_hypothesis.h and of depth_rounding.
 [[nodiscard]] std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules);
 [[nodiscard]] std::vector<NamedHypothesis> interpolation_hypotheses(const RasterRules& rules);
 

@@ -1,4 +1,5 @@
-// rasterizer/rules/raster_state.h - the conventions and the state of rasterization. Conventions are state, not habit.
+// rasterizer/rules/raster_state.h - the state of rasterization. Conventions (clip depth, y direction, depth order) are
+// part of the state.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -25,10 +26,10 @@ struct Rect {
 
 // The view volume in z: -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D).
 enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };
-// The depth test that keeps the nearer of two fragments. `greater`: reversed depth, nearer depths are greater; passes
-// then compare keys (depth_key.h).
+// The depth test that keeps the nearer of two fragments. `greater` is reversed depth: nearer depths are greater, and
+// passes compare keys (depth_key.h).
 enum class DepthOrder : std::uint8_t { less, greater };
-// Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
+// The direction of clip-space +y on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
 // window.
 enum class YDirection : std::uint8_t { up, down };
 enum class CullFace : std::uint8_t { none, front, back, front_and_back };
@@ -59,7 +60,7 @@ struct SamplePoint {
 };
 
 struct RasterState {
-    // Where the view volume is mapped to, and the surface itself: fragments outside do not exist.
+    // The target rectangle of the view volume and at the same time the surface: there are no fragments outside.
     Rect viewport;
     // glDepthRange, clamped to [0,1] where it is used; near > far is a reversed range.
     float depth_near = 0.0f, depth_far = 1.0f;
@@ -72,21 +73,22 @@ struct RasterState {
     std::optional<SamplePoint> sample;
     // ARB_depth_clamp: nothing is clipped at near and far; depth is clamped just before the test.
     bool depth_clamp = false;
-    // NV2A's NEARFAR: a triangle goes whose three z lie all before or all behind the depth range, clamped or not.
+    // NV2A's NEARFAR: drops a triangle if all three z are in front of the depth range or all behind it, also with depth
+    // clamp.
     bool range_culls_triangles = false;
-    // Units of a w buffer in a unit of clip w; 0: such that w of the far plane is depth 1 (depth.md 4.8).
+    // Units of a w buffer per unit of clip w; 0: chosen so that w of the far plane is depth 1 (depth.md 4.8).
     float w_scale = 0.0f;
-    // For single-sided runs: a double-sided one is never culled.
+    // For single-sided runs: double-sided ones are never culled.
     CullFace cull = CullFace::back;
     FrontFace front_face = FrontFace::counter_clockwise;
     PolygonOffset polygon_offset;
     std::array<ClipPlane, 6> clip_planes{};
-    // The first so many planes count, 0 to 6.
+    // The number of clip_planes in use, 0 to 6.
     int clip_plane_count = 0;
-    // Vertices carry window x, y (pixels) and z (rules.window_z units) beside their w, as a vertex program of NV2A
-    // leaves them: no clip volume, no division, no viewport.
+    // Vertices have window x, y (pixels), z (rules.window_z units) and their w, as a vertex program of NV2A writes
+    // them: no clip volume, no division, no viewport.
     bool window_positions = false;
-    // Vertex z in buffer units and the unit of polygon offset depend on it.
+    // Determines vertex z in buffer units and the unit of polygon offset.
     DepthFormat depth_format = DepthFormat::d32f;
     friend bool operator==(const RasterState&, const RasterState&) = default;
 };
