@@ -1,4 +1,4 @@
-// pipeline/formats/color_rounding.h - how binary32 colours become the codes of a target, for each type of channel.
+// pipeline/formats/color_rounding.h - how binary32 colours are rounded to the codes of a target, per type of channel.
 #pragma once
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/unorm8.h"
@@ -9,7 +9,7 @@ struct ColorRounding {
     HalfRounding half = HalfRounding::nearest_even;
     UnormRounding unorm = UnormRounding::half_up;
 
-    // Where halves alone matter, or 8-bit codes are rounded half up.
+    // For uses where only halves matter, or where 8-bit codes round half up.
     constexpr ColorRounding(HalfRounding h, UnormRounding u = UnormRounding::half_up) noexcept : half{h}, unorm{u} {}
     friend bool operator==(const ColorRounding&, const ColorRounding&) = default;
 };

@@ -1,7 +1,7 @@
-// pipeline/formats/convert.h - a batch of colour channels between the codes that a target stores and binary32.
-// The rules stand in unorm8.h and half.h; binary32 channels pass with every bit kept. `scalar` holds the meaning; the
-// functions outside are the same loops compiled for the chosen instruction set (stages_simd.cpp).
-// Tests: tests/pipeline/formats/convert_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
+// pipeline/formats/convert.h - converts a batch of colour channels between the codes that a target stores and binary32.
+// The rules are in unorm8.h and half.h; binary32 channels are copied bit for bit. `scalar` is the definition; the
+// functions outside it are the same loops compiled for the selected instruction set (stages_simd.cpp). Tests:
+// tests/pipeline/formats/convert_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <bit>
 #include <cassert>
@@ -13,7 +13,7 @@
 
 namespace strata::pipeline {
 
-// Lanes [0, count), and scratch up to the next multiple of 16; `type` is unorm8, half or single.
+// Converts lanes [0, count), and writes scratch values up to the next multiple of 16; `type` is unorm8, half or single.
 void decode(ChannelType type, const rasterizer::Lanes<std::uint32_t>& codes, rasterizer::Lanes<float>& values,
             int count) noexcept;
 void encode(ChannelType type, ColorRounding rounding, const rasterizer::Lanes<float>& values,
@@ -33,7 +33,7 @@ void encode_unorm8(const float* __restrict values, std::uint32_t* __restrict cod
     for (std::size_t i = 0; i < count; ++i) codes[i] = to_unorm8<rounding>(values[i]);
 }
 
-// The type is chosen once for a batch; each case is a loop that compilers vectorise.
+// The type is selected once per batch; each case is a loop that compilers vectorize.
 inline void decode(ChannelType type, const std::uint32_t* __restrict codes, float* __restrict values,
                    std::size_t count) noexcept {
     switch (type) {

@@ -1,10 +1,10 @@
-// pipeline/formats/digest.cpp - one string for all bits of a target.
+// pipeline/formats/digest.cpp - the digest of a target: one string that depends on all of its bits.
 //
 // Rule     XXH3-128, seed 0, of: the format's name in ASCII, a zero byte, u32 width, height and samples, then the codes
-//          in the order of Image: UNORM8 and stencil u8, half u16, binary32 and every depth (D16 too) u32; all little
-//          endian.
+//          in the order of Image: UNORM8 and stencil u8, half u16, binary32 and every depth format (D16 too) u32; all
+//          little-endian.
 // Source   formats.md 8
-// Tests    tests/scenes/digest_test.cpp against a buffer serialised on its own
+// Tests    tests/scenes/digest_test.cpp, against a buffer serialized independently
 #include <xxhash.h>
 
 #include <array>
@@ -22,7 +22,7 @@ struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
 };
 
-// Gathers codes in a buffer, so that the hash is fed long runs of bytes.
+// Collects codes in a buffer, so that the hash receives long runs of bytes.
 class Hash {
   public:
     Hash() : state_{XXH3_createState()} {
@@ -32,7 +32,7 @@ class Hash {
 
     void text(std::string_view bytes) { XXH3_128bits_update(state_.get(), bytes.data(), bytes.size()); }
 
-    // The lowest `size` bytes of `code`, least significant first.
+    // Appends the lowest `size` bytes of `code`, least significant first.
     void word(std::uint32_t code, int size) {
         if (used_ + 4 > buffer_.size()) flush();
         for (int i = 0; i < size; ++i) buffer_[used_++] = static_cast<unsigned char>(code >> (8 * i));
@@ -65,7 +65,7 @@ class Hash {
 
 namespace {
 
-// Bytes of a code in the digest; they are not those of the format: D16 takes four (formats.md 8).
+// Bytes per code in the digest. They differ from those of the format: D16 takes four (formats.md 8).
 int code_bytes(ChannelType type) noexcept {
     switch (type) {
         case ChannelType::unorm8: return 1;

@@ -11,8 +11,8 @@ namespace strata::pipeline {
 using rasterizer::DepthFormat;
 using rasterizer::DepthRounding;
 
-// Colour formats hold 1, 2 or 4 channels; depth and stencil have targets of their own (d24s8 is a d24 beside an s8).
-// The narrow formats of GeForce3's surfaces hold 8-bit codes as the blender reads them back (narrow.h).
+// Colour formats have 1, 2 or 4 channels. Depth and stencil have separate targets (d24s8 is a d24 and an s8). The
+// narrow formats of GeForce3's surfaces are stored as the 8-bit codes that the blender reads back (narrow.h).
 enum class Format : std::uint8_t {
     rgba8,
     rgba16f,
@@ -33,7 +33,8 @@ enum class Format : std::uint8_t {
     d24f
 };
 
-// The meaning of a channel's code: k / 255, a half's bits, a float's bits, a depth code, or eight bits of stencil.
+// The meaning of a channel's code: k / 255, the bits of a half, the bits of a float, a depth code, or eight bits of
+// stencil.
 enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };
 
 struct FormatInfo {
@@ -41,11 +42,11 @@ struct FormatInfo {
     ChannelType type;
     // Colour channels; 1 for depth and for stencil.
     int channels;
-    // As the device stores it, for the counters of bytes read and written.
+    // As stored by the device, for the counters of bytes read and written.
     int bytes_per_pixel;
 };
 
-// A narrow format has four channels of unorm8 codes here; its bytes are those of the device.
+// A narrow format is listed with four channels of unorm8 codes and the bytes per pixel of the device.
 [[nodiscard]] constexpr FormatInfo info(Format format) noexcept {
     switch (format) {
         case Format::rgba8: return {"rgba8", ChannelType::unorm8, 4, 4};
@@ -73,14 +74,14 @@ struct FormatInfo {
     const ChannelType t = info(f).type;
     return t == ChannelType::unorm8 || t == ChannelType::half || t == ChannelType::single;
 }
-// Surfaces that store less than 8 bits of some channel, or no alpha.
+// True for surfaces that store less than 8 bits of some channel, or no alpha.
 [[nodiscard]] constexpr bool is_narrow(Format f) noexcept {
     return f == Format::x8r8g8b8 || f == Format::x1a7r8g8b8 || f == Format::r5g6b5 || f == Format::x1r5g5b5;
 }
 [[nodiscard]] constexpr bool is_depth(Format f) noexcept { return info(f).type == ChannelType::depth; }
 [[nodiscard]] constexpr bool has_stencil(Format f) noexcept { return f == Format::d24s8 || f == Format::s8; }
 
-// The codes of a depth target; `f` is one. d24 and d24s8 have the same.
+// The code format of a depth target. Precondition: `f` is a depth format. d24 and d24s8 have the same codes.
 [[nodiscard]] constexpr DepthFormat depth_format(Format f) noexcept {
     switch (f) {
         case Format::d16: return DepthFormat::d16;
@@ -90,7 +91,7 @@ struct FormatInfo {
         default: return DepthFormat::d24;
     }
 }
-// A depth target without stencil for codes of that format.
+// The depth target without stencil that stores codes of that format.
 [[nodiscard]] constexpr Format target_format(DepthFormat f) noexcept {
     switch (f) {
         case DepthFormat::d16: return Format::d16;

@@ -1,10 +1,11 @@
-// pipeline/formats/half-inl.h - binary16 codes and their values, a vector at a time, by the machine's conversions. For
-// *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
+// pipeline/formats/half-inl.h - conversion between binary16 codes and their values, a vector at a time, with hardware
+// instructions where available. For *_simd.cpp only: Highway compiles it once per instruction set, in each file that
+// includes foreach_target.h (rasterizer/reference/kernels.md 3).
 //
-// Rule     half_to_float and to_half<nearest_even> of half.h, to the bit; but a signalling NaN becomes quiet. `Words`
-//          is a tag of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that:
-//          values_of_halves and codes_of_halves go lane by lane on the others, rounded_to_half by integers; without
-//          infinity all three go lane by lane.
+// Rule     half_to_float and to_half<nearest_even> of half.h, bit for bit, except that a signalling NaN becomes quiet.
+//          `Words` is a tag of 32-bit words with a code in the low half of each. Only instruction sets with has_halves
+//          convert this fast. On the others values_of_halves and codes_of_halves run lane by lane and rounded_to_half
+//          uses integers; with no_infinity all three run lane by lane.
 // Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/loops/block_passes_test.cpp;
 //          tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
@@ -41,7 +42,7 @@ HWY_INLINE hn::Vec<Words> half_codes(Words words, hn::Vec<hn::RebindToFloat<Word
 constexpr bool has_halves = false;
 #endif
 
-// The two for any set, where a few vectors are converted.
+// The two conversions for any instruction set, for use on a few vectors.
 template <HalfRounding rounding, class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> values_of_halves(Words d, hn::Vec<Words> codes) {
     if constexpr (has_halves && rounding != HalfRounding::no_infinity) {
@@ -56,7 +57,7 @@ HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> values_of_halves(Words d, hn::Vec<W
     }
 }
 
-// Of values that a half has.
+// For values that a half represents exactly.
 template <HalfRounding rounding, class Words>
 HWY_INLINE hn::Vec<Words> codes_of_halves(Words d, hn::Vec<hn::RebindToFloat<Words>> values) {
     constexpr bool is_special = rounding == HalfRounding::no_infinity;
@@ -72,7 +73,7 @@ HWY_INLINE hn::Vec<Words> codes_of_halves(Words d, hn::Vec<hn::RebindToFloat<Wor
     }
 }
 
-// half_value of to_half: the value that a half keeps of each lane, by to_half's steps on binary32's own bits.
+// half_value of to_half: each lane rounded to a half, by the steps of to_half on the bits of binary32.
 template <HalfRounding rounding, class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> rounded_to_half(Words words, hn::Vec<hn::RebindToFloat<Words>> values) {
     if constexpr (rounding == HalfRounding::no_infinity)
@@ -94,7 +95,7 @@ HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> rounded_to_half(Words words, hn::Ve
         denormal = hn::BitCast(d, hn::Sub(hn::Add(small, half), half));
     } else {
         result = hn::And(magnitude, cut);
-        const auto units = hn::ConvertTo(d, hn::Mul(small, hn::Set(floats, 0x1p24f)));  // cuts
+        const auto units = hn::ConvertTo(d, hn::Mul(small, hn::Set(floats, 0x1p24f)));  // truncates
         denormal = hn::BitCast(d, hn::Mul(hn::ConvertTo(floats, units), hn::Set(floats, 0x1p-24f)));
         beyond = hn::IfThenElse(hn::Eq(magnitude, infinity), infinity, hn::Set(d, 0x477fe000));  // 65504
     }
@@ -105,7 +106,7 @@ HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> rounded_to_half(Words words, hn::Ve
     return hn::BitCast(floats, hn::Or(result, hn::AndNot(hn::Set(d, 0x7fffffff), bits)));
 }
 
-// A denormal as the zero of its sign: flushed of blend_float.h.
+// Replaces a denormal by the zero of its sign: flushed of blend_float.h.
 template <class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> flushed(Words d, hn::Vec<hn::RebindToFloat<Words>> v) {
     const auto bits = hn::BitCast(d, v);
@@ -114,7 +115,7 @@ HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> flushed(Words d, hn::Vec<hn::Rebind
     return hn::BitCast(hn::RebindToFloat<Words>{}, kept);
 }
 
-// Every NaN as 0x7fffffff: canonical of blend_float.h.
+// Replaces every NaN by 0x7fffffff: canonical of blend_float.h.
 template <class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> canonical(Words d, hn::Vec<hn::RebindToFloat<Words>> v) {
     const auto nan = hn::BitCast(hn::RebindToFloat<Words>{}, hn::Set(d, 0x7fffffffu));

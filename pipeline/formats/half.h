@@ -1,14 +1,14 @@
-// pipeline/formats/half.h - binary16 to binary32 and back.
+// pipeline/formats/half.h - conversion between binary16 and binary32.
 //
 //     15 14     10 9                 0     value = (-1)^s 2^(e-15) (1 + m/1024); e = 0: (-1)^s 2^-14 m/1024;
 //     [s][exponent][    mantissa     ]     e = 31: infinity where m = 0, else NaN
 //
-// Rule     to binary32: exact, a NaN keeps its sign and payload. From binary32: nearest even (65520 and above is
+// Rule     To binary32: exact, a NaN keeps its sign and payload. From binary32: nearest even (65520 and above is
 //          infinity) or toward zero (finite values end at 65504); denormals are kept; a NaN keeps its sign and the
-//          upper ten payload bits and becomes quiet. no_infinity: e = 31 is an exponent like the others, 65536 to
-//          131008; nearest even, what is larger or infinite becomes 131008 and a NaN -131008, the sign that x86 gives
-//          to one it makes: arithmetic defines none; below 2^-14 the significand is cut to 24 bits after the shift and
-//          then rounded.
+//          upper ten payload bits and becomes quiet. no_infinity: e = 31 is an ordinary exponent, for 65536 to 131008.
+//          It rounds to nearest even; larger values and infinity become 131008. A NaN becomes -131008: arithmetic does
+//          not define the sign of a NaN, and x86 generates negative ones. Below 2^-14 the significand is truncated to
+//          24 bits after the shift and then rounded.
 // Source   formats.md 3 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
 // Tests    tests/pipeline/formats/half_test.cpp: all 65,536 halves; all 2^32 floats under both roundings
 #pragma once
@@ -22,8 +22,8 @@
 namespace strata::pipeline {
 inline namespace strict {
 
-// How binary32 becomes binary16 on a store: nearest overflows to infinity, toward zero to 65504, and without infinity
-// to 131008.
+// The rounding of binary32 to binary16 on a store. Values out of range become infinity with nearest_even, 65504 with
+// toward_zero, and 131008 with no_infinity.
 enum class HalfRounding : std::uint8_t { nearest_even, toward_zero, no_infinity };
 
 namespace half_bits {
@@ -31,11 +31,11 @@ inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bf
                                largest_without_infinity = 0x7fff;
 }
 
-// No branch, no shift by a variable: the compiler turns a loop over it into vector instructions.
+// Without branches and variable shifts, so that the compiler vectorizes a loop over it.
 [[nodiscard]] constexpr float half_to_float(std::uint16_t half) noexcept {
     const std::uint32_t sign = (std::uint32_t{half} & half_bits::sign) << 16;
-    // Exponent and mantissa where binary32 has them. Then the bias grows
-    // from 15 to 127; e = 31 takes the same step once more, to 255.
+    // Exponent and mantissa at their positions in binary32. The bias then changes from 15 to 127; e = 31 takes the same
+    // step once more, to 255.
     const std::uint32_t magnitude = (std::uint32_t{half} & 0x7fffu) << 13;
     const std::uint32_t normal = magnitude + (112u << 23);
     const std::uint32_t special = normal + (112u << 23);
@@ -46,7 +46,7 @@ inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bf
     return std::bit_cast<float>(sign | result);
 }
 
-// A code's value under a rounding: without infinity exponent 31 is one more binade.
+// The value of a code under a rounding: with no_infinity exponent 31 is one more binade.
 template <HalfRounding rounding>
 [[nodiscard]] constexpr float half_value(std::uint16_t half) noexcept {
     const std::uint32_t magnitude = half & half_bits::largest_without_infinity;
@@ -61,7 +61,7 @@ template <HalfRounding rounding>
 [[nodiscard]] constexpr std::uint16_t to_half_without_infinity(float value) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const std::uint32_t magnitude = bits & 0x7fffffffu, field = magnitude >> 23;
-    // The code with 13 bits more: those of a denormal have lost what the shift pushes out.
+    // The code with 13 more bits; for a denormal the shift has already dropped some.
     const std::uint32_t shift = std::min(113 - field, 31u);
     const std::uint32_t denormal = field == 0 ? 0 : ((magnitude & 0x7fffffu) | 0x800000u) >> shift;
     const std::uint32_t wide = field < 113 ? denormal : magnitude - (112u << 23);
@@ -71,7 +71,7 @@ template <HalfRounding rounding>
                                       (is_beyond ? half_bits::largest_without_infinity : code));
 }
 
-// Normal, denormal and overflowing results are all computed, and one is selected: no branch.
+// Computes normal, denormal and overflowing results and selects one, without a branch.
 template <HalfRounding rounding>
 [[nodiscard]] constexpr std::uint16_t to_half(float value) noexcept {
     if constexpr (rounding == HalfRounding::no_infinity) return to_half_without_infinity(value);
@@ -83,20 +83,20 @@ template <HalfRounding rounding>
     std::uint32_t normal = 0, denormal = 0, overflow = 0;
     if constexpr (rounding == HalfRounding::nearest_even) {
         normal =
-            // A carry out of the mantissa runs into the exponent, as far as infinity.
+            // A carry out of the mantissa propagates into the exponent, up to infinity.
             (rebiased + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
         denormal =
-            // 0.5 has an ulp of 2^-24, the unit of half denormals: the addition rounds to it.
+            // 0.5 has an ulp of 2^-24, the unit of half denormals, so the addition rounds to that unit.
             std::bit_cast<std::uint32_t>(small + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);
         overflow = half_bits::infinity;
     } else {
         normal = rebiased >> 13;
-        // The product is exact; the conversion cuts.
+        // The product is exact; the conversion truncates.
         denormal = static_cast<std::uint32_t>(static_cast<std::int32_t>(small * 0x1p24f));
         overflow = select(mask(magnitude == (255u << 23)), half_bits::infinity, half_bits::largest);
     }
     std::uint32_t result = select(is_denormal, denormal, normal);
-    // 2^16 and above.
+    // Magnitudes of 2^16 and above.
     result = select(mask(magnitude >= (143u << 23)), overflow, result);
     result = select(mask(magnitude > (255u << 23)), half_bits::quiet_nan | ((magnitude >> 13) & 0x3ffu), result);
     return static_cast<std::uint16_t>(((bits >> 16) & half_bits::sign) | result);

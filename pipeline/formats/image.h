@@ -1,5 +1,5 @@
-// pipeline/formats/image.h - a finished rectangle of raw target codes: what leaves the machine, is digested, written
-// and compared.
+// pipeline/formats/image.h - a finished rectangle of raw target codes: the result that is digested, written and
+// compared.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,9 +11,9 @@ namespace strata::pipeline {
 
 using ImageCodes = UninitializedVector<std::uint32_t>;
 
-// One code a channel, rows top to bottom, pixels left to right, samples, then channels R G B A: UNORM8 and stencil
-// codes and half-float bits zero-extended to 32 bits, binary32 bits as they are, depth codes as they are (D32F: float
-// bits).
+// One code per channel; rows from top to bottom, pixels from left to right, samples, then channels R G B A. UNORM8 and
+// stencil codes and half-float bits are zero-extended to 32 bits; binary32 bits and depth codes are stored unchanged
+// (D32F: float bits).
 struct Image {
     Format format = Format::rgba8;
     int width = 0, height = 0, samples = 1;
@@ -21,7 +21,7 @@ struct Image {
 
     Image() = default;
     Image(Format f, int w, int h, int s = 1) : format{f}, width{w}, height{h}, samples{s}, codes(size(), 0u) {}
-    // Its codes are not set: for those who write them all.
+    // Leaves the codes uninitialized, for callers that write all of them.
     [[nodiscard]] static Image for_overwrite(Format f, int w, int h, int s = 1) {
         Image image;
         image.format = f;
@@ -38,7 +38,7 @@ struct Image {
                static_cast<std::size_t>(channels());
     }
     [[nodiscard]] int channels() const noexcept { return info(format).channels; }
-    // Where a code stands in `codes`; y counts down from the top row.
+    // The index of a code in `codes`; y is 0 in the top row.
     [[nodiscard]] std::size_t index(int x, int y, int channel = 0, int sample = 0) const noexcept {
         const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
         return (pixel * static_cast<std::size_t>(samples) + static_cast<std::size_t>(sample)) *
@@ -50,7 +50,7 @@ struct Image {
 
 // XXH3-128 in lower-case hexadecimal (high 64 bits first) of: the format's name in ASCII, a zero byte, u32 width, u32
 // height, u32 samples, then the codes in the order above: u8 for UNORM8 and stencil, u16 for halves, u32 for binary32
-// and every depth format; all little endian (formats.md 8).
+// and every depth format; all little-endian (formats.md 8).
 [[nodiscard]] std::string digest(const Image& image);
 
 }  // namespace strata::pipeline

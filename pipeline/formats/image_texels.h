@@ -1,7 +1,7 @@
-// pipeline/formats/image_texels.h - the words of an rgba8 target on their way into a finished image, past the caches:
-// 16 bytes a pixel that no pass reads before the frame is done.
+// pipeline/formats/image_texels.h - writes the packed texels of an rgba8 target to a finished image with non-temporal
+// stores: 16 bytes per pixel that are not read before the frame is finished.
 //
-// Rule     A word becomes four codes, its lowest byte first.
+// Rule     A packed texel becomes four codes, lowest byte first.
 // Tests    tests/pipeline/formats/image_texels_test.cpp
 #pragma once
 #include <cstddef>
@@ -19,8 +19,8 @@ inline void widen_words(const std::uint32_t* words, std::size_t count, std::uint
 }  // namespace scalar
 
 void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept;
-// Call it after the last widen_words and before another thread is told that the codes are there: stores past the
-// caches are not ordered by themselves.
+// Call it after the last widen_words and before another thread is notified that the codes are complete: non-temporal
+// stores are not ordered by themselves.
 void finish_words() noexcept;
 
 }  // namespace strata::pipeline

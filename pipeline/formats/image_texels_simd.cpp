@@ -1,5 +1,6 @@
-// pipeline/formats/image_texels_simd.cpp - image_texels.h for every instruction set. A vector is 16 bytes, one pixel of
-// codes: images lie no further aligned, and what passes the caches by is gathered into lines whatever the width.
+// pipeline/formats/image_texels_simd.cpp - image_texels.h, compiled once per instruction set. A vector is 16 bytes, one
+// pixel of codes: images have no greater alignment, and non-temporal stores are combined into cache lines whatever
+// their width.
 // How kernels are written: kernels.md. Tests: tests/pipeline/formats/image_texels_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/formats/image_texels_simd.cpp"
@@ -36,8 +37,8 @@ namespace strata::pipeline {
 STRATA_EXPORT(widen);
 
 void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept {
-    // A store past the caches needs an aligned address; bytes of a
-    // word are in channel order on little-endian machines alone.
+    // A non-temporal store needs an aligned address. The bytes of a packed texel are in channel order only on
+    // little-endian machines.
     const bool is_aligned = reinterpret_cast<std::uintptr_t>(codes) % 16 == 0;
     if (simd_is_scalar() || !is_aligned || std::endian::native != std::endian::little)
         return scalar::widen_words(words, count, codes);

@@ -1,16 +1,16 @@
-// pipeline/formats/lane_mask.h - yes and no as all ones and zero, and selections without control flow: what vector
-// units want. A conditional expression over floats may become a branch (the unused side could raise a flag), and then
-// no vectors.
+// pipeline/formats/lane_mask.h - booleans as all ones and zero, and selection without control flow, so that loops
+// vectorize. The compiler may turn a conditional expression over floats into a branch (the unused side could raise a
+// flag), which prevents vectorization.
 #pragma once
 #include <bit>
 #include <cstdint>
 
 namespace strata::pipeline {
 
-// ~0 for yes, 0 for no.
+// ~0 for true, 0 for false.
 [[nodiscard]] constexpr std::uint32_t mask(bool yes) noexcept { return 0u - static_cast<std::uint32_t>(yes); }
 
-// a where the mask is ~0, b where it is 0.
+// a if the mask is ~0, b if it is 0.
 [[nodiscard]] constexpr std::uint32_t select(std::uint32_t chosen, std::uint32_t a, std::uint32_t b) noexcept {
     return (a & chosen) | (b & ~chosen);
 }

@@ -1,12 +1,12 @@
-// pipeline/formats/narrow.h - colour surfaces that store less than 8 bits a channel, or no alpha.
+// pipeline/formats/narrow.h - colour surfaces that store less than 8 bits per channel, or no alpha.
 //
-// Rule     A store cuts: 5 or 6 bits of a colour channel, 7 of x1a7r8g8b8's alpha. What the blender reads back is
-//          filled with zeros below for colours, a7 << 1 | a7 >> 6 for alpha, and 255 where there is no alpha. A target
-//          holds its codes as they are read back: storing them again changes nothing. With 16 bits a pixel, the colours
-//          of the source are cut to these bits before they are blended, too; its alpha is not.
-// Source   formats.md 4, chip-fragment.md 5: 16 pictures and 16 sets of corners. The source's cut: our own, of the
-//          capture R5G6B5_Add_SrcA_1-SrcA, all of whose pixels are equal with it and 11,524 are not without; of 5-bit
-//          channels throughout it is assumed [A].
+// Rule     A store truncates: 5 or 6 bits of a colour channel, 7 bits of x1a7r8g8b8's alpha. The blender reads back
+//          colours with zeros in the low bits, alpha as a7 << 1 | a7 >> 6, and 255 if there is no alpha. A target
+//          stores its codes as they are read back, so storing them again does not change them. With 16 bits per pixel
+//          the source colours are truncated to these bits before blending too; source alpha is not.
+// Source   formats.md 4, chip-fragment.md 5: 16 captures and 16 sets of corners. The truncation of the source is our
+//          own reading of the capture R5G6B5_Add_SrcA_1-SrcA: all its pixels are equal with it, and 11,524 are not
+//          without it. For surfaces with only 5-bit channels it is assumed [A].
 // Tests    tests/pipeline/formats/narrow_test.cpp
 #pragma once
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace strata::pipeline {
 
-// Channel 0 r .. 3 a. `code` as the 8-bit blender leaves it.
+// Narrows `code`, the blender's 8-bit result. Channel 0 is r, 3 is a.
 [[nodiscard]] constexpr std::uint32_t narrowed(Format format, int channel, std::uint32_t code) noexcept {
     const bool is_alpha = channel == 3;
     switch (format) {

@@ -1,7 +1,7 @@
-// pipeline/formats/srgb.h - the 256 sRGB codes as linear values, for textures blended in linear space.
+// pipeline/formats/srgb.h - the linear values of the 256 sRGB codes, for textures blended in linear space.
 //
-// Rule     code k stands for e = k / 255; linear = e / 12.92 up to 0.04045, above it ((e + 0.055) / 1.055)^2.4, the
-//          exact value rounded once to binary32.
+// Rule     Code k is e = k / 255; linear = e / 12.92 up to 0.04045, above that ((e + 0.055) / 1.055)^2.4, the exact
+//          value rounded once to binary32.
 // Source   IEC 61966-2-1:1999 section 5.2; formats.md 6 (tables, never the C library's pow).
 // Tests    tests/scenes/numbers/srgb_test.cpp recomputes every entry with 50 digits
 #pragma once

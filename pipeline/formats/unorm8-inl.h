@@ -1,8 +1,8 @@
-// pipeline/formats/unorm8-inl.h - 8-bit codes and their values, a vector at a time. For *_simd.cpp alone: Highway
-// compiles it once a set, wherever foreach_target.h asks.
+// pipeline/formats/unorm8-inl.h - conversion between 8-bit codes and their values, a vector at a time. For *_simd.cpp
+// only: Highway compiles it once per instruction set, in each file that includes foreach_target.h.
 //
-// Rule     unorm8_value and to_unorm8 of unorm8.h, to the bit, by either rounding; `Words` is a tag of 32-bit words.
-// Tests    tests/pipeline/formats/unorm8_test.cpp: every code, and values at and beside every boundary;
+// Rule     unorm8_value and to_unorm8 of unorm8.h, bit for bit, for both roundings; `Words` is a tag of 32-bit words.
+// Tests    tests/pipeline/formats/unorm8_test.cpp: every code, and values at and next to every boundary;
 //          tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/unorm8.h"
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// unorm8_value of each lane: two products and a sum, each rounded as there.
+// unorm8_value of each lane: two products and a sum, each rounded as in the scalar reference.
 template <class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> unorm8_values(Words, hn::Vec<Words> codes) {
     const hn::RebindToFloat<Words> d;
@@ -34,7 +34,7 @@ HWY_INLINE hn::Vec<Words> unorm8_codes(Words words, hn::Vec<hn::RebindToFloat<Wo
     const hn::RebindToFloat<Words> d;
     const hn::Half<hn::RebindToFloat<Words>> half;
     const hn::Rebind<double, decltype(half)> wide;
-    // NaN is not above 0 and becomes 0, as -0 does.
+    // NaN does not compare greater than 0 and becomes 0, like -0.
     const auto positive = hn::IfThenElseZero(hn::Lt(hn::Zero(d), x), x);  // 0 for NaN
     const auto clamped = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 1.0f)), positive, hn::Set(d, 1.0f));
     if constexpr (rounding != UnormRounding::half_up) {

@@ -1,8 +1,8 @@
-// pipeline/formats/unorm8_product.h - 8-bit codes as devices read them that convert by binary32 products.
+// pipeline/formats/unorm8_product.h - the values of 8-bit codes on devices that convert by binary32 products.
 //
-// Rule     UnormRounding::product_even: k * f32(1 / 255), rounded: for 126 of the 256 codes another float than k / 255.
-//          product_even_wide: through 16 bits, 257 k * f32(1 / 65535), rounded: for 8 codes another one.
-// Source   formats.md 2.3; measured on llvmpipe (a front that dual reads back) and on SwiftShader.
+// Rule     UnormRounding::product_even: k * f32(1 / 255), rounded; differs from k / 255 for 126 of the 256 codes.
+//          product_even_wide: through 16 bits, 257 k * f32(1 / 65535), rounded; differs for 8 codes.
+// Source   formats.md 2.3; measured on llvmpipe (a front target that dual peeling reads back) and on SwiftShader.
 // Tests    tests/pipeline/formats/unorm8_test.cpp, tests/pipeline/region/region_test.cpp
 #pragma once
 #include "pipeline/formats/unorm8.h"
@@ -17,7 +17,7 @@ inline namespace strict {
     return static_cast<float>(static_cast<std::int32_t>(code)) * 257.0f * (1.0f / 65535.0f);
 }
 
-// The value of a code, as programs and blends in binary32 read it.
+// The value of a code, as programs and binary32 blends read it.
 template <UnormRounding rounding>
 [[nodiscard]] constexpr float code_value(std::uint32_t code) noexcept {
     if constexpr (rounding == UnormRounding::product_even) return unorm8_product(code);

@@ -9,7 +9,7 @@ namespace {
 
 using List = SortedLists::List;
 
-// Calls visit(pixel, list) with every list that is not empty.
+// Calls visit(pixel, list) for every nonempty list.
 template <class Visit>
 void for_each_list(const SortedLists& sorted, const Visit& visit) {
     for (std::size_t block = 0; block < sorted.blocks(); ++block) {
@@ -38,13 +38,13 @@ Keys keys_at(const KeyIntervals& intervals, std::size_t pixel) {
             std::min(keys.high, std::uint64_t{rasterizer::ordered_code(far)} + 1)};
 }
 
-// The number of a list's first key from `low` on.
+// The position of a list's first key that is not less than `low`.
 std::uint32_t first_from(SortedLists& sorted, std::size_t pixel, const List& list, std::uint64_t low) {
     std::uint32_t& first = sorted.found(pixel).first;
     return first = list.below(low, first);
 }
 
-// A batch has no order of a pixel's fragments but that of waves: the submission order.
+// Adds the entries of a pixel in submission order: batches keep the order of a pixel's fragments only through waves.
 class InOrder {
   public:
     void put(std::uint64_t entry) { entries_.push_back(entry); }
@@ -69,9 +69,9 @@ void find_nearest(SortedLists& sorted, const KeyIntervals& intervals, const Stor
     });
 }
 
-// A fragment that lies behind has a compared code of at least the raised bound, and so a code of its own that is less
-// by the record's greatest lead at most. A depth that is not quantised may part from its code, which other arithmetic
-// made: each fragment is asked.
+// A fragment that is behind has a compared code of at least the raised bound. Its stored code is therefore less than
+// that bound by at most the record's greatest lead. An unquantized depth may differ from its code, which other
+// arithmetic computed: then every fragment is tested.
 void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                          const KeyIntervals& intervals, const std::uint32_t* behind, const StoredCodes& stored,
                          FragmentWaves& waves) {
@@ -91,7 +91,7 @@ void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, co
     });
 }
 
-// Where an interval ends is sought from its beginning: what lies between is visited.
+// The end of an interval is searched from its beginning, because the entries between are visited anyway.
 bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, FragmentWaves& waves) {
     std::uint64_t inside = 0;
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
@@ -112,7 +112,7 @@ bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, Fragment
     return true;
 }
 
-// Numbers [first, last) of a list: either end is sought from where the pass before had it.
+// Entries [first, last) of a list: each end is searched from its position in the previous pass.
 SortedLists::Found range_of(SortedLists& sorted, const KeyIntervals& intervals, std::size_t pixel, const List& list) {
     const Keys keys = keys_at(intervals, pixel);
     const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
@@ -121,9 +121,9 @@ SortedLists::Found range_of(SortedLists& sorted, const KeyIntervals& intervals, 
     return {first, last};
 }
 
-// The waves of the ends are those of their indices: nearest, the two next to the ends, farthest; then what is tied with
-// an end, whose own order is that of arrival. Either end has a target of its own, and what lies between writes what MAX
-// takes in any order.
+// The waves of the ends are: nearest, the entries next to each end, farthest; then those tied with an end, in
+// submission order. Each end writes its own target, and the entries between write targets with MAX, which does not
+// depend on the order.
 void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves) {
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
         const auto [first, last] = range_of(sorted, intervals, pixel, list);
@@ -142,11 +142,11 @@ void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outs
     });
 }
 
-// Compared depths have an order of their own: each fragment of a list is asked.
+// Compared depths are ordered differently from keys, so every fragment of a list is tested.
 void find_ends_compared(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                         const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves) {
     const auto depths = fragments.reference_z();
-    KeyIntervals by_key = intervals;  // which a compared depth is not: what lies in the range is asked below
+    KeyIntervals by_key = intervals;  // compared depths are not keys: the range is tested below
     by_key.range_near = nullptr;
     InOrder kept;
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {

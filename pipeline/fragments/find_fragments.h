@@ -1,7 +1,7 @@
-// pipeline/fragments/find_fragments.h - which fragments a pass processes: intervals of sorted lists, and what a
-// selection keeps of them.
+// pipeline/fragments/find_fragments.h - finds the fragments that a pass processes: intervals of sorted lists, reduced
+// by the pass's selection.
 //
-// Rule     FragmentSelection's (frame/selection.h), with planes of entries in place of targets: one entry a pixel.
+// Rule     The rules of FragmentSelection (frame/selection.h), with planes of one entry per pixel instead of targets.
 // Source   execution.md 7.1.
 // Tests    tests/pipeline/fragments/find_fragments_test.cpp; tests/peeling/selection_test.cpp
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace strata::pipeline {
 
-// Bounds of keys by pixel.
+// A bound of the keys of each pixel.
 class BoundPlane {
   public:
     enum class Holds : std::uint8_t { codes, depths, values };  // keys; bits of binary32 keys; binary32 values of codes
@@ -24,12 +24,12 @@ class BoundPlane {
     BoundPlane(const std::uint32_t* entries, bool includes, Holds holds, rasterizer::DepthFormat format)
         : entries_{entries}, includes_{includes}, holds_{holds}, format_{format} {}
     [[nodiscard]] bool exists() const noexcept { return entries_ != nullptr; }
-    // The least key that is greater, or not less where the bound is included.
+    // The least key behind the bound: greater than it, or not less if the bound is included.
     [[nodiscard]] std::uint64_t first_behind(std::size_t pixel) const noexcept {
         if (holds_ == Holds::values) return first_near_value(pixel, 0);
         return key(pixel) + (includes_ ? 0 : 1);
     }
-    // One more than the greatest key that is less, or not greater where the bound is included.
+    // One more than the greatest key in front of the bound: less than it, or not greater if the bound is included.
     [[nodiscard]] std::uint64_t end_before(std::size_t pixel) const noexcept {
         if (holds_ == Holds::values) return first_near_value(pixel, 1);
         return key(pixel) + (includes_ ? 1 : 0);
@@ -40,7 +40,7 @@ class BoundPlane {
     }
 
   private:
-    // Of values intervals are as wide as the nearest code: a program decides what lies there.
+    // For values the intervals extend to the nearest code: the program decides about the fragments there.
     [[nodiscard]] std::uint64_t first_near_value(std::size_t pixel, std::uint64_t more) const noexcept {
         const auto value = std::bit_cast<float>(entries_[pixel]);
         if (value != value) return more << 32;
@@ -55,7 +55,7 @@ class BoundPlane {
     rasterizer::DepthFormat format_ = rasterizer::DepthFormat::d32f;
 };
 
-// The intervals of a selection.
+// The depth intervals of a selection.
 struct KeyIntervals {
     BoundPlane near{};
     std::array<BoundPlane, 2> far{};
@@ -63,7 +63,7 @@ struct KeyIntervals {
     std::uint64_t least = 0, end = std::uint64_t{1} << 32;
 };
 
-// Codes that a depth test LESS compares with: a binary32 that is negative or NaN has none before it.
+// The codes with which a depth test LESS compares: nothing passes against a binary32 that is negative or NaN.
 struct StoredCodes {
     const std::uint32_t* codes;
     bool is_float;
@@ -72,20 +72,21 @@ struct StoredCodes {
     }
 };
 
-// Each adds to `waves`.
-// The first of every interval, where it lies before what is stored.
+// All of these functions add to `waves`. This one adds the first fragment of every interval, if it is in front of the
+// stored code.
 void find_nearest(SortedLists& sorted, const KeyIntervals& intervals, const StoredCodes& stored, FragmentWaves& waves);
-// The nearest by stored codes of those in intervals without a near bound whose compared depth lies behind what `behind`
-// holds.
+// Adds the nearest fragment, by stored code, among those of intervals without a near bound whose compared depth is
+// behind `behind`.
 void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                          const KeyIntervals& intervals, const std::uint32_t* behind, const StoredCodes& stored,
                          FragmentWaves& waves);
-// All of every interval. False, and nothing added, where that is more than half of all: to process all is then quicker.
+// Adds all fragments of every interval. Returns false and adds nothing if these are more than half of all fragments,
+// because it is then faster to process all.
 [[nodiscard]] bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, FragmentWaves& waves);
-// The fragments of the first and of the last key, and the nearest and the farthest between. `one_outside`: and one from
-// outside, where the first key is all that an interval holds, or it holds nothing.
+// Adds the fragments with the first and with the last key of each interval, and the nearest and the farthest fragment
+// between. With `one_outside` also one fragment from outside, if the interval contains only the first key or is empty.
 void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);
-// The same of a range of compared depths.
+// The same for a range of compared depths.
 void find_ends_compared(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                         const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);
 

@@ -1,7 +1,8 @@
-// pipeline/fragments/fragment_waves.h - the fragments that a pass processes, on their way to the program.
+// pipeline/fragments/fragment_waves.h - the fragments that a pass processes, arranged in waves for the fragment
+// program.
 //
-// Rule     Several fragments of a pixel follow each other, and a batch holds no pixel twice: so the first ones of all
-//          pixels go ahead, then all second ones, wave after wave.
+// Rule     A batch contains a pixel at most once, but a pixel may have several fragments. Therefore the first fragments
+//          of all pixels form one wave, the second ones the next, and so on.
 // Tests    tests/pipeline/fragments/find_fragments_test.cpp
 #pragma once
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace strata::pipeline {
 
 class FragmentWaves {
   public:
-    // Entries of SortedLists, by pixel.
+    // Pixels, and their entries in SortedLists.
     struct Wave {
         std::vector<std::uint32_t> pixel;
         std::vector<std::uint64_t> entry;
@@ -25,7 +26,7 @@ class FragmentWaves {
         for (std::size_t w = 0; w < waves_; ++w) of_[w].pixel.clear(), of_[w].entry.clear();
         waves_ = wave_ = next_ = 0;
     }
-    // A pixel has at most one of a wave.
+    // A wave has at most one entry per pixel.
     void add(std::size_t wave, std::size_t pixel, std::uint64_t entry) {
         if (wave >= waves_) [[unlikely]] {
             waves_ = wave + 1;
@@ -37,7 +38,7 @@ class FragmentWaves {
     [[nodiscard]] std::size_t waves() const noexcept { return waves_; }
     [[nodiscard]] const Wave& wave(std::size_t number) const noexcept { return of_[number]; }
 
-    // The next ones of a wave, as many as a batch holds; none behind the last.
+    // The next part of the current wave, at most as many as a batch has room for; empty after the last wave.
     struct Part {
         std::size_t wave = 0;
         std::span<const std::uint32_t> pixel{};

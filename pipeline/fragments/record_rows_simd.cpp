@@ -1,4 +1,4 @@
-// pipeline/fragments/record_rows_simd.cpp - record_rows.h for every instruction set.
+// pipeline/fragments/record_rows_simd.cpp - record_rows.h, compiled once per instruction set.
 // How kernels are written: kernels.md. Tests: tests/pipeline/fragments/record_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/fragments/record_rows_simd.cpp"
@@ -23,7 +23,7 @@ struct RecordState {
     TileFragments::Space space;
     std::uint64_t fragments = 0;
 
-    // The first `count` lanes. Those behind are overwritten by what comes next.
+    // Stores the first `count` lanes. The lanes after them are overwritten by the next call.
     HWY_INLINE void put(WordVec pixel, WordVec primitive, V32 z, const V32 (&color)[4], std::size_t count) {
         const std::size_t at = space.size;
         hn::StoreU(pixel, U32{}, space.pixel + at);
@@ -37,7 +37,7 @@ struct RecordState {
     }
 };
 
-// One a triangle; covered pixels are its first lanes.
+// Constructed once per triangle; covered pixels are its first lanes.
 template <bool unsnapped>
 class RecordShade {
   public:

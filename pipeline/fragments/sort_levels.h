@@ -1,10 +1,11 @@
-// pipeline/fragments/sort_levels.h - sixteen lists of entries sorted side by side: the scalar references of
+// pipeline/fragments/sort_levels.h - sorts sixteen per-pixel lists of entries at once: the scalar reference of
 // sort_levels_simd.cpp.
 //
-// Rule     A level is sixteen entries, one a list; levels follow each other. An entry is a key, above, and an index: ~0
-//          stands above a list's end and sorts last. No two entries of a list are equal but these.
+// Rule     A level is sixteen entries, one per list; levels are contiguous. An entry is a key in the upper half and an
+//          index in the lower. Past a list's end entries are ~0, which sorts last. No other entries of a list are
+//          equal.
 // Source   Batcher's merge exchange; Knuth, The Art of Computer Programming 3, 5.2.2, Algorithm M: it compares the same
-//          levels whatever they hold, so that sixteen lists go through it together.
+//          levels whatever their values, so sixteen lists can be sorted together.
 // Tests    tests/pipeline/fragments/sort_levels_test.cpp
 #pragma once
 #include <algorithm>
@@ -20,14 +21,14 @@ inline constexpr std::size_t block_lanes = 16;
 inline namespace strict {
 namespace scalar {
 
-// What is done with levels: the loops here, vectors in sort_levels_simd.cpp.
+// The operations on levels: loops here, vectors in sort_levels_simd.cpp.
 struct Levels {
-    // The lesser of each pair to `a`, the greater to `b`.
+    // Moves the lesser of each pair to `a`, the greater to `b`.
     static void exchange(std::uint64_t* a, std::uint64_t* b) noexcept {
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             if (b[lane] < a[lane]) std::swap(a[lane], b[lane]);
     }
-    // a <= b in every list.
+    // True if a <= b in every list.
     [[nodiscard]] static bool in_order(const std::uint64_t* a, const std::uint64_t* b) noexcept {
         return std::equal(a, a + block_lanes, b, [](std::uint64_t x, std::uint64_t y) { return x <= y; });
     }
@@ -52,7 +53,7 @@ template <class Levels>
     }
 }
 
-// Ascending. What arrived near to far, but for a few fragments behind it, needs only those inserted.
+// Sorts in ascending order. If all but the last few levels are already sorted, only those few are inserted.
 template <class Levels>
 [[gnu::always_inline]] inline void sort_rising(std::uint64_t* levels, std::size_t height) noexcept {
     constexpr std::size_t few = 8;

@@ -1,4 +1,4 @@
-// pipeline/fragments/sort_levels_simd.cpp - sort_levels.h for every instruction set.
+// pipeline/fragments/sort_levels_simd.cpp - sort_levels.h, compiled once per instruction set.
 // How kernels are written: kernels.md. Tests: tests/pipeline/fragments/sort_levels_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/fragments/sort_levels_simd.cpp"
@@ -12,8 +12,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// scalar::Levels. Not inline by itself: the loops of sort_levels.h, which belong to no instruction set, come between it
-// and its callers.
+// scalar::Levels in vectors. Not inline by itself: between it and its callers are the loops of sort_levels.h, which are
+// not compiled for an instruction set.
 struct VectorLevels {
     using Wide = hn::CappedTag<std::uint64_t, block_lanes>;
     static constexpr std::size_t step = hn::MaxLanes(Wide{});

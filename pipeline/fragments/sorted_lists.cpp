@@ -15,7 +15,8 @@ namespace {
     return behind != ranges.begin() && primitive < std::prev(behind)->last;
 }
 
-// As TileFragments does: an array that grows again and again leaves memory behind. Nothing of it is copied.
+// Grows to the admitted size at once, as TileFragments does: an array that grows repeatedly leaves memory behind. Its
+// contents are not copied.
 template <class T>
 void take_room(UninitializedVector<T>& array, std::size_t admitted) {
     constexpr std::size_t most_at_once = std::size_t{1} << 20;
@@ -58,7 +59,7 @@ bool SortedLists::sort(const TileFragments& fragments, const SortRequest& reques
     return true;
 }
 
-// Whether the order of entries is that of depths.
+// True if the order of entries is the order of depths.
 bool SortedLists::has_order(const TileFragments& fragments) const {
     bool has = true;
     if (request_.key == DepthKey::shader_z)
@@ -84,7 +85,7 @@ void SortedLists::choose(const TileFragments& fragments, const std::uint32_t* su
     }
 }
 
-// Words go where their pixels' lists have got to; what lies above a list is cleared first.
+// Writes each entry at the end of its pixel's list so far; entries past the end of a list are set to ~0 first.
 void SortedLists::place_words(const TileFragments& fragments) {
     entries_.resize(begin_.back());
     std::ranges::fill(entries_, ~std::uint64_t{0});

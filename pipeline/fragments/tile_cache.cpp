@@ -14,7 +14,7 @@ namespace strata::pipeline {
 
 namespace {
 
-// A NaN becomes 0, as every comparison with it is false.
+// NaN becomes 0, because every comparison with it is false.
 float clamped(float x) noexcept { return x > 0.0f ? std::min(x, 1.0f) : 0.0f; }
 
 }  // namespace
@@ -59,7 +59,7 @@ float CachedTarget::value_of(std::uint32_t code) const noexcept {
     return code_value(code, profile_.unorm_rounding);
 }
 
-// As bits of binary32: the values that the target's codes stand for, or those that are held.
+// Reads the values of the target's codes, or the held values, as bits of binary32.
 void CachedTarget::fetch(const CachedLanes& lanes) {
     const auto count = static_cast<std::size_t>(lanes.batch.count);
     gather_codes(texels(lanes.sample), {lanes.batch.pixel.data(), count}, codes_.data());
@@ -104,7 +104,7 @@ void CachedTarget::put_back(std::uint32_t tile) {
 }
 
 void CachedTarget::write(const std::uint32_t* pixels, int count, int sample) {
-    Lanes<std::uint32_t> all{}, places{};  // of a vector's length, which a kernel reads whole
+    Lanes<std::uint32_t> all{}, places{};  // full length, because kernels read whole vectors
     std::copy_n(pixels, count, places.begin());
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         const std::size_t at = word(pixels[i], sample);
@@ -137,14 +137,14 @@ bool TileCache::knows(const Blend& blending, Format format) noexcept {
            (rounds(blending.color) || rounds(blending.alpha));
 }
 
-// The tile that has the place goes.
+// Writes back the tile that occupies the slot.
 void TileCache::take_place(CachedTarget& target, std::size_t number, std::uint32_t tile) {
     std::uint32_t& owner = owner_[number][tiles_.place_of(tile)];
     if (owner != no_tile && owner != tile) target.put_back(owner);
     owner = tile;
 }
 
-// Lanes stand in the order of submission; within a triangle its rows go down, and so do tiles that share a place.
+// Lanes are in submission order; within a triangle rows go from top to bottom, and so do tiles that share a slot.
 void TileCache::blend(std::size_t number, const CachedLanes& lanes) {
     CachedTarget& target = *targets_[number];
     const FragmentBatch& batch = lanes.batch;
@@ -168,7 +168,7 @@ void TileCache::blend(std::size_t number, const CachedLanes& lanes) {
     target.blend(lanes, first, batch.count);
 }
 
-// Owners stay: of the next pass's targets nothing is held in their tiles, so that nothing is put back.
+// Owners are kept: the next pass's targets have no held values in their tiles, so nothing would be written back.
 void TileCache::close() {
     for (std::size_t number = 0; number < targets_.size(); ++number) {
         if (!targets_[number]) continue;

@@ -1,15 +1,17 @@
-// pipeline/fragments/tile_cache.h - colour targets while a pass blends into them, as BlendStorage::cached_tiles has it:
-// binary32, rounded when a tile is put back.
+// pipeline/fragments/tile_cache.h - colour targets during a pass that blends into them with BlendStorage::cached_tiles:
+// blended values stay in binary32 and are rounded when their tile is written back.
 //
-// Rule     The frame has tiles of 64 x 64 pixels, the cache 50 places; tile (x, y) goes to place (x + 5 y) mod 50. A
-//          fragment that passes its tests fetches its tile; in a pass without tests so does one that a program
-//          discards. The tile that had the place is put back: each channel rounded to the target's format. What is
-//          fetched is the value of a code; what is blended is neither rounded nor, on 8-bit targets, made a code, but
-//          clamped to 0..1 before and after the blend. The end of a pass puts everything back.
+// Rule     The frame is divided into tiles of 64 x 64 pixels, the cache has 50 slots; tile (x, y) uses slot (x + 5 y)
+//          mod 50. A fragment that passes its tests fetches its tile; in a pass without tests so does a fragment that
+//          the program discards. The tile that occupied the slot is written back: each channel is rounded to the
+//          target's format. A fetched value is the value of its code; a blended value is neither rounded nor, on 8-bit
+//          targets, converted to a code, but clamped to 0..1 before and after the blend. At the end of a pass all tiles
+//          are written back.
 // Source   fragment-stages.md 9.5; mesa-rasterizers.md 3.5.
-// Numbers  A value is put back only where a fragment was blended since it was fetched, so that nothing else changes.
-//          Tiles share a place in frames of more than 5 x 10 tiles: there a region that is not the frame throws
-//          NeedsFrame at the first pixel that is blended twice, for what puts its tile back lies elsewhere.
+// Numbers  A value is written back only if a fragment was blended at it since it was fetched, so that no other value
+//          changes. In frames of more than 5 x 10 tiles, tiles share slots: a region smaller than the frame then throws
+//          NeedsFrame at the first pixel that is blended twice, because fragments outside the region may cause the
+//          write-back.
 // Tests    tests/pipeline/fragments/tile_cache_test.cpp
 #pragma once
 #include <array>
@@ -24,7 +26,7 @@
 
 namespace strata::pipeline {
 
-// Lanes of a batch at one sample: those that are alive are blended, those that are fetched have their tile fetched.
+// Lanes of a batch at one sample: those in `alive` are blended, those in `fetched` have their tile fetched.
 struct CachedLanes {
     const FragmentBatch& batch;
     const ColorLanes& color;
@@ -33,7 +35,7 @@ struct CachedLanes {
     int sample;
 };
 
-// Where each pixel of a region has its tile, and which place that takes.
+// The tile of each pixel of a region, and the slot of each tile.
 class CachedTiles {
   public:
     static constexpr int side = 64, places = 50;
@@ -43,17 +45,17 @@ class CachedTiles {
     [[nodiscard]] std::size_t count() const noexcept { return static_cast<std::size_t>(across_) * down_; }
     [[nodiscard]] std::uint32_t tile_of(std::uint32_t pixel) const noexcept;
     [[nodiscard]] std::size_t place_of(std::uint32_t tile) const noexcept;
-    // Whether another tile of the frame wants that tile's place.
+    // True if another tile of the frame uses the same slot.
     [[nodiscard]] bool is_shared(std::uint32_t tile) const noexcept { return wanted_[place_of(tile)] > 1; }
 
   private:
     rasterizer::Rect region_;
-    int x0_, y0_;  // of the region, in pixels of the frame
+    int x0_, y0_;  // the region's corner, in pixels of the frame
     std::uint32_t across_, down_;
-    std::array<std::uint32_t, places> wanted_{};  // how many tiles want a place
+    std::array<std::uint32_t, places> wanted_{};  // number of tiles per slot
 };
 
-// Where a target's codes lie: a Texels for each sample.
+// The storage of a target's codes: one Texels per sample.
 struct CachedPlanes {
     Format format;
     std::size_t pixels;
@@ -65,11 +67,11 @@ class CachedTarget {
   public:
     CachedTarget(const CachedTiles& tiles, const DeviceProfile& profile, const Blend& blending, CachedPlanes planes);
 
-    // Lanes [first, end) are blended; no place is wanted by two tiles of them.
+    // Blends lanes [first, end). Precondition: no two of their tiles share a slot.
     void blend(const CachedLanes& lanes, int first, int end);
     void put_back(std::uint32_t tile);
     void put_back();
-    // Whether a pixel has been blended since its tile was fetched.
+    // True if a pixel has been blended since its tile was fetched.
     [[nodiscard]] bool is_held(std::uint32_t pixel, int sample) const noexcept {
         return held_[word(pixel, sample)] != 0;
     }
@@ -81,7 +83,7 @@ class CachedTarget {
     [[nodiscard]] const Texels& texels(int sample) const noexcept {
         return planes_.samples[static_cast<std::size_t>(sample)];
     }
-    // The pixels of a tile that are held, of one sample.
+    // The held pixels of a tile for one sample.
     [[nodiscard]] std::vector<std::uint32_t>& held_of(std::uint32_t tile, std::size_t sample) noexcept {
         return held_pixels_[tile * planes_.samples.size() + sample];
     }
@@ -95,18 +97,19 @@ class CachedTarget {
     CachedPlanes planes_;
     FormatInfo format_;
     bool clamps_;                               // UNORM8
-    std::vector<std::array<float, 4>> values_;  // of pixels that are held
+    std::vector<std::array<float, 4>> values_;  // of held pixels
     std::vector<std::uint8_t> held_;
     std::vector<std::vector<std::uint32_t>> held_pixels_;
-    ColorCodes codes_{};  // of the lanes under way
+    ColorCodes codes_{};  // of the lanes being blended
 };
 
-// All targets of one pass, which fetch and put back together.
+// All targets of one pass, which are fetched and written back together.
 class TileCache {
   public:
     TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame);
 
-    // Whether a blend sees the cache: minima and maxima of what is rounded are the rounded ones, and binary32 is not.
+    // True if the cache affects a blend: minima and maxima of rounded values are already rounded, and binary32 is not
+    // rounded.
     [[nodiscard]] static bool knows(const Blend& blending, Format format) noexcept;
     void hold(std::size_t number, const DeviceProfile& profile, const Blend& blending, CachedPlanes planes) {
         targets_[number].emplace(tiles_, profile, blending, std::move(planes));
@@ -119,7 +122,7 @@ class TileCache {
     void take_place(CachedTarget& target, std::size_t number, std::uint32_t tile);
 
     CachedTiles tiles_;
-    bool is_frame_;  // the region
+    bool is_frame_;  // true if the region is the whole frame
     std::array<std::optional<CachedTarget>, max_color_targets> targets_;
     static constexpr std::uint32_t no_tile = ~0u;
     std::array<std::array<std::uint32_t, CachedTiles::places>, max_color_targets> owner_;

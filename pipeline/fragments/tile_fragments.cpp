@@ -12,11 +12,12 @@ using rasterizer::Lanes;
 
 namespace {
 
-// Kernels write whole vectors behind the last fragment.
+// Kernels write whole vectors, also past the last fragment.
 constexpr std::size_t spare_places = 16;
 
-// An array that grows leaves its old memory with the allocator, which keeps it (uninitialized.h): so it takes at once
-// what the limit admits, of which only what is written costs memory, up to a number of fragments that few tiles have.
+// An array that grows leaves its old memory in the allocator, which keeps it (uninitialized.h). Therefore it reserves
+// at once what the limit admits, of which only written pages use memory, up to a number of fragments that few tiles
+// have.
 constexpr std::size_t most_at_once = std::size_t{1} << 20;
 
 template <class T>
@@ -24,12 +25,12 @@ void grow(UninitializedVector<T>& array, std::size_t wanted, std::size_t admitte
     if (array.size() < wanted) array.resize(std::max({wanted, 2 * array.size(), std::min(admitted, most_at_once)}));
 }
 
-// False for -0, NaN and what is negative.
+// False for -0, NaN and negative values.
 [[nodiscard]] bool is_at_most(float value, float most) noexcept {
     return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);
 }
 
-// Which lanes of a batch are taken, as numbers.
+// The indices of the alive lanes of a batch.
 struct Living {
     Lanes<std::uint16_t> lane;
     std::size_t count = 0;
@@ -61,7 +62,7 @@ void TileFragments::start(const FragmentNeeds& needs, std::uint64_t limit) {
     state_ = State::filling;
 }
 
-// Memory stays: the next tile fills it again.
+// The memory is kept for the next tile.
 void TileFragments::forget() noexcept {
     state_ = State::empty;
     size_ = 0;
@@ -69,7 +70,7 @@ void TileFragments::forget() noexcept {
     colors_ = Colors::unknown;
 }
 
-// What grew too large stays so until it is forgotten: its region does not try again.
+// A record that grew too large keeps that state until it is discarded, so its region does not try again.
 void TileFragments::finish() {
     if (state_ == State::filling) state_ = State::complete;
 }
@@ -104,7 +105,7 @@ bool TileFragments::fits(std::size_t size) {
     return false;
 }
 
-// A record that is too large writes over the same room again and again.
+// A record that is too large overwrites the same memory repeatedly.
 TileFragments::Space TileFragments::more_space(const Space& from) {
     constexpr std::size_t at_once = 4096;
     close(from.size);

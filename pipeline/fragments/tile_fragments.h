@@ -1,11 +1,12 @@
 // pipeline/fragments/tile_fragments.h - the fragments of a tile: recorded once, in submission order, and read by every
 // pass of a peel.
 //
-// Rule     A fragment is a place: 0, 1, 2, ... in submission order, after texture and MASK; what MASK kills has none.
-//          Its values stand in arrays by place. A record that would outgrow its limit forgets everything, and its
+// Rule     Fragments have indices 0, 1, 2, ... in submission order, after texture and MASK; fragments killed by MASK
+//          have none. Their values are in arrays by index. A record that would exceed its limit is discarded, and its
 //          region rasterizes every pass.
-// Layout   One array a value; the channels of a colour together, for passes fetch fragments from here and there. A
-//          coverage mask of samples would be one array more: nothing else here depends on how many depths a pixel has.
+// Layout   One array per value; the channels of a colour are stored together, because passes fetch fragments at
+// scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the number of
+// depths per pixel.
 // Source   execution.md 5.3 and 7.1.
 // Tests    tests/pipeline/fragments/tile_fragments_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
@@ -22,13 +23,13 @@ namespace strata::pipeline {
 
 class TileFragments {
   public:
-    // Forgets what it holds and takes in the values that `needs` names, as long as they fit into `limit` bytes.
+    // Discards the record and starts one of the values that `needs` names, limited to `limit` bytes.
     void start(const rasterizer::FragmentNeeds& needs, std::uint64_t limit);
-    // The living fragments of a batch.
+    // Adds the alive fragments of a batch.
     void append(const rasterizer::FragmentBatch& batch, const rasterizer::Lanes<std::uint32_t>& alive);
-    // For kernels that write values by themselves (record_rows.h): arrays with places up to `capacity`, null where a
-    // value is not held, and how many are taken. `more_space` takes what `from` has got, and gives room for at least
-    // one more vector.
+    // For kernels that write values directly (record_rows.h): arrays with room up to `capacity`, null for values that
+    // are not recorded, and the number of entries in use. `more_space` accepts the entries written to `from` and
+    // returns room for at least one more vector.
     using Color = std::array<float, 4>;
     struct Space {
         std::uint32_t *pixel = nullptr, *primitive = nullptr, *code = nullptr;
@@ -38,23 +39,23 @@ class TileFragments {
     };
     [[nodiscard]] Space more_space(const Space& from);
     void close(std::size_t size);
-    void finish();  // nothing more will come
+    void finish();  // ends the record
     void forget() noexcept;
 
     [[nodiscard]] bool may_start() const noexcept { return state_ == State::empty || state_ == State::complete; }
-    // Whether it is complete and holds all that `needs` names.
+    // True if the record is complete and has all values that `needs` names.
     [[nodiscard]] bool serves(const rasterizer::FragmentNeeds& needs) const noexcept;
-    // Whether such values are recorded at all: coordinates and facing are not.
+    // True if such values can be recorded: coordinates and facing cannot.
     [[nodiscard]] static bool records(const rasterizer::FragmentNeeds& needs) noexcept {
         return !needs.texcoord && !needs.facing && needs.units == 0;
     }
-    // What a fragment with these values takes.
+    // Bytes per fragment with these values.
     [[nodiscard]] static std::uint64_t bytes_of(const rasterizer::FragmentNeeds& needs) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] std::uint64_t bytes() const noexcept { return size_ * bytes_of(needs_); }
     [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
-    // By place; values that are not held are not to be looked at.
+    // Arrays by index; a value that is not recorded must not be read.
     [[nodiscard]] std::span<const std::uint32_t> pixel() const noexcept { return {pixel_.data(), size_}; }
     [[nodiscard]] std::span<const std::uint32_t> primitive() const noexcept { return {primitive_.data(), size_}; }
     [[nodiscard]] std::span<const std::uint32_t> code() const noexcept { return {code_.data(), size_}; }
@@ -65,19 +66,19 @@ class TileFragments {
     [[nodiscard]] std::span<const std::uint32_t> reference_code() const noexcept {
         return {reference_code_.data(), size_};
     }
-    // The most by which a compared code exceeds its fragment's own.
+    // The largest difference by which a compared code exceeds the same fragment's stored code.
     [[nodiscard]] std::uint32_t reference_lead() const noexcept { return reference_lead_; }
-    // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such values knows no
-    // order.
+    // True if every colour is in [0, 1024], every alpha in [0, 1] and none is -0: MAX of such values does not depend on
+    // the order.
     [[nodiscard]] bool has_plain_colors();
 
-    // The values that `needs` names of the fragments at `places` to the first lanes of a batch, in this order; pixels
-    // and their positions are the caller's.
+    // Writes the values that `needs` names, of the fragments with indices `places`, to the first lanes of a batch in
+    // this order. The caller sets pixels and their positions.
     void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs,
                rasterizer::FragmentBatch& batch) const noexcept;
 
-    // Takes them in batches, in submission order, no pixel twice in one. `stamp`, one a pixel, are 0 at first and the
-    // reader's own.
+    // Reads the record in batches, in submission order, each pixel at most once per batch. `stamp` has one entry per
+    // pixel, initially 0, and belongs to the reader.
     struct Reading {
         std::size_t next = 0;
         std::uint32_t batch = 0;

@@ -16,15 +16,15 @@ using rasterizer::Rect;
 
 namespace {
 
-// Fragments of a region, and those of its deepest pixel; or bounds of both.
+// The number of fragments of a region and of its deepest pixel, or upper bounds of both.
 struct Depths {
     std::uint64_t all = 0, deepest = 0;
 };
 
-// Below this cutting costs more than it spares.
+// With less memory, splitting costs more than it saves.
 constexpr std::uint64_t least_memory = std::uint64_t{512} << 10;
 
-// The words of sorted columns: as many for each pixel of a block as its tallest has.
+// Entries of the sorted lists: each pixel of a block has as many as its longest list.
 std::uint64_t sorted_words(const Rect& rect, const Depths& of) {
     const std::uint64_t blocks = (rect.area() + block_lanes - 1) / block_lanes;
     return block_lanes * std::min(of.all, blocks * of.deepest);
@@ -34,8 +34,8 @@ bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
     return of.all * replay.bytes_a_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes;
 }
 
-// A triangle has a fragment at most for each pixel of its box, which is seldom asked for: most tiles fit if all had as
-// many as there are triangles.
+// A triangle has at most one fragment per pixel of its box. The boxes are rarely needed: most tiles would fit if every
+// pixel had as many fragments as there are triangles.
 Depths bounds_of(const Geometry& geometry, std::size_t tile, const Replay& replay) {
     const Rect rect = tile_rect(geometry, tile), viewport = geometry.state.viewport;
     const std::uint64_t triangles = geometry.bin(tile).size();

@@ -11,7 +11,7 @@ namespace {
 
 using rasterizer::Lanes;
 
-// A depth texture and the texels that each lane looks at.
+// A depth texture and the texels of each lane's lookup.
 struct Lookup {
     const DepthTexels& depth;
     TexelLanes s, t;
@@ -19,14 +19,14 @@ struct Lookup {
     [[nodiscard]] std::uint32_t texel(std::int32_t column, std::int32_t row) const { return depth.at(column, row); }
 };
 
-// passed(r, texel) is the comparison; answers go to `result`.
+// passed(r, texel) is the comparison; its results are written to `result`.
 void compare_nearest(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
                      std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i)
         result[i] = passed(r[i], at.texel(at.s.first[i], at.t.first[i])) ? 1.0f : fail;
 }
 
-// The answers are filtered, not the depths: each texel gives 1 or the fail value first (texturing.md 4.2).
+// The results are filtered, not the depths: each texel gives 1 or the fail value first (texturing.md 4.2).
 void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
                     std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -42,16 +42,16 @@ void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail,
 [[nodiscard]] bool has(const DepthTexels& depth, DepthFormat format) noexcept {
     return depth.format == format && !depth.is_eight_bit;
 }
-// A texel in the texture's own units.
+// The value of a texel in the texture's own units.
 [[nodiscard]] double value_of(const DepthTexels& depth, std::uint32_t code) noexcept {
     return depth.is_eight_bit ? static_cast<double>(code) : rasterizer::buffer_value(code, depth.format);
 }
-// The factor that turns R into buffer units.
+// The factor that converts R to buffer units.
 [[nodiscard]] double units_of(const DepthTexels& depth, const rasterizer::RasterRules& rules) noexcept {
     return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : value_of(depth, depth.max());
 }
 
-// R as the texels' format would store it; binary32 bits, unclamped, for D32F.
+// R as the format of the texels would store it; unclamped binary32 bits for D32F.
 void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, const Lanes<float>& r,
               Lanes<std::uint32_t>& codes, std::size_t count) noexcept {
     if (has(depth, DepthFormat::d32f)) {
@@ -65,7 +65,7 @@ void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, co
     for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::depth_code(double{r[i]}, to);
 }
 
-// Where the result goes, by texturing.md 4.3.
+// Writes the result to the channels of texturing.md 4.3.
 void route(DepthTextureMode mode, const Lanes<float>& result, std::array<Lanes<float>, 4>& rgba,
            std::size_t count) noexcept {
     const bool color_varies = mode == DepthTextureMode::luminance || mode == DepthTextureMode::intensity;
@@ -102,8 +102,8 @@ void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const 
     with_compare(state.func, [&](auto chosen) {
         constexpr CompareFunc func = chosen();
         if (!is_float && !quantizes) {
-            // The hypothesis that R is compared as it is: its bits travel
-            // in the place of codes, and texels become values.
+            // The hypothesis that R is compared unquantized: its bits are passed in place of codes, and texels are
+            // converted to values.
             for (std::size_t i = 0; i < n; ++i) r[i] = std::bit_cast<std::uint32_t>(at.r[i]);
             const double max = value_of(depth, depth.max());
             compare([units, max, &depth](std::uint32_t a, std::uint32_t b) {

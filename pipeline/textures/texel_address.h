@@ -1,13 +1,13 @@
-// pipeline/textures/texel_address.h - from a texture coordinate to texels, one axis at a time; for colour and depth
+// pipeline/textures/texel_address.h - maps a texture coordinate to texels, one axis at a time, for colour and depth
 // textures.
 //
-// Rule     u = coordinate * size for 2D textures, the coordinate itself for rectangles, exact. Nearest: texel
-//          floor(u), with u first snapped to 1/256 (nearest even) where the profile says so. Linear: u - 1/2 cut
-//          (floored) to 1/256; its integer part is the first texel, its fraction the second one's weight. Repeat and
-//          mirrored repeat wrap the texels, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp.
-//          NaN counts as 0, anything beyond +-2^31 as +-2^31.
-// Source   texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle).
-//          NaN and the bound are our assumption; floats beyond 2^31 are even integers: no wrapping notices it.
+// Rule     u = coordinate * size for 2D textures, the coordinate itself for rectangles, exact. Nearest: texel floor(u),
+//          with u first snapped to 1/256 (nearest even) if the profile requires it. Linear: u - 1/2 floored to a
+//          multiple of 1/256; its integer part is the first texel, its fraction the second one's weight. Repeat and
+//          mirrored repeat wrap the texel index, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp.
+//          NaN is treated as 0, values beyond +-2^31 as +-2^31.
+// Source   texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle). NaN and the bound are our assumption;
+//          floats beyond 2^31 are even integers, so wrapping is not affected.
 // Numbers  coordinate * size * 256: 24 + 15 significant bits, below 2^55: exact in binary64 and in 64-bit integers.
 // Tests    tests/pipeline/textures/texture_sample_test.cpp
 #pragma once
@@ -23,19 +23,20 @@ namespace strata::pipeline {
 
 enum class PointSnap : std::uint8_t { none, to_256ths };
 
-// Devices that filter in binary32 are those that follow D3D's texture addressing.
+// Devices that filter in binary32 follow D3D's texture addressing.
 [[nodiscard]] constexpr PointSnap point_snap(TextureFilterPrecision precision) noexcept {
     return precision == TextureFilterPrecision::unorm8 ? PointSnap::none : PointSnap::to_256ths;
 }
 
-// One axis of a texture: its number of texels, and how coordinates beyond them come back.
+// One axis of a texture: its number of texels, and the wrap mode outside them.
 struct TexelAxis {
     TextureTarget target = TextureTarget::two_d;
     TextureWrap wrap = TextureWrap::repeat;
     int size = 1;  // at most 2^15
 };
 
-// Per lane: two texels of the axis and the weight of the second in 1/256. Nearest leaves `second` and `fraction` alone.
+// Per lane: two texels of the axis, and the weight of the second in units of 1/256. Nearest lookups do not set `second`
+// and `fraction`.
 struct TexelLanes {
     rasterizer::Lanes<std::int32_t> first, second, fraction;
 };
@@ -61,12 +62,12 @@ inline namespace strict {
 }
 
 [[nodiscard]] constexpr std::int64_t modulo(std::int64_t i, std::int64_t period) noexcept {
-    if (i >= 0 && i < period) return i;  // nearly always: no division
+    if (i >= 0 && i < period) return i;  // nearly always true: avoids the division
     const std::int64_t rest = i % period;
     return rest < 0 ? rest + period : rest;
 }
 
-// The texel that stands for number `texel`, which may be any integer (texturing.md 2.3).
+// The texel to which index `texel` is wrapped; the index may be any integer (texturing.md 2.3).
 [[nodiscard]] constexpr std::int32_t wrapped(const TexelAxis& axis, std::int64_t texel) noexcept {
     const std::int64_t size = axis.size;
     const TextureWrap wrap = axis.target == TextureTarget::rectangle ? TextureWrap::clamp_to_edge : axis.wrap;
@@ -81,20 +82,20 @@ inline namespace strict {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(texel, 0, size - 1));
 }
 
-// texturing.md 2.1; the shift by 8 floors, for negative numbers too.
+// The rule of texturing.md 2.1; the shift by 8 floors, for negative numbers too.
 [[nodiscard]] constexpr std::int32_t nearest_texel(const TexelAxis& axis, PointSnap snap, float coordinate) noexcept {
     const double scaled = scaled_coordinate(axis, coordinate);
     return wrapped(axis, (snap == PointSnap::none ? floor_of(scaled) : nearest_even_of(scaled)) >> 8);
 }
 
-// u - 1/2 in 1/256.
+// u - 1/2 in units of 1/256.
 [[nodiscard]] constexpr std::int64_t linear_position(const TexelAxis& axis, float coordinate) noexcept {
     const std::int64_t position = floor_of(scaled_coordinate(axis, coordinate)) - 128;
     if (axis.target == TextureTarget::two_d && axis.wrap != TextureWrap::clamp_to_edge) return position;
     return std::clamp<std::int64_t>(position, 0, std::int64_t{256} * (axis.size - 1));
 }
 
-// nearest_texel of lanes [0, count) of a batch.
+// nearest_texel for lanes [0, count) of a batch.
 inline void nearest_texels(const TexelAxis& axis, PointSnap snap, const rasterizer::Lanes<float>& coordinate,
                            TexelLanes& out, int count) noexcept {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
@@ -111,7 +112,7 @@ inline void linear_texels(const TexelAxis& axis, const rasterizer::Lanes<float>&
     }
 }
 
-// Weights of the four texels (first or second column, first or second row) in 1/65536; they add up to 1.
+// Weights of the four texels (first or second column, first or second row) in units of 1/65536; their sum is 1.
 struct BilinearWeights {
     std::int32_t w00, w10, w01, w11;
 };

@@ -8,7 +8,7 @@ namespace {
 
 using Rule = TextureFilterPrecision;
 
-// Two texels along an axis, and the weight of the second: in 256ths by code_lerps.
+// Two texels along an axis, and the weight of the second: in units of 1/256 under code_lerps.
 struct TexelPair {
     std::int32_t first = 0, second = 0, weight_256 = 0;
     float weight = 0;
@@ -20,7 +20,7 @@ bool clamps(const TexelAxis& axis) noexcept {
     return axis.target == TextureTarget::rectangle || axis.wrap == TextureWrap::clamp_to_edge;
 }
 
-// u of the rule. NaN counts as 0, anything beyond +-2^31 as +-2^31, as elsewhere (texel_address.h).
+// u of the rule. NaN is treated as 0, values beyond +-2^31 as +-2^31, as in texel_address.h.
 float position(const TexelAxis& axis, Rule rule, float coordinate) noexcept {
     float c = coordinate == coordinate ? std::clamp(coordinate, -0x1p31f, 0x1p31f) : 0.0f;
     if (axis.target == TextureTarget::rectangle) return c;
@@ -57,7 +57,7 @@ void sample_lerps(const Texture& texture, Rule rule, const rasterizer::Lanes<flo
                   const rasterizer::Lanes<float>& t, std::array<rasterizer::Lanes<float>, 4>& rgba,
                   int count) noexcept {
     constexpr float of_code = 1.0f / 255.0f;
-    const Rule used = texture.decode_srgb ? Rule::single_lerps : rule;  // what is decoded has no codes
+    const Rule used = texture.decode_srgb ? Rule::single_lerps : rule;  // decoded texels have no codes
     const TexelAxis s_axis{texture.target, texture.wrap_s, texture.width};
     const TexelAxis t_axis{texture.target, texture.wrap_t, texture.height};
     const auto texel = [&](std::int32_t column, std::int32_t row) {

@@ -1,11 +1,11 @@
-// pipeline/textures/texel_lerps.h - lookups whose coordinates are binary32 and whose texels are mixed by lerps: along
-// s, then along t.
+// pipeline/textures/texel_lerps.h - texture lookups with binary32 coordinates whose texels are mixed by linear
+// interpolations: along s, then along t.
 //
-// Rule     u = f32(c size), c the coordinate, or its fraction under code_lerps where it repeats over a size that is no
-//          power of two. Nearest: texel floor(u). code_lerps: p = nearest_even(256 u) - 128, texel p >> 8, weight p &
-//          255 of the next one; codes a, b become a + floor((w (b - a) + 128) / 256). single_lerps: v = f32(u - 1/2), u
-//          clamped to [1/2, size - 1/2] where it clamps to the edge; texel floor(v), weight w = v - floor(v); values a,
-//          b become f32(a + f32(w f32(b - a))). A code's value is f32(code f32(1 / 255)).
+// Rule     u = f32(c size), where c is the coordinate; under code_lerps c is its fraction if the axis repeats and its
+//          size is not a power of two. Nearest: texel floor(u). code_lerps: p = nearest_even(256 u) - 128, texel p >>
+//          8, weight p & 255 of the next one; codes a, b become a + floor((w (b - a) + 128) / 256). single_lerps: v =
+//          f32(u - 1/2), with u clamped to [1/2, size - 1/2] under clamp to edge; texel floor(v), weight w = v -
+//          floor(v); values a, b become f32(a + f32(w f32(b - a))). A code's value is f32(code f32(1 / 255)).
 // Source   texturing.md 2.5 and 3.4.
 // Tests    tests/pipeline/textures/texel_lerps_test.cpp
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace strata::pipeline {
 
-// As `sample` (texture_sample.h) by one of the two rules.
+// Like `sample` (texture_sample.h), by one of the two rules.
 void sample_lerps(const Texture& texture, TextureFilterPrecision rule, const rasterizer::Lanes<float>& s,
                   const rasterizer::Lanes<float>& t, std::array<rasterizer::Lanes<float>, 4>& rgba, int count) noexcept;
 

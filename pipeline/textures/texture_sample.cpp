@@ -16,7 +16,7 @@ struct Footprint {
     const std::uint8_t *t00, *t10, *t01, *t11;
 };
 
-// A texture and the texels that each lane looks at; nearest lookups use `first` alone.
+// A texture and the texels of each lane's lookup; nearest lookups use only `first`.
 struct Lookup {
     const Texture& texture;
     TexelLanes s, t;
@@ -36,7 +36,7 @@ struct Lookup {
     }
 };
 
-// The value of a texel byte, in a table for each channel.
+// The values of texel bytes: one table per channel.
 using Decoder = std::array<const float*, 4>;
 
 Decoder decoder(const Texture& texture) noexcept {
@@ -73,8 +73,8 @@ void sample_bilinear_unorm8(const Lookup& lookup, ColorLanes& rgba, std::size_t 
     }
 }
 
-// texture_filter unorm8 after an sRGB decoding: the binary32 result
-// takes its only rounding to 8 bits here (texturing.md 3.2).
+// texture_filter unorm8 after sRGB decoding: the binary32 result is rounded to 8 bits here, its only rounding
+// (texturing.md 3.2).
 void round_to_unorm8(ColorLanes& rgba, std::size_t count) noexcept {
     for (Lanes<float>& channel : rgba)
         for (std::size_t i = 0; i < count; ++i) channel[i] = from_unorm8(to_unorm8(channel[i]));
