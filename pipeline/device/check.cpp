@@ -9,7 +9,7 @@
 namespace strata::pipeline {
 namespace {
 
-// The words and the extension of a refusal, and the profile's field (devices.md 9.1).
+// The description and the extension of a Refusal, and the profile's field (devices.md 9.1).
 struct FeatureRule {
     Feature feature;
     std::string_view words, extension;
@@ -56,8 +56,7 @@ static_assert(rules_follow_the_enum(), "feature_rules has a rule for every Featu
 
 const FeatureRule& rule(Feature feature) { return feature_rules[static_cast<std::size_t>(feature)]; }
 
-// "use geforce8 or ideal": the built-in profiles that `can`.
-// The sentence names only built-in profiles: a profile of a user's own is not known here.
+// "use geforce8 or ideal": the built-in profiles for which `can` is true. User profiles are not known here.
 std::string way_out(auto can) {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles())
@@ -68,15 +67,15 @@ std::string way_out(auto can) {
     return text;
 }
 
-// A number that a profile limits.
+// Checks a number that a profile limits.
 Verdict check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int wanted, const std::string& feature,
                     const std::string& extension) {
     if (wanted <= profile.*limit) return std::nullopt;
     return Refusal{feature, extension, way_out([&](const DeviceProfile& p) { return wanted <= p.*limit; })};
 }
 
-// Without independent blending, targets of one pass share factors, equations and constant; write masks and enables may
-// differ.
+// True if the blends can be used in one pass without independent blending: they must share factors, equations and
+// constant; write masks and enables may differ.
 bool shares_terms(const Blend& a, const Blend& b) {
     return a.color == b.color && a.alpha == b.alpha && a.constant == b.constant;
 }
@@ -156,7 +155,7 @@ Verdict check(const DeviceProfile& profile, std::span<const Blend> targets) {
     if (Verdict refusal = check_limit(profile, &DeviceProfile::max_render_targets, count,
                                       std::to_string(count) + " render targets in one pass", "ARB_draw_buffers"))
         return refusal;
-    // The first target that blends: all others that blend are compared with it.
+    // The first target that blends: all other blending targets are compared with it.
     const Blend* first = nullptr;
     for (const Blend& target : targets) {
         if (Verdict refusal = check(profile, target)) return refusal;
@@ -174,7 +173,7 @@ Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath comp
     return std::nullopt;
 }
 
-// Without programs r/q can be compared, but no stage can write it: depth replace is the stage that does.
+// Without programs r/q can be compared but not written: depth replace is the only stage that writes it.
 Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
     if (written == rasterizer::DepthPath::perspective_rq && !profile.has_fragment_programs)
         return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
@@ -184,7 +183,7 @@ Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
 
 Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value) {
     const bool is_clamped = value >= 0.0f && value <= 1.0f;
-    // Fixed formats clamp the value, so nothing is asked of the device.
+    // Fixed-point formats clamp the value, so the device needs no feature.
     if (format != DepthFormat::d32f || is_clamped) return std::nullopt;
     return check(profile, Feature::unclamped_depth_clear);
 }

@@ -1,5 +1,5 @@
-// pipeline/device/compare.h - the eight comparison functions, chosen once and outside the loop. GL 2.1 4.1.4 to 4.1.6.
-// Operands keep their order: `passes<less>(a, b)` is a < b. A NaN passes `notequal` and `always` alone
+// pipeline/device/compare.h - the eight comparison functions, selected once outside the loop (GL 2.1 4.1.4 to 4.1.6).
+// Operands keep their order: `passes<less>(a, b)` is a < b. A NaN passes only `notequal` and `always`
 // (fragment-stages.md 1.2).
 #pragma once
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace strata::pipeline {
 
-// a FUNC b. The function is a template argument, so that a loop over lanes holds one comparison and no switch.
+// a FUNC b. The function is a template argument, so that a loop over lanes has one comparison and no switch.
 template <CompareFunc func, class T>
 [[nodiscard]] constexpr bool passes(T a, T b) noexcept {
     if constexpr (func == CompareFunc::never) return false;

@@ -1,4 +1,4 @@
-// pipeline/device/profile.cpp - the built-in devices. Each number's source stands in profile_fields.cpp; describe()
+// pipeline/device/profile.cpp - the built-in devices. The source of each value is in profile_fields.cpp; describe()
 // prints it.
 #include "pipeline/device/profile.h"
 
@@ -11,8 +11,8 @@ namespace {
 
 using namespace rasterizer;
 
-// The chip whose captures prove most rules: what is not set here
-// has the default of RasterRules (rasterizer/rules/rules.h).
+// The chip whose captures support most rules. Fields that are not set here have the defaults of RasterRules
+// (rasterizer/rules/rules.h).
 DeviceProfile geforce3() {
     DeviceProfile p;
     p.name = "geforce3";
@@ -47,7 +47,7 @@ DeviceProfile geforce3() {
     return p;
 }
 
-// RasterRules' own defaults are this device's.
+// The defaults of RasterRules are those of this device.
 DeviceProfile geforce8() {
     DeviceProfile p;
     p.name = "geforce8";
@@ -87,7 +87,7 @@ DeviceProfile ideal() {
     return p;
 }
 
-// Mesa's software rasterizers, to run side by side with: what is set here is measured (mesa-rasterizers.md).
+// Mesa's software rasterizers, for comparison with Mesa itself: the fields set here are measured (mesa-rasterizers.md).
 DeviceProfile mesa() {
     DeviceProfile p = geforce8_dx101();
     p.raster.clip = ClipVolume::view_volume;
@@ -145,7 +145,7 @@ DeviceProfile softpipe() {
     return p;
 }
 
-// Chromium's WebGL without a GPU: what is set here is measured (swiftshader-rasterizer.md).
+// Chromium's WebGL without a GPU: the fields set here are measured (swiftshader-rasterizer.md).
 DeviceProfile swiftshader() {
     DeviceProfile p = geforce8_dx101();
     p.name = "swiftshader";
@@ -176,7 +176,7 @@ DeviceProfile swiftshader() {
     return p;
 }
 
-// Column of ProfileField::source.
+// The index of a profile in ProfileField::source.
 int source_column(std::string_view name) {
     if (name == "geforce3") return 0;
     if (name == "geforce8" || name == "geforce8_dx101") return 1;
@@ -195,7 +195,7 @@ const std::vector<DeviceProfile>& builtin_profiles() {
 DeviceProfile with_origin(DeviceProfile profile, Origin origin) {
     if (profile.origin == origin) return profile;
     profile.origin = origin;
-    if (profile.raster.y_axis == YAxis::clip) return profile;  // ties named by clip space's y
+    if (profile.raster.y_axis == YAxis::clip) return profile;  // its ties are named along clip-space y
     TieRule& ties = profile.raster.tie_rule;
     switch (ties) {
         case TieRule::top_left: ties = TieRule::bottom_left; return profile;

@@ -1,5 +1,5 @@
-// pipeline/device/profile.h - what an emulated device can do, and with which numbers. A value: compare it, print it,
-// store it as JSON.
+// pipeline/device/profile.h - the features and numeric rules of an emulated device. A value: it can be compared,
+// printed and stored as JSON.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -13,26 +13,28 @@
 
 namespace strata::pipeline {
 
-// The alpha test compares 8-bit codes always, or on 8-bit targets alone (fragment-stages.md 3).
+// The alpha test compares 8-bit codes always, or only on 8-bit targets (fragment-stages.md 3).
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
-// How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself; or all in binary32, of a
-// source that is no code (fragment-stages.md 8.2).
+// The rounding of an 8-bit blend (fragment-stages.md 8.2). nearest: the exact sum, half up. truncate: the exact sum,
+// truncated. each_product: each product separately. unrounded_source: everything in binary32, with a source that is not
+// rounded to a code.
 enum class BlendRounding : std::uint8_t { nearest, truncate, each_product, unrounded_source };
-// What a blend reads and leaves: the target's codes, or binary32 in a cache of tiles, rounded when a tile leaves it or
-// the pass ends (fragment-stages.md 9.5).
+// The destination of a blend: the target's codes, or binary32 values in a cache of tiles, which are rounded when a tile
+// leaves the cache or the pass ends (fragment-stages.md 9.5).
 enum class BlendStorage : std::uint8_t { target, cached_tiles };
-// The result of MIN and MAX of one NaN and one number; destination: also of two equal ones (fragment-stages.md 9.3).
+// The result of MIN and MAX of one NaN and one number; destination: also of two equal operands (fragment-stages.md
+// 9.3).
 enum class MinMaxNan : std::uint8_t { other_operand, propagate, destination };
-// Whether binary32 blending turns operands and results below 2^-126 into zeros (fragment-stages.md 9.1).
+// Whether binary32 blending flushes operands and results below 2^-126 to zero (fragment-stages.md 9.1).
 enum class DenormalRule : std::uint8_t { flush, keep };
-// What depth buffers of 24 bits hold: codes of 24 bits, or the binary32 of a D32F buffer (depth.md 2.10).
+// The contents of 24-bit depth buffers: 24-bit codes, or the binary32 of a D32F buffer (depth.md 2.10).
 enum class Depth24 : std::uint8_t { codes, binary32 };
-// The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by lerps, as codes or in binary32
-// (texturing.md 3). Nearest lookups and pass-through coordinates go by it, too (devices.md 4).
+// The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by linear interpolations, as codes
+// or in binary32 (texturing.md 3). It also affects nearest lookups and pass-through coordinates (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, single_lerps };
-// The corner of the picture at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT),
-// lower_left as OpenGL without that call draws into framebuffer objects. All rules hold in memory order (devices.md
-// 3.8); pictures leave the machine with the upper row first.
+// The corner of the image at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT);
+// lower_left as OpenGL draws into framebuffer objects without that call. All rules hold in memory order (devices.md
+// 3.8); output images have the upper row first.
 enum class Origin : std::uint8_t { upper_left, lower_left };
 
 // Where the samples of a pixel lie: as Direct3D has them; or as NV20's modes are called, a corner and the centre, or a
@@ -42,7 +44,7 @@ enum class SamplePositions : std::uint8_t { standard, nv20 };
 // A device. Everything that differs between devices is a field here, and no code asks for the name (devices.md 1);
 // profile.cpp writes the built-in ones.
 struct DeviceProfile {
-    // In JSON at most 64 bytes, the description at most 1000 (devices.md 1).
+    // In JSON the name has at most 64 bytes, the description at most 1000 (devices.md 1).
     std::string name;
     std::string description;
     rasterizer::RasterRules raster;
@@ -61,15 +63,15 @@ struct DeviceProfile {
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;
-    // 4 bits of exponent and 12 of mantissa, as the chip stores them (depth.md 1.2).
+    // 4 bits of exponent and 12 of mantissa, as stored by the chip (depth.md 1.2).
     bool has_d16f = false;
     // 8 bits of exponent and 16 of mantissa (depth.md 1.3).
     bool has_d24f = false;
     // x8r8g8b8, x1a7r8g8b8, r5g6b5 and x1r5g5b5 (narrow.h).
     bool has_narrow_surfaces = false;
-    // fp16 and binary32 render targets that blend, RG32F and R16F among them.
+    // fp16 and binary32 render targets with blending, including RG32F and R16F.
     bool has_float_targets = false;
-    // NV_depth_buffer_float: a D32F clear is stored as it is.
+    // NV_depth_buffer_float: a D32F clear is stored unclamped.
     bool has_unclamped_depth_clear = false;
 
     // Features
@@ -77,15 +79,15 @@ struct DeviceProfile {
     bool has_fragment_programs = false;
     // EXT_blend_func_separate, EXT_blend_equation_separate.
     bool has_separate_alpha_blend = false;
-    // ARB_draw_buffers_blend: another equation or factors for each target.
+    // ARB_draw_buffers_blend: separate equation and factors for each target.
     bool has_independent_blend = false;
     // EXT_stencil_two_side.
     bool has_two_sided_stencil = false;
     // ARB_depth_clamp, NV_depth_clamp.
     bool has_depth_clamp = false;
-    // NV_texture_shader's DOT_PRODUCT_DEPTH_REPLACE, and with it texture shaders at all (devices.md 6).
+    // NV_texture_shader's DOT_PRODUCT_DEPTH_REPLACE, and with it texture shaders in general (devices.md 6).
     bool has_depth_replace = false;
-    // STRATA_depth_units: an extension of the emulator, reported whenever it is used.
+    // STRATA_depth_units: an emulator extension, reported whenever it is used.
     bool has_sequential_depth_units = true;
     // STRATA_ordered_rmw: targets that a program both reads and writes.
     bool has_ordered_rmw = false;
@@ -103,7 +105,7 @@ struct DeviceProfile {
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
 
     [[nodiscard]] ColorRounding color_rounding() const noexcept { return {half_rounding, unorm_rounding}; }
-    // Whether targets follow one of the rules that kernels beside the stages know: 8-bit codes round the exact value
+    // True if targets follow the rules that kernels outside the stages implement: 8-bit codes round the exact value
     // once, and halves have an infinity.
     [[nodiscard]] bool rounds_codes_once() const noexcept {
         return unorm_rounding == UnormRounding::half_up && half_rounding != HalfRounding::no_infinity &&
@@ -111,15 +113,15 @@ struct DeviceProfile {
                blend_storage == BlendStorage::target;
     }
 
-    // The format in which a depth buffer of that format is kept.
+    // The format in which a depth buffer of that format is stored.
     [[nodiscard]] DepthFormat stored(DepthFormat f) const noexcept {
         return f == DepthFormat::d24 && has_d24 && depth24 == Depth24::binary32 ? DepthFormat::d32f : f;
     }
-    // The same of the format that was asked for, or of the best one.
+    // The same for the requested format, or for the best one if none is requested.
     [[nodiscard]] DepthFormat depth_buffer(std::optional<DepthFormat> asked) const noexcept {
         return stored(asked.value_or(has_d32f ? DepthFormat::d32f : DepthFormat::d24));
     }
-    // Whether depth buffers of that format exist; d24s8 is a d24 with stencil beside it.
+    // True if the device has depth buffers of that format; d24s8 is a d24 with a separate stencil.
     [[nodiscard]] bool has_depth(DepthFormat f) const noexcept {
         switch (f) {
             case DepthFormat::d16: return has_d16;
@@ -132,17 +134,17 @@ struct DeviceProfile {
     }
 };
 
-// geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader; in that order.
+// In the order geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader.
 [[nodiscard]] const std::vector<DeviceProfile>& builtin_profiles();
 
-// The same device drawing from another corner: its ties fall on the same sides of the picture, hence on the other of
-// memory unless raster.y_axis is clip.
+// The same device drawing from another corner: its tie rule is unchanged in the image and therefore inverted in memory,
+// unless raster.y_axis is clip.
 [[nodiscard]] DeviceProfile with_origin(DeviceProfile profile, Origin origin);
 
-// Null if there is no such name.
+// Null if there is no profile of that name.
 [[nodiscard]] const DeviceProfile* find_profile(std::string_view name);
 
-// One field of a profile for its reader: JSON key, value as text, source with the mark S, M or A of devices.md.
+// One field of a profile for display: JSON key, value as text, source with the mark S, M or A of devices.md.
 struct ProfileEntry {
     std::string key, value, source;
 };

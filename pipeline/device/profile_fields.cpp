@@ -8,7 +8,7 @@ namespace strata::pipeline {
 namespace {
 
 using Names = std::span<const std::string_view>;
-// The last is that of swiftshader; left out, it is as that of geforce8_dx101.
+// The last entry is for swiftshader; if omitted, that of geforce8_dx101 applies.
 using Sources = std::array<std::string_view, 5>;
 using Profile = DeviceProfile;
 using Rules = rasterizer::RasterRules;
@@ -31,7 +31,7 @@ template <auto member>
     }
 }
 
-// A field without its range: value and set go through `at`, as plain functions, so that the table can be constexpr.
+// A field without its range. value and set are plain functions that use `at`, so that the table can be constexpr.
 template <auto member>
 constexpr ProfileField field_of(std::string_view key, FieldKind kind, const Sources& source) {
     ProfileField field;
@@ -51,7 +51,7 @@ constexpr ProfileField boolean(std::string_view key, const Sources& source) {
     return field_of<member>(key, FieldKind::boolean, source);
 }
 
-// A choice whose names are not an enum's identifiers.
+// A choice whose names are not the identifiers of an enum.
 template <auto member>
 constexpr ProfileField choice_of(std::string_view key, Names names, const Sources& source) {
     ProfileField field = field_of<member>(key, FieldKind::choice, source);
@@ -60,7 +60,7 @@ constexpr ProfileField choice_of(std::string_view key, Names names, const Source
     return field;
 }
 
-// The values of an enum, by their identifiers: a new one is in the table at once.
+// A choice among the values of an enum, named by their identifiers: a new value is included automatically.
 template <auto member>
 constexpr ProfileField choice(std::string_view key, const Sources& source) {
     using Enum = std::remove_cvref_t<decltype(at<member>(std::declval<Profile&>()))>;
@@ -80,7 +80,7 @@ constexpr ProfileField integer(std::string_view key, Range range, const Sources&
     return field;
 }
 
-// 16 to 24 and full_double, as the names above count them.
+// The values 16 to 24 and full_double, as indices into interpolant_names.
 constexpr ProfileField interpolant_bits(std::string_view key, const Sources& source) {
     ProfileField field = choice_of<&Hypothesis::interpolant_bits>(key, interpolant_names, source);
     field.value = [](const Profile& p) {
@@ -341,7 +341,7 @@ std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {
     const rasterizer::RasterRules& rules = profile.raster;
     if (profile.blend_rounding == BlendRounding::unrounded_source && profile.has_signed_blend)
         return FieldConflict{"blend_rounding", "another with has_signed_blend", "unrounded_source"};
-    // A peel need not end there: binary32 beyond the range is stored as codes that have no order.
+    // A peel might not terminate: binary32 values outside the range are stored as codes without an order.
     if (profile.depth24 == Depth24::binary32 && rules.depth_limits == rasterizer::DepthLimits::wrap)
         return FieldConflict{"depth24", "codes with raster.depth_limits wrap", "binary32"};
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return std::nullopt;

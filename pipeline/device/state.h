@@ -1,4 +1,4 @@
-// pipeline/device/state.h - the state of the per-fragment stages, in OpenGL's names. Plain values; nothing global.
+// pipeline/device/state.h - the state of the per-fragment stages with OpenGL's names, as plain values without globals.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,11 +7,10 @@
 
 namespace strata::pipeline {
 
-// GL 2.1 4.1.4. Which operand stands on the left differs from stage
-// to stage: alpha, the stencil reference, the fragment's depth.
+// GL 2.1 4.1.4. The left operand depends on the stage: alpha, the stencil reference, the fragment's depth.
 enum class CompareFunc : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
 
-// The fragment lives if alpha FUNC ref; GL 2.1 4.1.4.
+// A fragment passes if alpha FUNC ref (GL 2.1 4.1.4).
 struct AlphaTest {
     bool enabled = false;
     CompareFunc func = CompareFunc::always;
@@ -19,12 +18,12 @@ struct AlphaTest {
     friend bool operator==(const AlphaTest&, const AlphaTest&) = default;
 };
 
-// Operations on the stored 8 bits: incr and decr stop at 255
-// and 0, the wrapping ones go around (fragment-stages.md 5).
+// Operations on the stored 8 bits: incr and decr saturate at 255 and 0, the _wrap variants wrap around
+// (fragment-stages.md 5).
 enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
 
-// The test passes if (ref & func_mask) FUNC (stored & func_mask): the reference is on the left; GL 2.1 4.1.5. What
-// happens to the stored value then depends on the depth test, too: fail, depth_fail or pass.
+// The test passes if (ref & func_mask) FUNC (stored & func_mask), the reference on the left (GL 2.1 4.1.5). The stored
+// value is then changed by fail, depth_fail or pass, depending also on the depth test.
 struct StencilFace {
     CompareFunc func = CompareFunc::always;
     std::uint8_t ref = 0, func_mask = 0xff, write_mask = 0xff;
@@ -34,14 +33,14 @@ struct StencilFace {
 
 struct StencilTest {
     bool enabled = false;
-    // EXT_stencil_two_side: `back` is for back-facing fragments; else `front` is for all.
+    // EXT_stencil_two_side: true: `back` applies to back-facing fragments; false: `front` applies to all.
     bool two_sided = false;
     StencilFace front, back;
     friend bool operator==(const StencilTest&, const StencilTest&) = default;
 };
 
-// The fragment lives if its code FUNC the stored one. Off: nothing is
-// written either, and the stencil acts as if depth had passed; GL 2.1 4.1.6.
+// A fragment passes if its code FUNC the stored one. If disabled, nothing is written either, and the stencil acts as if
+// depth had passed (GL 2.1 4.1.6).
 struct DepthTest {
     bool enabled = false;
     CompareFunc func = CompareFunc::less;
@@ -49,8 +48,8 @@ struct DepthTest {
     friend bool operator==(const DepthTest&, const DepthTest&) = default;
 };
 
-// The signed ones read the source byte as two's complement and ignore both factors: d + s', d - s'. NV2A alone
-// (fragment-stages.md 8.3); OpenGL has no such equations.
+// The signed equations interpret the source byte as two's complement and ignore both factors: d + s', d - s'. Only NV2A
+// has them (fragment-stages.md 8.3); OpenGL does not.
 enum class BlendEquation : std::uint8_t {
     add,
     subtract,
@@ -61,7 +60,7 @@ enum class BlendEquation : std::uint8_t {
     signed_reverse_subtract
 };
 
-// GL 2.1 table 4.1. What each means for colours and for alpha: fragment-stages.md 8.1.
+// GL 2.1 table 4.1. The meaning for colours and for alpha is in fragment-stages.md 8.1.
 enum class BlendFactor : std::uint8_t {
     zero,
     one,
@@ -80,24 +79,24 @@ enum class BlendFactor : std::uint8_t {
     src_alpha_saturate
 };
 
-// One for r, g, b and one for alpha: source * src (equation) destination * dst.
+// A term for r, g, b and one for alpha: source * src (equation) destination * dst.
 struct BlendTerm {
     BlendEquation equation = BlendEquation::add;
     BlendFactor src = BlendFactor::one, dst = BlendFactor::zero;
     friend bool operator==(const BlendTerm&, const BlendTerm&) = default;
 };
 
-// The blending of one target. Off: the source is stored as it is; the mask counts all the same.
+// The blending of one target. If disabled, the source is stored unchanged; the write mask still applies.
 struct Blend {
     bool enabled = false;
     BlendTerm color, alpha;
     Rgba constant{0, 0, 0, 0};
-    // Bit 0 lets r through, 1 g, 2 b, 3 a.
+    // Bit 0 enables r, 1 g, 2 b, 3 a.
     std::uint8_t write_mask = 0xf;
     friend bool operator==(const Blend&, const Blend&) = default;
 };
 
-// The blend states that papers name.
+// The blend states named in papers.
 namespace blend_mode {
 inline constexpr Blend replace{};
 // glBlendFunc(SRC_ALPHA, ONE_MINUS_SRC_ALPHA): back to front, straight source.
@@ -113,7 +112,7 @@ inline constexpr Blend under{.enabled = true,
 inline constexpr Blend sum{.enabled = true,
                            .color = {BlendEquation::add, BlendFactor::one, BlendFactor::one},
                            .alpha = {BlendEquation::add, BlendFactor::one, BlendFactor::one}};
-// GL_MAX; it ignores the factors.
+// GL_MAX; the factors are ignored.
 inline constexpr Blend max{.enabled = true,
                            .color = {BlendEquation::max, BlendFactor::one, BlendFactor::one},
                            .alpha = {BlendEquation::max, BlendFactor::one, BlendFactor::one}};

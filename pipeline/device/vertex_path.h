@@ -1,6 +1,6 @@
 // pipeline/device/vertex_path.h - the ways in which devices and drivers compute a position, as a choice. Two passes
-// that choose differently may differ in the last bits of a vertex: the commonest reason for a ported peel to fail.
-// Rules of each: pipeline/vertices/vertex_transform.h.
+// with different choices may differ in the last bits of a vertex: the most common reason for a ported peel to fail. The
+// rules are in pipeline/vertices/vertex_transform.h.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace strata::pipeline {
 
-// The formulas of rows stand in vertices.md 2.
+// The formulas of the rows are in vertices.md 2.
 enum class VertexPath : std::uint8_t {
     // Every product and every sum rounded to binary32: the default.
     separate,
-    // Fused multiply-add, each rounded once: compilers that contract.
+    // Fused multiply-add, each rounded once: compilers with contraction.
     fused,
-    // Model-view first, then the projection, with sums in pairs: drivers that keep two matrices.
+    // Model-view first, then the projection, sums in pairs: drivers that keep two matrices.
     reassociated,
-    // In binary64, rounded once: a host that transforms by itself.
+    // In binary64, rounded once: transform on the host.
     double_precision,
-    // Every product and every sum cut toward zero.
+    // Every product and every sum truncated toward zero.
     toward_zero,
-    // The vertex engine of GeForce3, with its divide by w and its viewport.
+    // The vertex engine of GeForce3, including its division by w and its viewport transform.
     nv20
 };
 

@@ -1,9 +1,9 @@
-// pipeline/frame/alteration.h - what a run does otherwise than its algorithm says: a deliberate mistake, for a caller
-// that wants to know what it looks like.
+// pipeline/frame/alteration.h - deliberate changes of a run's steps, for a caller that wants to see the effect of a
+// mistake.
 //
 // Rule     An altered run is literal: one region, one thread, every step in order. Before each step of the algorithm
-//          its function is asked, which may change the step, or answer false to leave it out. The emulator's own work
-//          (opaque priming) is never altered.
+//          the corresponding function is called; it may change the step, or return false to skip it. The emulator's own
+//          work (opaque priming) is never altered.
 // Tests    tests/pipeline/region/alteration_test.cpp
 #pragma once
 #include <cstdint>
@@ -18,7 +18,7 @@ class Region;
 
 enum class PassKind : std::uint8_t { geometry, full_screen };
 
-// One batch of a pass on its way through the pass's program.
+// A program's call for one batch of a pass.
 struct ProgramCall {
     const PassState& state;
     PassKind kind{};
@@ -33,11 +33,11 @@ struct Alteration {
     std::function<bool(Region& region, Target& target, ClearValue& value)> clear{};
     std::function<bool(Region& region, Target& from, Target& to)> copy{};
     std::function<void(Region& region, PassState& state, PassKind kind)> pass{};
-    // Stands in for the program, and calls `run` where the program itself shall run.
+    // Replaces the program; calls `run` where the program itself should run.
     std::function<void(const ProgramCall& call, const std::function<void()>& run)> program{};
-    // A pass has ended, and `passed` fragments got through its tests.
+    // Called after a pass; `passed` fragments passed its tests.
     std::function<void(PassKind kind, std::uint64_t passed)> drawn{};
-    // The answer to a query that asks about `count`.
+    // Returns the answer to a query; `count` is the queried count, `goes_on` the unaltered answer.
     std::function<bool(std::uint64_t count, bool goes_on)> query{};
 };
 

@@ -1,4 +1,4 @@
-// pipeline/frame/captured_fragment.h - a fragment of the transparent list after MASK and before any test, by itself.
+// pipeline/frame/captured_fragment.h - a single fragment of the transparent list, after MASK and before any test.
 #pragma once
 #include <cstdint>
 

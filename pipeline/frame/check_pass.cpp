@@ -1,5 +1,5 @@
-// pipeline/frame/check_pass.cpp - two kinds of "no". A pass that no machine could run is a mistake of the program:
-// std::logic_error (devices.md 9.3). A pass that this profile lacks something for is an outcome: Refused (devices.md
+// pipeline/frame/check_pass.cpp - two kinds of rejection. A pass that no device could run is a programming error:
+// std::logic_error (devices.md 9.3). A pass for which this profile lacks something is an outcome: Refused (devices.md
 // 9.2).
 #include "pipeline/frame/check_pass.h"
 
@@ -15,8 +15,8 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"pass state: "} + what);
 }
 
-// True if the pass may write `t`. A write mask of 0 does not make a target readable: state may not change what is
-// legal.
+// True if the pass may write `t`. A write mask of 0 does not make a target readable: whether a pass is legal must not
+// depend on write masks.
 bool is_written(const PassState& state, Target t) {
     return std::find(state.color.begin(), state.color.end(), t) != state.color.end() ||
            (state.depth.enabled && state.depth.write && state.depth_target == t) ||
@@ -32,7 +32,7 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
     for (const Target t : state.color)
         require(!t.exists() || is_color(format(t)), "a colour output needs a colour target");
     int samples = 0;
-    // A fragment covers the same samples of every target, so their numbers agree (fragment-stages.md 10.3).
+    // A fragment covers the same samples of every target, so their sample counts must agree (fragment-stages.md 10.3).
     const auto agrees = [&](Target t) {
         const int own = targets.at(static_cast<std::size_t>(t.id)).samples();
         require(samples == 0 || own == samples, "targets of one pass have one number of samples");
@@ -46,7 +46,8 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
         require(unit.depth.exists() && is_depth(format(unit.depth)), "a depth unit needs a depth target");
         agrees(unit.depth);
     }
-    // A texture lookup may reach any pixel, so order among the fragments of one pixel cannot make a loop safe.
+    // A texture lookup may reach any pixel, so an order among the fragments of one pixel cannot make a feedback loop
+    // safe.
     for (const Target t : state.textures) {
         require(!t.exists() || is_depth(format(t)), "texture units sample depth targets");
         require(!t.exists() || !is_written(state, t), "a texture is sampled and written at once (a feedback loop)");
@@ -64,8 +65,8 @@ void refuse_if(const DeviceProfile& profile, Verdict verdict) {
 
 void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets) {
     check_targets(state, targets);
-    // The order of the checks is that of devices.md 9.2: of several lacks the first is named. Outputs without a target
-    // blend nothing and are not looked at.
+    // The checks are in the order of devices.md 9.2: if several features are missing, the first is reported. Outputs
+    // without a target are not blended and not checked.
     std::vector<Blend> blends;
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         if (!state.color[k].exists()) continue;

@@ -1,4 +1,4 @@
-// pipeline/frame/check_pass.h - a pass against the machine that shall run it, before its first fragment.
+// pipeline/frame/check_pass.h - checks a pass against the device before its first fragment.
 #pragma once
 #include <vector>
 
@@ -9,8 +9,9 @@
 
 namespace strata::pipeline {
 
-// Throws Refused (check.h) for state that the profile lacks, and std::logic_error for a pass that no machine could run:
-// targets of unequal kind, a feedback loop (a target read and written without ordered_rmw), a test without its target.
+// Throws Refused (check.h) for state that the profile lacks, and std::logic_error for a pass that no device could run:
+// targets with different sample counts, a feedback loop (a target read and written without ordered_rmw), a test without
+// its target.
 void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets);
 
 }  // namespace strata::pipeline

@@ -1,15 +1,15 @@
-// pipeline/frame/counters.h - what a run counts. Exact integers that depend neither on threads nor on tiles.
+// pipeline/frame/counters.h - the counters of a run: exact integers that depend on neither threads nor tiles.
 #pragma once
 #include <cstdint>
 
 namespace strata::pipeline {
 
-// Fragments of the geometry passes by their fate, and bytes moved between stages and targets as if no cache existed
-// (loads of programs, tests, blending, clears, copies; full-screen passes included).
+// Fragments of the geometry passes by their fate, and bytes transferred between stages and targets as if there were no
+// cache (loads of programs, tests, blending, clears, copies; full-screen passes included).
 struct Counters {
     std::uint64_t fragments_rasterized = 0;
     std::uint64_t discarded = 0;     // by a fragment program
-    std::uint64_t alpha_killed = 0;  // alpha test, a material's MASK cutoff included
+    std::uint64_t alpha_killed = 0;  // alpha test, including a material's MASK cutoff
     std::uint64_t stencil_killed = 0;
     std::uint64_t depth_killed = 0;
     std::uint64_t blended = 0;  // reached the render targets

@@ -1,5 +1,5 @@
-// pipeline/frame/diagnostics.h - what the emulated machine got wrong, or was made to do, in one run. Nothing is
-// silently wrong.
+// pipeline/frame/diagnostics.h - errors of the emulated device in one run, and unusual behaviour that was requested. No
+// known error is silent.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -9,23 +9,24 @@
 namespace strata::pipeline {
 
 enum class Fault : std::uint8_t {
-    stencil_saturated,  // INCR or DECR met its limit
-    half_saturated,     // an fp16 sum or count stopped growing or overflowed
+    stencil_saturated,  // INCR or DECR reached its limit
+    half_saturated,     // an fp16 sum or count stopped increasing or overflowed
     early_end,          // a query ended the peel while fragments were left
-    endless,  // a peel found the same fragments again and again (a listing as printed, or its depths), and was stopped
-    truncated,            // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
-    merged_ties,          // equal depths met in one layer: colours mixed or fragments lost
-    depth_quantized,      // a program had to quantise its z like the buffer before comparing
+    endless,      // a peel found the same fragments repeatedly (a listing as printed, or its depths) and was stopped
+    truncated,    // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
+    merged_ties,  // equal depths in one layer: colours mixed or fragments lost
+    depth_quantized,      // a program had to quantize its z like the buffer before comparing
     non_finite_vertices,  // triangles dropped for NaN or infinite coordinates
-    count_limit,        // a count in the stencil buffer reached what its pass allows: more iterations, no wrong picture
-    equal_at_bound,     // fragments of equal depth at the bound of a peel
-    buffer_overflow,    // more fragments at a pixel than its k entries can hold or order
-    as_published,       // a listing as printed lost, repeated or misplaced fragments
-    out_of_order,       // what an algorithm takes for sorted is not
-    ties_with_opaque,   // fragments at the very depth of an opaque surface: hidden, where LEQUAL would show them
-    non_finite_target,  // a target came to hold infinity or NaN
-    unlike_depths,      // layers lost or repeated because the compared depths are not the stored ones
-    emulator_extension,  // a feature no real device had (STRATA_depth_units ...)
+    count_limit,          // a count in the stencil buffer reached the limit of its pass: more iterations, image
+                          // unaffected
+    equal_at_bound,       // fragments of equal depth at the bound of a peel
+    buffer_overflow,      // more fragments at a pixel than its k entries can store or sort
+    as_published,         // a listing as printed lost, repeated or misplaced fragments
+    out_of_order,         // fragments that an algorithm requires to be sorted are not
+    ties_with_opaque,     // fragments at exactly the depth of an opaque surface: hidden, while LEQUAL would show them
+    non_finite_target,    // a target received infinity or NaN
+    unlike_depths,        // layers lost or repeated because the compared depths differ from the stored ones
+    emulator_extension,   // a feature that no real device had (STRATA_depth_units ...)
 };
 
 [[nodiscard]] constexpr std::string_view name(Fault fault) noexcept {
@@ -51,7 +52,7 @@ enum class Fault : std::uint8_t {
     return "";  // unreachable: the enum is closed
 }
 
-// `first` is the first pixel concerned, row by row from the top left; (-1, -1) where no pixel is meant.
+// `first` is the first affected pixel, row by row from the top left; (-1, -1) if the diagnostic has no pixel.
 struct Diagnostic {
     Fault fault{};
     std::uint64_t pixels = 0;
@@ -60,8 +61,8 @@ struct Diagnostic {
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
 
-// Adds to `all` what another region found: counts add up, the earlier first pixel stays. Order of calls does not
-// matter.
+// Merges the diagnostic of another region into `all`: counts are added, the earlier first pixel is kept. The order of
+// calls does not matter.
 void merge(std::vector<Diagnostic>& all, const Diagnostic& one);
 
 }  // namespace strata::pipeline

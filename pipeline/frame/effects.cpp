@@ -11,7 +11,7 @@ namespace strata::pipeline {
 
 namespace {
 
-// Adds the fragments of one tile by material; the greatest number that a pixel has.
+// Adds the fragments of one tile by material; returns the greatest number at one pixel.
 std::uint32_t count_fragments(const PreparedDraw& list, std::size_t tile, std::vector<std::uint64_t>& by_material) {
     const auto triangles = list.geometry.bin(tile);
     if (triangles.empty()) return 0;

@@ -1,5 +1,5 @@
-// pipeline/frame/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the
-// instruments asked for.
+// pipeline/frame/frame_result.h - the result of a run: images, counts, and the data that the audit and the instruments
+// request.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,27 +10,27 @@
 
 namespace strata::pipeline {
 
-struct Work {                     // what was really done; may differ by execution
+struct Work {                     // work actually done; may depend on the execution
     std::uint64_t fragments = 0;  // rasterized
     std::uint64_t visited = 0;    // by programs of geometry passes, in the last run of every region
     std::uint64_t regions = 0, reruns = 0;
     int tile_size = 0;
-    Path path = Path::literal;  // the slowest of all regions
-    std::string why;            // not a faster one; empty where there is none
+    Path path = Path::literal;  // the slowest path of all regions
+    std::string why;            // why no faster path was taken; empty if there is none
 };
 
 struct FrameResult {
     Image color;
-    Image depth;  // nearest visible key, when asked for
+    Image depth;  // nearest visible key, if requested
     std::vector<KeptLayer> layers;
     int iterations = 0;
     PassCount passes;
-    std::optional<Counters> counters;  // of literal execution alone
+    std::optional<Counters> counters;  // only from literal execution
     Work work;
     std::vector<Diagnostic> diagnostics;
-    Answers answers;     // to the frame's queries: a script for running a part of it again
-    double watched = 0;  // the watch's share of the time that was spent in regions
-    PassLog pass_log;    // where Instruments ask for it
+    Answers answers;     // to the frame's queries: a script for repeating a part of the frame
+    double watched = 0;  // the watch's share of the time spent in regions
+    PassLog pass_log;    // if Instruments request it
 };
 
 }  // namespace strata::pipeline

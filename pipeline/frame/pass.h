@@ -1,4 +1,4 @@
-// pipeline/frame/pass.h - one pass as values: its state, and what a fragment program reads and writes.
+// pipeline/frame/pass.h - one pass as values: its state, and the inputs and outputs of a fragment program.
 #pragma once
 #include <array>
 #include <concepts>
@@ -14,8 +14,8 @@ namespace strata::pipeline {
 
 inline constexpr int max_color_targets = 8, max_reads = 8, max_depth_units = 4;
 
-// One of Everitt's sequential depth units (Listing 1): a read-only test against a depth target of its own, before the
-// depth test proper. The first that fails discards the fragment. STRATA_depth_units, an emulator extension.
+// One of Everitt's sequential depth units (Listing 1): a read-only test against its own depth target, before the depth
+// test. The first one that fails discards the fragment. STRATA_depth_units, an emulator extension.
 struct DepthUnit {
     Target depth;
     CompareFunc func = CompareFunc::always;
@@ -29,26 +29,25 @@ struct PassState {
     Target depth_target, stencil_target;
     std::array<Target, max_color_targets> color{};
     std::array<Blend, max_color_targets> blend{};  // unequal equations or factors need has_independent_blend
-    std::array<Target, max_reads> reads{};         // what the program may load, at its own pixel and sample 0 only
-    bool ordered_rmw = false;                      // reads may overlap what is written (STRATA_ordered_rmw)
+    std::array<Target, max_reads> reads{};         // readable by the program, only at its own pixel and sample 0
+    bool ordered_rmw = false;                      // reads may overlap written targets (STRATA_ordered_rmw)
     std::uint8_t sample_mask = 0xff;  // multisample rasterization off: a fragment covers every masked sample
     std::array<DepthUnit, max_depth_units> depth_units{};
     int depth_unit_count = 0;
-    std::array<Target, 4> textures{};  // depth targets that texture units sample, anywhere in the region
-    bool replaces_depth = false;       // the program may leave another depth (Outputs::depth)
-    rasterizer::FragmentNeeds needs;   // what the program looks at; the stages add what they need themselves
+    std::array<Target, 4> textures{};  // depth targets that texture units sample at any pixel of the region
+    bool replaces_depth = false;       // the program may output another depth (Outputs::depth)
+    rasterizer::FragmentNeeds needs;   // values that the program reads; the stages add their own needs
     std::span<const PrimitiveRange>
-        primitives{};             // of a geometry pass: these alone, ascending and disjoint; empty: all
-    FragmentSelection selection;  // of a geometry pass: the fragments that decide what it leaves
+        primitives{};             // for a geometry pass: only these, ascending and disjoint; empty: all
+    FragmentSelection selection;  // for a geometry pass: the fragments that decide its result
 };
 
 // The values that a program may load: the declared reads, gathered at the fragments' own pixels.
 class Loads {
   public:
-    // Colour target number `read` of PassState::reads as binary32 channels; missing channels are 0, a missing alpha is
-    // 1.
+    // Colour target `read` of PassState::reads as binary32 channels; missing channels are 0, a missing alpha is 1.
     [[nodiscard]] const ColorLanes& color(int read) const noexcept { return color_[static_cast<std::size_t>(read)]; }
-    // Depth target number `read` as codes.
+    // Depth target `read` as codes.
     [[nodiscard]] const Lanes<std::uint32_t>& depth(int read) const noexcept {
         return depth_[static_cast<std::size_t>(read)];
     }
@@ -59,24 +58,25 @@ class Loads {
     std::array<Lanes<std::uint32_t>, max_reads> depth_;
 };
 
-// Where a traced fragment joins the sequence that a pixel composites: at its far end (UNDER) or at its near end (OVER).
+// Where a traced fragment is inserted in the composited sequence of its pixel: at the far end (UNDER) or at the near
+// end (OVER).
 enum class Side : std::uint8_t { none, front, back };
 
 // The results of a program. Fragments start alive; colours are undefined until written, straight or premultiplied as
-// the blend state expects them.
+// the blend state requires.
 struct Outputs {
     std::array<ColorLanes, max_color_targets> color;
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=
-    std::uint64_t tally = 0;     // counts whatever the program calls an event
+    std::uint64_t tally = 0;     // number of events, as defined by the program
 
-    // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is
+    // For the audit: lane i composites depth key `key[i]` on `side[i]` if it survives the tests. Used if `traced` is
     // set.
     Lanes<Side> side;
     Lanes<std::uint32_t> key;
     bool traced = false;
 
-    // The codes that depth units and depth test compare and write instead of the batch's own (a quad has none). Used
-    // when `replaces_depth` is set; a geometry pass says so beforehand in PassState::replaces_depth.
+    // The codes that depth units and depth test compare and write instead of the batch's own (a quad has none). Used if
+    // `replaces_depth` is set; a geometry pass must declare it in PassState::replaces_depth.
     Lanes<std::uint32_t> depth;
     bool replaces_depth = false;
 
@@ -89,12 +89,12 @@ concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& o
     p(in, own, out);
 };
 
-// A query's answer in one region. It cannot be read: a tile's number is not the frame's. Region::any turns it into a
-// branch.
+// A query's count in one region. It cannot be read, because a tile's count is not the frame's. Region::any turns it
+// into a branch.
 class Count {
   public:
     Count() = default;
-    // Several queries may be open at once; what one spans is the sum of its draws.
+    // Several queries may be open at once; the count of a span is the sum of its draws.
     friend Count operator+(Count a, Count b) noexcept { return Count{a.own_ + b.own_}; }
 
   private:
@@ -108,15 +108,15 @@ class Count {
 
 // An algorithm's promise about a region whose own count is zero.
 enum class Idle : std::uint8_t {
-    no,  // further iterations may change its bits
-    yes  // they change none of its bits
+    no,  // further iterations may change the region's bits
+    yes  // they do not change its bits
 };
 
-// A pass's depth test in one region: to be made, or passed by every fragment whatever its depth.
+// A pass's depth test in one region: to be executed, or known to pass for every fragment whatever its depth.
 enum class DepthOutcome : std::uint8_t { open, passes };
 
 struct Drawn {
-    Count passed;   // fragments alive after stencil and depth tests (samples of the mask count one each)
+    Count passed;   // fragments alive after stencil and depth tests (each sample of the mask counts as one)
     Count tallied;  // Outputs::tally
 };
 

@@ -1,4 +1,4 @@
-// pipeline/frame/region_area.h - where a region lies, and the words in which its callers say what they ask of it.
+// pipeline/frame/region_area.h - the rectangle of a region, and the enums with which callers describe their use of it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -8,11 +8,11 @@
 namespace strata::pipeline {
 
 enum class Extent : std::uint8_t { frame, tile };
-enum class Counting : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
+enum class Counting : std::uint8_t { counted, silent };  // a pass of the algorithm, or a query of the emulator itself
 
 struct RegionArea {
     rasterizer::Rect rect;
-    std::size_t tile = 0;  // its number; of an extent `tile`
+    std::size_t tile = 0;  // tile number, if the extent is `tile`
     Extent extent = Extent::frame;
 };
 

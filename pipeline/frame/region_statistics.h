@@ -1,5 +1,5 @@
-// pipeline/frame/region_statistics.h - what a region writes down while its body runs: all that the executor needs to
-// put the frame together.
+// pipeline/frame/region_statistics.h - what a region records while its body runs: everything that the executor needs to
+// assemble the frame.
 //
 // Rule     `script` and `passes_before` come from the executor, everything else from the region.
 // Tests    tests/pipeline/region/executor_test.cpp
@@ -21,27 +21,27 @@ struct Decision {
     bool answer = false;
 };
 
-// One loop of a body: its queries, its passes, and what stands around it.
+// One loop of a body: its queries and its passes, including those around it.
 struct LoopStatistics {
     std::vector<Decision> decisions;
     int iterations = 0;
-    PassCount passes;  // of the first loop, those before it, too; of the last one, those behind it
+    PassCount passes;  // the first loop includes the passes before it, the last one those after it
 };
 
-// Answers to the queries of every loop.
+// The answers to the queries of every loop.
 using Answers = std::vector<std::vector<bool>>;
 
 struct KeptLayer {
     Image color, depth;       // of the region's rectangle
-    Side side = Side::front;  // from which end the peel took it
+    Side side = Side::front;  // the end from which the peel took it
 };
 
-// How a run came by the fragments that its geometry passes look at, from the slowest way on: the frame is one region,
-// and every pass rasterizes; so it does in each tile; passes read what was recorded of the tile; and a whole loop was
-// computed from that, without passes.
+// How a run obtained the fragments of its geometry passes, from the slowest path to the fastest. literal: the frame is
+// one region, and every pass rasterizes. tiled: every pass rasterizes in each tile. recorded: passes read the tile's
+// record. resolved: a whole loop was computed from the record, without passes.
 enum class Path : std::uint8_t { literal, tiled, recorded, resolved };
 
-// Of a region, and why it did not go a faster way: sentences, null where nothing was in the way.
+// The path of a region, and why it did not take a faster one: error sentences, null if there is none.
 struct PathTaken {
     bool rasterizes = false, reads_record = false, is_resolved = false;
     const char *why_rasterized = nullptr, *why_unresolved = nullptr;
@@ -52,11 +52,11 @@ struct PathTaken {
     [[nodiscard]] const char* why() const noexcept { return rasterizes ? why_rasterized : why_unresolved; }
 };
 
-// The passes and queries of a run as they were decided, where Instruments ask for them.
+// The passes and queries of a run as they were decided, if Instruments request them.
 struct PassRecord {
     PassState state;
-    rasterizer::FragmentNeeds needs;       // what is simulated
-    rasterizer::FragmentNeeds called_for;  // what is under Effects::needed
+    rasterizer::FragmentNeeds needs;       // simulated values
+    rasterizer::FragmentNeeds called_for;  // values needed under Effects::needed
     bool samples_textures = false;
     bool is_opaque_priming = false;
     int iteration = 0;  // 0: before the first
@@ -64,19 +64,19 @@ struct PassRecord {
 
 struct PassLog {
     std::vector<PassRecord> passes;
-    int queries = 0;  // whose answer was asked for
+    int queries = 0;  // number of queries whose answer was requested
 };
 
 struct RegionStatistics {
-    Answers script;  // the frame's that are known already; further ones are guessed from the region's own counts
-    std::vector<LoopStatistics> loops =
-        std::vector<LoopStatistics>(1);  // one, unless the body says that a further one begins
-    // The frame's geometry passes before each loop, where a limit counts them; else as many as the region has made.
+    Answers script;  // the frame's answers that are known already; further ones are guessed from the region's own
+                     // counts
+    std::vector<LoopStatistics> loops = std::vector<LoopStatistics>(1);  // one, unless the body begins further ones
+    // The frame's geometry passes before each loop, if a limit counts them; otherwise those of the region.
     std::vector<int> passes_before;
     int iterations = 0;  // of all loops
-    Target published;    // what the body leaves: its final colour
+    Target published;    // the final colour of the body
     std::vector<KeptLayer> layers;
-    std::size_t idle_layers = 0;  // the last ones, kept while idle: empty
+    std::size_t idle_layers = 0;  // number of layers at the end that were kept while idle: empty
     std::vector<Diagnostic> diagnostics;
     PassLog pass_log;
     std::uint64_t fragments_drawn = 0;
@@ -84,10 +84,10 @@ struct RegionStatistics {
     PathTaken taken;
     int geometry_passes = 0;
     bool counts = true;  // false during the emulator's own work (opaque priming, capture)
-    Counters counters;   // which only literal execution tells
+    Counters counters;   // only from literal execution
 };
 
-// While it lives the region's work is the emulator's own, and nothing counts it.
+// While it exists, the region's work is the emulator's own and is not counted.
 class UncountedWork {
   public:
     explicit UncountedWork(RegionStatistics& statistics) noexcept

@@ -1,10 +1,10 @@
-// pipeline/frame/selection.h - which fragments a geometry pass looks at, as data: tiles visit those alone.
+// pipeline/frame/selection.h - the fragments that a geometry pass needs, as data: tiles visit only those.
 //
 // Rule     A selection is a promise about the pass's own state and program. At every pixel the *interval* is a range of
-//          keys (Frame::key) between bounds that targets hold there when the pass begins, and the pass keeps some
-//          fragments of the interval. The others leave every target as it is: those of the interval because the kept
-//          ones decide alone, those outside because they die or write what is there. The program looks at no
-//          primitive's number, and tallies nothing outside. `Instruments::check_selections` visits every fragment, too,
+//          keys (Frame::key) between bounds stored in targets when the pass begins, and the pass keeps some fragments
+//          of the interval. The others leave every target unchanged: those of the interval because the kept ones alone
+//          decide the result, those outside because they die or write the stored values. The program does not use
+//          primitive indices, and tallies nothing outside. `Instruments::check_selections` also visits every fragment
 //          and compares.
 // Source   execution.md 7.1.
 // Tests    tests/peeling/selection_test.cpp, execution_test.cpp
@@ -18,27 +18,29 @@
 
 namespace strata::pipeline {
 
-// The fragments of its interval that decide what a pass leaves at a pixel.
+// The fragments of its interval that decide the result of a pass at a pixel.
 enum class Keeps : std::uint8_t {
     everything,  // no selection: every fragment is visited
-    nearest,   // the first submitted of the least key: by a depth test LESS with a write, without blending and stencil
-    interval,  // all of the interval, in submission order, whatever the tests
-    ends,      // the first and the last key, all of equal keys, and the nearest and farthest between: by MAX of (-z, z)
-    submitted  // from number `first_submitted` of the interval on, in submission order, one for each sample: by a
-               // stencil test that all of the interval count down and only those meet
+    nearest,   // the first submitted of those with the least key: for a depth test LESS with a write, without blending
+               // and stencil
+    interval,  // all of the interval, in submission order, for any tests
+    ends,      // those with the first and the last key including ties, and the nearest and farthest between: for MAX of
+               // (-z, z)
+    submitted  // from index `first_submitted` of the interval on, in submission order, one per sample: for a stencil
+               // test that all fragments of the interval, and only those, count down
 };
 
-// What a fragment outside the interval does.
+// The effect of a fragment outside the interval.
 enum class Outside : std::uint8_t {
-    dies,         // by the program, by the alpha test or by a depth unit, before the tests
-    writes_alike  // writes what any other of its pixel's outside the interval writes, under blends that keep it
+    dies,         // killed by the program, by the alpha test or by a depth unit, before the tests
+    writes_alike  // writes the same as every other fragment of its pixel outside the interval, with blends that keep it
 };
 
-// One end of an interval: what a target holds.
+// One end of an interval: the value of a target.
 struct KeyBound {
     Target target{};
-    bool includes = false;  // the key itself lies in the interval
-    int channel = -1;       // of a float target that holds values of stored codes; else a depth target
+    bool includes = false;  // the key itself is in the interval
+    int channel = -1;       // of a float target with values of stored codes; -1: a depth target
     [[nodiscard]] bool exists() const noexcept { return target.exists(); }
     [[nodiscard]] static constexpr KeyBound beyond(Target target) noexcept { return {target}; }
     [[nodiscard]] static constexpr KeyBound at(Target target) noexcept { return {target, true}; }
@@ -47,12 +49,12 @@ struct KeyBound {
 struct FragmentSelection {
     Keeps keeps = Keeps::everything;
     Outside outside = Outside::dies;
-    KeyBound near{};                      // keys greater than it
-    std::array<KeyBound, 2> far{};        // keys less than each
+    KeyBound near{};                      // keys greater than this
+    std::array<KeyBound, 2> far{};        // keys less than each of these
     Target range{};                       // float target: keys from minus its red to its green, both included
-    std::uint32_t least = 0, most = ~0u;  // keys, both included
+    std::uint32_t least = 0, most = ~0u;  // bounds of keys, both included
     std::uint32_t first_submitted = 0;
-    // Of nearest and ends: `near` or `range` bounds the depth that this compares, and no key.
+    // For nearest and ends: if set, `near` or `range` bounds the depth that this compares instead of the key.
     std::optional<DepthCompare> compared{};
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
 };

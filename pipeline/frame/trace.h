@@ -1,9 +1,9 @@
-// pipeline/frame/trace.h - what the pixels of a region composited, in the order in which it happened, within a stated
-// memory.
+// pipeline/frame/trace.h - the sequence of fragments and layers that each pixel of a region composited, within a memory
+// limit.
 //
-// Rule     A trace that would outgrow its memory forgets everything, says so, and takes no more: half a trace tells
-//          nothing.
-// Layout   Chunks of 16 KiB, kept from region to region, so that no entry moves and memory is asked for once.
+// Rule     A trace that would exceed its memory is discarded, marked as incomplete and not continued, because a partial
+//          trace is useless.
+// Layout   Chunks of 16 KiB, reused from region to region, so that no entry moves and memory is allocated once.
 // Tests    tests/pipeline/region/trace_test.cpp
 #pragma once
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace strata::pipeline {
 
-// One step of what a pixel composited; see Outputs::side.
+// One step of a pixel's compositing; see Outputs::side.
 struct TraceEntry {
     std::uint32_t pixel = 0, key = 0, primitive = 0;
     Side side = Side::none;
-    bool is_fragment = false;  // `primitive` counts; false: a layer, known by its key alone
+    bool is_fragment = false;  // true: `primitive` is valid; false: a layer, which has only a key
 };
 
 class Trace {
   public:
-    // Forgets everything; from now on holds up to `bytes` of entries.
+    // Discards all entries; then stores up to `bytes` of entries.
     void start(std::uint64_t bytes) noexcept {
         limit_ = static_cast<std::size_t>(std::min<std::uint64_t>(bytes / sizeof(TraceEntry), most_entries));
         clear();
@@ -34,14 +34,14 @@ class Trace {
         size_ = 0;
         room_ = std::min(limit_, chunks_.size() * chunk_entries);
     }
-    // False: it would have outgrown its memory, and holds nothing.
+    // False if the trace would have exceeded its memory; it is then empty.
     [[nodiscard]] bool is_complete() const noexcept { return is_complete_; }
 
     void push_back(const TraceEntry& entry) {
         if (size_ == room_ && !grow()) return;
         (*this)[size_++] = entry;
     }
-    // Forgets the entries from number `size` on; `size` is at most size().
+    // Discards the entries from index `size` on. Precondition: `size` is at most size().
     void shorten(std::size_t size) noexcept { size_ = std::min(size_, size); }
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -54,7 +54,7 @@ class Trace {
 
   private:
     static constexpr std::size_t chunk_entries = 1024;
-    static constexpr std::size_t most_entries = ~std::uint32_t{0};  // their numbers have 32 bits
+    static constexpr std::size_t most_entries = ~std::uint32_t{0};  // indices have 32 bits
     static_assert(sizeof(TraceEntry) == 16);
 
     [[nodiscard]] bool grow() {
@@ -69,7 +69,7 @@ class Trace {
     }
 
     std::size_t limit_ = most_entries;
-    std::size_t size_ = 0, room_ = 0;  // room_: entries up to which nothing is asked for
+    std::size_t size_ = 0, room_ = 0;  // room_: number of entries for which memory is allocated
     bool is_complete_ = true;
     std::vector<std::unique_ptr<TraceEntry[]>> chunks_;
 };

@@ -1,4 +1,4 @@
-// pipeline/frame/verdict.h - what a frame-wide query count means: go on, or stop. execution.md 4.1.
+// pipeline/frame/verdict.h - decides from a frame-wide query count whether a loop continues (execution.md 4.1).
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,8 @@
 
 namespace strata::pipeline {
 
-// exact, paper, any: something was left. ratio: at least ratio x width x height were left. fixed asks nothing.
+// exact, paper, any: continue if the count is not 0. ratio: continue if it is at least ratio x width x height. fixed
+// makes no queries.
 [[nodiscard]] inline bool continues(const Termination& termination, const rasterizer::Rect& frame,
                                     std::uint64_t count) {
     if (termination.rule != TerminationRule::ratio) return count > 0;

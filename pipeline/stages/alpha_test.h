@@ -1,8 +1,8 @@
-// pipeline/stages/alpha_test.h - fragments leave by their alpha.
+// pipeline/stages/alpha_test.h - the alpha test.
 //
 // Rule     eight_bit: round(255 alpha) FUNC round(255 ref), integers, both clamped. Otherwise alpha FUNC ref in
-//          binary32 as they are: a NaN alpha passes `notequal` and `always` alone. With several targets the alpha is
-//          colour 0's.
+//          binary32 without clamping: a NaN alpha passes only `notequal` and `always`. With several targets the alpha
+//          of colour 0 is tested.
 // Source   fragment-stages.md 3 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A, chip-fragment.md 2; binary32 for
 //          float targets: ARB_color_buffer_float).
 // Tests    tests/pipeline/stages/alpha_test_test.cpp
@@ -16,15 +16,15 @@
 
 namespace strata::pipeline {
 
-// Does the alpha test of this device compare 8-bit integers where color 0 has channels of `type`?
+// True if the alpha test of this device compares 8-bit integers when colour target 0 has channels of `type`.
 [[nodiscard]] constexpr bool is_eight_bit_alpha(AlphaTestPrecision precision, ChannelType type) noexcept {
     return precision == AlphaTestPrecision::unorm8 || type == ChannelType::unorm8;
 }
 
-// Clears alive[i] where the test fails; a test that is off, or `always`, touches nothing. Lanes [0, count).
+// Clears alive[i] for lanes [0, count) where the test fails; a disabled test, or `always`, changes nothing.
 void alpha_test(const AlphaTest& state, bool eight_bit, const float* alpha, std::uint32_t* alive, int count) noexcept;
 
-// Its meaning; alpha_test is the same compiled for the chosen instruction set (stages_simd.cpp).
+// The definition; alpha_test is the same loop compiled for the selected instruction set (stages_simd.cpp).
 inline namespace strict {
 namespace scalar {
 inline void alpha_test(const AlphaTest& state, bool eight_bit, const float* __restrict alpha,

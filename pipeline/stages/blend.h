@@ -1,12 +1,12 @@
-// pipeline/stages/blend.h - what a fragment's colour becomes in its render target.
+// pipeline/stages/blend.h - blends a fragment's colour into its render target.
 //
-// Rule     R = s F + d G, s F - d G, d G - s F, min(s, d) or max(s, d); MIN and MAX ignore the factors. RGB and
-//          alpha have terms of their own. No alpha channel: destination alpha is 1. Blending off: the source
-//          replaces, converted once. The arithmetic of 8-bit targets stands in blend_unorm8.h, that of fp16 and
+// Rule     R = s F + d G, s F - d G, d G - s F, min(s, d) or max(s, d); MIN and MAX ignore the factors. RGB and alpha
+//          have separate terms. Without an alpha channel, destination alpha is 1. With blending off the source replaces
+//          the destination, converted once. The arithmetic of 8-bit targets is in blend_unorm8.h, that of fp16 and
 //          binary32 targets in blend_float.h.
 // Source   fragment-stages.md 8 and 9 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
-// Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once an instruction
-//          set; the others fill two arrays of factors first.
+// Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once per instruction set; the others first
+//          fill two arrays of factors.
 // Tests    tests/pipeline/stages/blend_unorm8_test.cpp, tests/pipeline/stages/blend_float_test.cpp,
 //          tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
@@ -20,9 +20,9 @@
 
 namespace strata::pipeline {
 
-// Updates codes[c] for c < channels where the write mask has bit c, in all lanes i < count (and up to the next multiple
-// of 16, as scratch); the caller stores those that live. All four channels of `src` count, whatever
-// the target keeps: a two-channel target may blend by source alpha.
+// Updates codes[c] for c < channels if the write mask has bit c, in all lanes i < count (and up to the next multiple of
+// 16, as scratch); the caller stores the alive ones. All four channels of `src` are used, whatever the target stores: a
+// two-channel target may blend by source alpha.
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
            const std::array<rasterizer::Lanes<float>, 4>& src, std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes,
            int count) noexcept;

@@ -1,5 +1,5 @@
 // pipeline/stages/blend_kernels.h - one blend term over the lanes of one channel, for any arithmetic: Unorm8Arithmetic
-// or FloatArithmetic. The terms that papers name have their factors compiled in. Included by blend_lanes.h alone.
+// or FloatArithmetic. The terms named in papers have compile-time factors. Included only by blend_lanes.h.
 #pragma once
 #include <type_traits>
 
@@ -21,8 +21,8 @@ struct BlendOperands {
     bool is_alpha = false;
 };
 
-// The factor of lane i, by the table of fragment-stages.md 8.1. `s` and `d`
-// are the channel's own values, so for alpha src_color means the alpha.
+// The factor of lane i, by the table of fragment-stages.md 8.1. `s` and `d` are the channel's own values, so for alpha
+// src_color means the alpha.
 template <class Arithmetic, BlendFactor f>
 [[nodiscard]] inline float factor(const BlendOperands& in, std::size_t i) noexcept {
     using enum BlendFactor;
@@ -40,12 +40,12 @@ template <class Arithmetic, BlendFactor f>
     if constexpr (f == one_minus_constant_color) return Arithmetic::one_minus(in.constant);
     if constexpr (f == constant_alpha) return in.constant_alpha;
     if constexpr (f == one_minus_constant_alpha) return Arithmetic::one_minus(in.constant_alpha);
-    // min(As, 1 - Ad), of the colours; for alpha the factor is 1 (fill_factor).
+    // min(As, 1 - Ad), for colours; for alpha the factor is 1 (fill_factor).
     if constexpr (f == src_alpha_saturate)
         return Arithmetic::lesser(in.src_alpha[i], Arithmetic::one_minus(in.dst_alpha[i]));
 }
 
-// Calls body(std::integral_constant<BlendFactor, f>): the switch stands outside of the loop over lanes.
+// Calls body(std::integral_constant<BlendFactor, f>), so that the switch is outside the loop over lanes.
 template <class Body>
 void with_factor(BlendFactor f, Body&& body) {
     using enum BlendFactor;
@@ -68,7 +68,7 @@ void with_factor(BlendFactor f, Body&& body) {
     }
 }
 
-// Calls body with the equation as a type: like the factor above, it is chosen before the loop over lanes.
+// Calls body with the equation as a type, also before the loop over lanes.
 template <class Body>
 void with_equation(BlendEquation equation, Body&& body) {
     using enum BlendEquation;
@@ -83,7 +83,7 @@ void with_equation(BlendEquation equation, Body&& body) {
     }
 }
 
-// Both factors compiled in: one loop.
+// Both factors are compile-time constants: one loop.
 template <class Arithmetic, BlendEquation equation, BlendFactor src, BlendFactor dst>
 void blend_fused(const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
     constexpr bool keeps_s = src == BlendFactor::one, keeps_d = dst == BlendFactor::one;
@@ -101,7 +101,7 @@ void fill_factor(BlendFactor f, const BlendOperands& in, ValueLanes& out, std::s
     });
 }
 
-// Any term: factors first, then the equation. Rare and long: one copy for all instruction sets.
+// Any term: factors first, then the equation. Rarely used and long, so there is one copy for all instruction sets.
 template <class Arithmetic>
 [[gnu::noinline]] void blend_general(const BlendTerm& term, const BlendOperands& in, ValueLanes& out,
                                      std::size_t count) noexcept {
@@ -114,7 +114,7 @@ template <class Arithmetic>
     });
 }
 
-// Picks the loop of a term once for a channel. MIN and MAX ignore their factors, so any pair will do.
+// Selects the loop of a term, once per channel. MIN and MAX ignore their factors, so any pair may be used.
 template <class Arithmetic>
 void blend_channel(const BlendTerm& term, const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
     using enum BlendEquation;

@@ -1,5 +1,5 @@
-// pipeline/stages/blend_lanes.h - the loops of blend.h, compiled once an instruction set. Included by blend_simd.cpp
-// alone.
+// pipeline/stages/blend_lanes.h - the loops of blend.h, compiled once per instruction set. Included only by
+// blend_simd.cpp.
 #pragma once
 #include <bit>
 
@@ -18,7 +18,7 @@ using rasterizer::Lanes;
 using ColorLanes = std::array<Lanes<float>, 4>;
 using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;
 
-// One batch on its way through a blend; counts and masks as in `blend`.
+// The arguments of one blend of a batch; counts and masks as in `blend`.
 struct Job {
     const Blend& state;
     int channels;
@@ -31,8 +31,8 @@ struct Job {
     }
 };
 
-// How halves become binary32 and are rounded to nearest even. A kernel may bring the machine's own instructions, even
-// if they make a signalling NaN quiet: no NaN leaves a blend but the canonical one.
+// Conversion between halves and binary32, rounding to nearest even. A kernel may substitute hardware instructions even
+// if they make a signalling NaN quiet, because the only NaN that leaves a blend is the canonical one.
 struct PlainHalves {
     static void decode(const std::uint32_t* codes, float* values, std::size_t count) noexcept {
         scalar::decode(ChannelType::half, codes, values, count);
@@ -42,7 +42,7 @@ struct PlainHalves {
     }
 };
 
-// The values of stored halves: `Halves` knows those with an infinity alone.
+// The values of stored halves; `Halves` implements only formats with an infinity.
 template <class Halves>
 void widen(HalfRounding rounding, const std::uint32_t* codes, float* values, std::size_t count) noexcept {
     if (rounding != HalfRounding::no_infinity) return Halves::decode(codes, values, count);
@@ -50,7 +50,7 @@ void widen(HalfRounding rounding, const std::uint32_t* codes, float* values, std
         values[i] = half_value<HalfRounding::no_infinity>(static_cast<std::uint16_t>(codes[i]));
 }
 
-// The rounding of a store: `Halves` knows the nearest even one alone.
+// The rounding of a store; `Halves` implements only round to nearest even.
 template <class Halves>
 void store(ChannelType type, ColorRounding rounding, const float* values, std::uint32_t* codes,
            std::size_t count) noexcept {
@@ -59,13 +59,14 @@ void store(ChannelType type, ColorRounding rounding, const float* values, std::u
     encode(type, rounding, values, codes, count);
 }
 
-// Lanes of a batch as operands of the arithmetic, converted one by one.
+// Converts the lanes of a batch one by one to operands of the arithmetic.
 template <class T>
 void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
     for (std::size_t i = 0; i < count; ++i) operand[i] = convert(source[i]);
 }
 
-// Blends the loaded operands, alpha last because the colours read the stored alpha; store(channel, lanes) takes them.
+// Blends the loaded operands and passes the results to store(channel, lanes). Alpha is last, because the colours read
+// the stored alpha.
 template <class Arithmetic>
 void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
                     auto store) noexcept {
@@ -80,7 +81,7 @@ void blend_channels(const Job& job, const std::array<float, 4>& constant, const 
     }
 }
 
-// 8-bit targets: codes are loaded as whole numbers in binary32, blended, and stored again.
+// 8-bit targets: codes are loaded as integers in binary32, blended, and stored again.
 template <BlendRounding rounding, UnormRounding to_code>
 void blend_unorm8(const Job& job) noexcept {
     alignas(64) ColorLanes s, d;
@@ -90,12 +91,12 @@ void blend_unorm8(const Job& job) noexcept {
         constant[c] = static_cast<float>(to_unorm8<to_code>(job.state.constant[c]));
         if (job.writes(channel) || channel == 3)
             load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8<to_code>(x)}); });
-        // The mask is for lanes beyond the batch, which fill up a vector and may hold any 32 bits.
+        // The mask is for lanes past the batch, which fill up a vector and may have any 32 bits.
         if (channel < job.channels)
             load(job.codes[c], d[c], job.count,
                  [](std::uint32_t code) { return static_cast<float>(static_cast<int>(code & 0xff)); });
     }
-    // A target without alpha reads as alpha 1.
+    // Destination alpha of a target without alpha is 1.
     if (job.channels < 4) d[3].fill(255.0f);
     blend_channels<Unorm8Arithmetic<rounding>>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
         for (std::size_t i = 0; i < job.count; ++i)
@@ -103,8 +104,8 @@ void blend_unorm8(const Job& job) noexcept {
     });
 }
 
-// BlendRounding::unrounded_source: values in binary32, one rounding an operation, and a code at the end. No operand is
-// NaN or a denormal that could reach a code.
+// BlendRounding::unrounded_source: values in binary32, one rounding per operation, converted to a code at the end. No
+// operand is a NaN, or a denormal that could affect a code.
 inline void blend_unrounded(const Job& job, UnormRounding to_code) noexcept {
     alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
@@ -170,7 +171,7 @@ void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile)
     profile.denormals == flush ? by.template operator()<flush>() : by.template operator()<keep>();
 }
 
-// Blending off is a conversion and no arithmetic: nothing is flushed, and NaN keeps its sign (fragment-stages.md 9.2).
+// With blending off the colour is only converted: nothing is flushed, and NaN keeps its sign (fragment-stages.md 9.2).
 template <class Halves = PlainHalves>
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
            ColorCodes& codes, std::size_t count) noexcept {
@@ -184,7 +185,7 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
     } else if (profile.unorm_rounding == UnormRounding::half_up) {
         blend_unorm8<UnormRounding::half_up>(job, profile.blend_rounding);
     } else if (profile.blend_rounding == BlendRounding::unrounded_source) {
-        blend_unrounded(job, profile.unorm_rounding);  // which reads codes, too
+        blend_unrounded(job, profile.unorm_rounding);  // also stores codes
     } else {
         blend_unorm8<UnormRounding::product_even>(job, profile.blend_rounding);
     }

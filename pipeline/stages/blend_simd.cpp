@@ -1,5 +1,5 @@
 // pipeline/stages/blend_simd.cpp - blending, one source for every instruction set: the loops of blend_lanes.h inlined
-// (flatten) and compiled for the set, over whole vectors, since the arrays of a batch have room for them.
+// (flatten) and compiled per instruction set over whole vectors, because the arrays of a batch have room for them.
 // How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/blend_simd.cpp"
@@ -30,7 +30,7 @@ struct Halves {
 using Halves = scalar::PlainHalves;
 #endif
 
-// Works on whole vectors of up to 16 lanes; what comes out beyond the count is scratch.
+// Processes whole vectors of up to 16 lanes; results past the count are scratch.
 [[gnu::flatten]] void blend_lanes(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
                                   const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) {
     const std::size_t whole_vectors = (static_cast<std::size_t>(count) + 15) & ~std::size_t{15};

@@ -1,16 +1,17 @@
-// pipeline/stages/blend_unorm8.h - blending on 8-bit normalised targets: integers, one rounding.
+// pipeline/stages/blend_unorm8.h - blending on 8-bit normalized targets: integer arithmetic with one rounding.
 //
-// Rule     The source becomes 8 bits first. With s, d and the factors F, G as codes (1 - x is 255 - x): t = clamp(s F +
-//          d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile. BlendRounding::each_product: s F and d
-//          G by themselves, (t + (t >> 8) + 128) >> 8 each, then their clamped sum. Signed equations: clamp(d +- s', 0,
-//          255), s' the source code as two's complement. BlendRounding::unrounded_source is no arithmetic of codes:
-//          FloatArithmetic blends the clamped source with the values of codes (blend_lanes.h).
-// Source   fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 pictures (chip-fragment.md 1).
-// Numbers  Products <= 65025, sums within +-130050. The kernels hold these integers as binary32 values, where all of
-//          them and every operation on them are exact: vector units multiply four floats at once, but not four
-//          32-bit integers.
-// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 pictures of
-//          silicon
+// Rule     The source is converted to 8 bits first. With s, d and the factors F, G as codes (1 - x is 255 - x): t =
+//          clamp(s F + d G, 0, 65025), then t / 255 rounded half up, or truncated, depending on the profile.
+//          BlendRounding::each_product: s F and d G are rounded separately, each as (t + (t >> 8) + 128) >> 8, and
+//          their sum is clamped. Signed equations: clamp(d +- s', 0, 255), where s' is the source code as two's
+//          complement. BlendRounding::unrounded_source does not use codes: FloatArithmetic blends the clamped source
+//          with the values of codes (blend_lanes.h).
+// Source   fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 captures (chip-fragment.md 1).
+// Numbers  Products <= 65025, sums within +-130050. The kernels store these integers as binary32 values, which
+//          represent all of them and every operation on them exactly: vector units multiply floats faster than 32-bit
+//          integers.
+// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 hardware
+//          captures
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -23,20 +24,20 @@
 namespace strata::pipeline {
 inline namespace strict {
 
-// t / 255 for t in [0, 65025]; checked for every t. A half cannot occur, since 255 is odd.
+// t / 255 for t in [0, 65025]; checked for every t. There are no ties, because 255 is odd.
 template <BlendRounding rounding>
 [[nodiscard]] constexpr std::int32_t over_255(std::int32_t t) noexcept {
     const std::int32_t biased = t + (rounding == BlendRounding::truncate ? 1 : 128);
     return (biased + (biased >> 8)) >> 8;
 }
 
-// Codes 0..255 as binary32 whole numbers. `one` is 255, so products are in units of 1/255^2.
+// Codes 0..255 as integers in binary32. `one` is 255, so products are in units of 1/255^2.
 template <BlendRounding rounding>
 struct Unorm8Arithmetic {
     static constexpr float zero = 0.0f, one = 255.0f;
 
     [[nodiscard]] static constexpr float one_minus(float x) noexcept { return 255.0f - x; }
-    // Codes are not negative: their float bits order like they do.
+    // Codes are not negative, so their float bits have the same order.
     [[nodiscard]] static constexpr float lesser(float a, float b) noexcept {
         return std::bit_cast<float>(std::min(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
     }
@@ -50,13 +51,13 @@ struct Unorm8Arithmetic {
     }
     [[nodiscard]] static constexpr float clamped(float v) noexcept { return v < 0.0f ? 0.0f : v > 255.0f ? 255.0f : v; }
 
-    // a b / 255 by shifts: 24 of the 65,536 products miss the nearest code.
+    // a b / 255 by shifts: 24 of the 65,536 products are not the nearest code.
     [[nodiscard]] static constexpr float product(float a, float b) noexcept {
         const auto ab = static_cast<std::int32_t>(a * b);
         return static_cast<float>((ab + (ab >> 8) + 128) >> 8);
     }
 
-    // keeps_s and keeps_d are there for the interface alone: s * 255 is a product like any other here.
+    // keeps_s and keeps_d exist only for the interface: s * 255 is computed like any other product.
     template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
         if constexpr (equation == BlendEquation::min) return lesser(s, d);

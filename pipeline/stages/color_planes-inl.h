@@ -1,8 +1,8 @@
 // pipeline/stages/color_planes-inl.h - the colours of a triangle, eight pixels at a time, for passes without batches.
-// For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
+// For *_simd.cpp only: Highway compiles it once per instruction set, in each file that includes foreach_target.h.
 //
 // Rule     The colours of FragmentValues::fill with ColorInterpolation::exact_plane.
-// Tests    tests/peeling/execution_test.cpp: against literal execution
+// Tests    tests/peeling/execution_test.cpp compares with literal execution.
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"
 
@@ -25,9 +25,9 @@ using rasterizer::DrawnTriangle;
 using rasterizer::FilterPlane;
 using rasterizer::RationalPlane;
 
-// The colour of a triangle: planes before the division by the one of 1 / w, that of a grey once, and constants. Loops
-// over four channels without branches, so that they become vectors: most triangles have few rows to share what is found
-// here.
+// The colour of a triangle: planes before the division by that of 1 / w (a grey colour is evaluated once), and
+// constants. Loops run over four channels without branches, so that they vectorize: most triangles have too few rows to
+// amortize this set-up.
 class ColorPlanes {
   public:
     HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle)
@@ -37,8 +37,8 @@ class ColorPlanes {
             value_[i] = triangle.record.front_facing ? v.front : v.back;
             w_[i] = geometry_.corners[triangle.record.vertex[i]].inverse_w;
         }
-        // Bits are compared, not values: a channel is constant if all corners have the same; the colour is grey if r,
-        // g and b have the same at each corner.
+        // Bits are compared, not values: a channel is constant if it has the same bits at all corners; the colour is
+        // grey if r, g and b have the same bits at each corner.
         std::uint32_t varying = 0, colorful = 0;
         for (std::size_t c = 0; c < 4; ++c) {
             varies_[c] = (bits(0, c) ^ bits(1, c)) | (bits(0, c) ^ bits(2, c));
@@ -51,11 +51,11 @@ class ColorPlanes {
         find_planes(triangle.weights.is_exact());
     }
 
-    // The whole triangle has one colour, flat(c).
+    // True if the whole triangle has one colour, flat(c).
     [[nodiscard]] HWY_INLINE bool is_flat() const { return is_flat_; }
     [[nodiscard]] HWY_INLINE float flat(std::size_t c) const { return value_[0][c]; }
 
-    // r g b a, divided, of a row or of pixels.
+    // r g b a, after the division, for a row or for pixels.
     template <bool unsnapped, class Where>
     HWY_INLINE void at(const Where& where, const raster::Weights& b, V32 (&color)[4]) const {
         const V32 inverse_w = has_w_ ? rounded<unsnapped>(where, b, inverse_w_, w_) : hn::Set(F32{}, 1.0f);
@@ -72,9 +72,8 @@ class ColorPlanes {
     HWY_INLINE static std::uint32_t bits_of(float v) { return std::bit_cast<std::uint32_t>(v); }
     HWY_INLINE std::uint32_t bits(std::size_t i, std::size_t c) const { return bits_of(value_[i][c]); }
 
-    // FilterPlane of each channel.
-    // Products with 1 / w in binary32, as every attribute's (attributes.md 1.1);
-    // slopes and errors of all four channels at once.
+    // The FilterPlane of each channel. Products with 1 / w are in binary32, as for every attribute (attributes.md 1.1);
+    // slopes and errors of all four channels are computed at once.
     HWY_INLINE void find_planes(bool is_exact) {
         inverse_w_ = FilterPlane{plane_of(w_), is_exact};
         for (std::size_t i = 0; i < 3; ++i)

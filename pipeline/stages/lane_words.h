@@ -1,11 +1,12 @@
-// pipeline/stages/lane_words.h - what a target stores, at the pixels of a batch: fetched, put back, tested, counted.
+// pipeline/stages/lane_words.h - reads, writes, tests and counts the stored values of a target at the pixels of a
+// batch.
 //
-// Rule     A sample is stored in planes of 32-bit words, one word or more a pixel, a channel in each 8, 16 or 32 bits
-//          from the lowest on. gather: codes[c][i] = channel c at pixel[i]. scatter: where a lane lives, the channels
-//          in `mask` are replaced. test_depth: depth_test.h on the stored codes; dead lanes change nothing.
-// Numbers  A plane has spare_words words behind its last pixel that belong to none: kernels load and store whole
-//          vectors there for lanes beyond `count` and for dead ones. Lanes beyond `count` in a batch's own arrays are
-//          scratch. No pixel occurs twice in a batch, so that the order of the lanes does not matter.
+// Rule     A sample is stored in planes of 32-bit words, one or more words per pixel; a channel uses 8, 16 or 32 bits,
+//          starting at the lowest. gather: codes[c][i] = channel c at pixel[i]. scatter: replaces the channels in
+//          `mask` for alive lanes. test_depth: depth_test.h on the stored codes; dead lanes change nothing.
+// Numbers  A plane has spare_words unused words after its last pixel: kernels load and store whole vectors there for
+//          lanes past `count` and for dead ones. Lanes past `count` in a batch's own arrays are scratch. No pixel
+//          occurs twice in a batch, so the order of the lanes does not matter.
 // Tests    tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <cstddef>
@@ -18,27 +19,27 @@
 namespace strata::pipeline {
 
 using Word = std::uint32_t;
-// One channel of a batch. Masks have the same type: 0 or ~0 a lane.
+// One channel of a batch. Masks have the same type: 0 or ~0 per lane.
 using CodeLanes = rasterizer::Lanes<Word>;
 
-// A vector of AVX-512, the widest set.
+// One vector of AVX-512, the widest instruction set.
 inline constexpr std::size_t spare_words = 16;
 
-// One word a pixel of a region, row by row, and spare words behind them.
+// One word per pixel of a region, row by row, followed by spare words.
 struct Plane {
     Word* words = nullptr;
     // words[pixels] is the first spare one.
     std::size_t pixels = 0;
 };
 
-// Where a channel lies in its pixel's words; `bits` is the mask of one code, not shifted.
+// The position of a channel in its pixel's words; `bits` is the mask of one code, unshifted.
 struct Field {
     std::size_t word;
     int shift;
     std::uint32_t bits;
 };
 
-// One sample of a target: plane after plane, the first of them at `words`.
+// One sample of a target: consecutive planes, the first at `words`.
 struct Texels {
     Plane first;
     int channels = 1, bits_per_channel = 32;
@@ -47,44 +48,44 @@ struct Texels {
         const int bit = channel * bits_per_channel;
         return {static_cast<std::size_t>(bit / 32), bit % 32, ~0u >> (32 - bits_per_channel)};
     }
-    // Words of a pixel, and with them planes of a sample: at most four.
+    // Words per pixel, and thereby planes per sample: at most four.
     [[nodiscard]] constexpr std::size_t words() const noexcept { return field(channels - 1).word + 1; }
-    // Planes follow each other, each with its spare words.
+    // Planes are consecutive, each with its spare words.
     [[nodiscard]] constexpr Plane plane(std::size_t word) const noexcept {
         return {first.words + word * (first.pixels + spare_words), first.pixels};
     }
 };
 
-// Lanes of a batch at pixels of their own.
+// The pixels of a batch's lanes.
 struct PixelLanes {
     const Word* pixel = nullptr;
     std::size_t count = 0;
 };
 
-// Living fragments that came to a depth test, and those that passed.
+// Number of alive fragments that reached a depth test, and of those that passed.
 struct DepthResult {
     std::uint64_t arriving = 0, passed = 0;
 };
 
-// The kernels (stages_simd.cpp); their meaning follows. `codes` has an array a channel.
+// The kernels (stages_simd.cpp); their definitions follow. `codes` has one array per channel.
 [[nodiscard]] std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept;
 void gather_codes(const Texels& from, const PixelLanes& at, CodeLanes* codes) noexcept;
 void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, unsigned mask,
                    const CodeLanes* codes) noexcept;
-// Clears `alive` where the test fails; writes what passes, if the state says so.
+// Clears `alive` where the test fails; writes the codes that pass if the state writes depth.
 DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
                        Word* alive) noexcept;
 
-// One walk for what weighted averages and sums do to every fragment: each of the texels' fp16 channels plus `source`,
-// as blend_float.h adds with both factors 1, rounded to nearest even, where a lane lives. False, and nothing done, on
-// sets without half conversion: then it is gathered, blended and scattered, which is the definition.
+// One loop for the additive blends of weighted averages and sums: adds `source` to each fp16 channel of the texels in
+// alive lanes, as blend_float.h does with both factors 1, rounded to nearest even. Returns false and does nothing on
+// instruction sets without half conversion; the caller then gathers, blends and scatters, which is the definition.
 [[nodiscard]] bool add_halves(const Texels& to, const PixelLanes& at, const Word* alive,
                               const rasterizer::Lanes<float>* source, bool flushes) noexcept;
 
 inline namespace strict {
 namespace scalar {
 
-// A living lane is ~0: one bit of it counts.
+// An alive lane is ~0: one of its bits is counted.
 [[nodiscard]] inline std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
     Word living = 0;
     for (std::size_t i = 0; i < count; ++i) living += alive[i] & 1u;

@@ -1,7 +1,7 @@
-// pipeline/stages/stages_simd.cpp - the stages between program and blending, one source for every instruction set.
-// Their meaning is namespace scalar of lane_words.h, convert.h, alpha_test.h and stencil_lanes.h. Where a plain loop
-// vectorises, the kernel is that loop, inlined (flatten) and compiled for the set; gather, scatter and counts are
-// written out.
+// pipeline/stages/stages_simd.cpp - the stages between program and blending, one source for every instruction set. The
+// definitions are namespace scalar of lane_words.h, convert.h, alpha_test.h and stencil_lanes.h. Where a plain loop
+// vectorizes, the kernel is that loop, inlined (flatten) and compiled per instruction set; gather, scatter and counts
+// are written with Highway.
 // How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/stages_simd.cpp"
@@ -25,10 +25,10 @@ using Words = hn::ScalableTag<std::uint32_t>;
 using WordVec = hn::Vec<Words>;
 using WordMask = hn::Mask<Words>;
 
-// Arrays of a batch have room for whole vectors, and no loop needs a remainder then.
+// Arrays of a batch have room for whole vectors, so that no loop needs a remainder.
 constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::size_t{15}; }
 
-// first, first + 1, ...; Highway's Iota takes its start through memory.
+// first, first + 1, ...; Highway's Iota would pass its start through memory.
 HWY_INLINE WordVec counting(Word first) {
     const Words d;
     return hn::Add(hn::Set(d, first), hn::Iota(d, 0));
@@ -39,8 +39,8 @@ HWY_INLINE WordMask first_lanes(std::size_t count) {
     return hn::Lt(hn::Iota(d, 0), hn::Set(d, static_cast<Word>(count)));
 }
 
-// One vector of lanes: where they lie in a plane, and whether that is one run of neighbours, or among those of two
-// vectors.
+// The pixels of one vector of lanes, and whether they are contiguous (is_run) or within two consecutive vectors
+// (is_near).
 struct Group {
     WordMask in_batch;
     WordVec pixel, behind_first;
@@ -58,14 +58,14 @@ HWY_INLINE Group group_at(const PixelLanes& at, std::size_t i) {
     return {in_batch, pixel, behind_first, at.pixel[i], is_run, is_near};
 }
 
-// Lanes that are not used go to spare words, one each: a gather or scatter may touch them without harm.
+// Unused lanes are redirected to spare words, one each, so that a gather or scatter can access them safely.
 HWY_INLINE hn::Vec<hn::RebindToSigned<Words>> spare_index(Plane plane, WordMask used, WordVec pixel) {
     const WordVec spare = counting(static_cast<Word>(plane.pixels));
     return hn::BitCast(hn::RebindToSigned<Words>{}, hn::IfThenElse(used, pixel, spare));
 }
 
-// The stored words of a group: one plain load where its pixels are neighbours, as in rows of large triangles; two where
-// few pixels are missing between them, as in a layer of a peel.
+// The stored words of a group: one load if its pixels are contiguous, as in rows of large triangles; two if few pixels
+// are missing between them, as in a layer of a peel.
 HWY_INLINE WordVec load(Plane plane, const Group& group) {
     const Words d;
     const Word* const words = plane.words + group.first;
@@ -80,7 +80,7 @@ HWY_INLINE WordVec load(Plane plane, const Group& group) {
     return hn::GatherIndex(d, plane.words, spare_index(plane, group.in_batch, group.pixel));
 }
 
-// Dead lanes keep their words. Where all are dead nothing is touched.
+// Dead lanes keep their words. If all are dead, nothing is accessed.
 HWY_INLINE void store(Plane plane, const Group& group, WordMask written, WordVec words) {
     const Words d;
     if (hn::AllFalse(d, written)) return;
@@ -93,7 +93,7 @@ HWY_INLINE WordMask is_set(const Word* alive) {
     return hn::Ne(hn::LoadU(d, alive), hn::Zero(d));
 }
 
-// A living lane is ~0, which is -1.
+// An alive lane is ~0, which is -1.
 std::uint64_t count_set(const Word* alive, std::size_t count) {
     const Words d;
     const std::size_t whole = count - count % hn::Lanes(d);
@@ -104,7 +104,7 @@ std::uint64_t count_set(const Word* alive, std::size_t count) {
     return hn::GetLane(hn::SumOfLanes(d, living));
 }
 
-// How many channels a word holds, and the mask of the lowest.
+// The number of channels per word, and the mask of the lowest.
 template <int channels, int bits>
 constexpr int per_word = std::min(channels, 32 / bits);
 template <int bits>
@@ -127,7 +127,7 @@ HWY_INLINE void with_layout(const Texels& texels, Body&& body) {
     assert(!"every format has one of these layouts");
 }
 
-// The channels of one word, at every pixel of the batch.
+// Gathers the channels of one word at every pixel of the batch.
 template <int channels, int bits>
 HWY_INLINE void gather_word(Plane plane, const PixelLanes& at, CodeLanes* codes) {
     const Words d;
@@ -147,7 +147,7 @@ void gather(const Texels& from, const PixelLanes& at, CodeLanes* codes) {
     });
 }
 
-// `written` names the channels of this word that are replaced. If it names all of them, the stored words are not read.
+// `written` has the channels of this word to replace. If it has all of them, the stored words are not read.
 template <int channels, int bits>
 HWY_INLINE void scatter_word(Plane plane, const PixelLanes& at, const Word* alive, unsigned written,
                              const CodeLanes* codes) {
@@ -175,7 +175,8 @@ void scatter(const Texels& to, const PixelLanes& at, const Word* alive, unsigned
     });
 }
 
-// passes<func>(a, b) of compare.h; a NaN passes `notequal` alone, which Highway's Ne does not grant on every set.
+// passes<func>(a, b) of compare.h; a NaN passes only `notequal`, which Highway's Ne does not guarantee on every
+// instruction set.
 template <CompareFunc func, class V>
 HWY_INLINE auto compare(V a, V b) {
     if constexpr (func == CompareFunc::less) return hn::Lt(a, b);
@@ -198,7 +199,7 @@ HWY_INLINE WordMask passing(DepthFormat format, WordVec code, WordVec stored) {
     }
 }
 
-// Loads, compares, stores and counts in one walk over the lanes.
+// Loads, compares, stores and counts in one loop over the lanes.
 template <CompareFunc func>
 DepthResult test(bool writes, DepthFormat format, Plane plane, const PixelLanes& at, const Word* codes, Word* alive) {
     const Words d;
@@ -228,8 +229,8 @@ DepthResult test_plane(const DepthTest& state, DepthFormat format, Plane plane, 
 using Floats = hn::Repartition<float, Words>;
 using FloatVec = hn::Vec<Floats>;
 
-// Source plus destination as blend_float.h adds them. A sum that is denormal in binary32 is a zero of its sign as a
-// half, flushed or not; a denormal source must be flushed, for the sign of its zero shows.
+// Adds source and destination as blend_float.h does. A sum that is denormal in binary32 becomes a zero of its sign as a
+// half, flushed or not; a denormal source must be flushed, because the sign of its zero affects the result.
 template <bool flushes>
 HWY_INLINE WordVec sum_of_halves(FloatVec source, WordVec stored) {
     const Words d;
@@ -265,7 +266,7 @@ template <bool flushes>
 void add_to_words(const Texels&, const PixelLanes&, const Word*, const rasterizer::Lanes<float>*) {}
 #endif
 
-// False on sets without half conversion: add_to_words has done nothing there.
+// Returns false on instruction sets without half conversion, where add_to_words does nothing.
 bool add(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source,
          bool flushes) {
     if (flushes)
@@ -275,7 +276,7 @@ bool add(const Texels& to, const PixelLanes& at, const Word* alive, const raster
     return has_halves;
 }
 
-// The plain loops, compiled for this set; arrays of a batch have room for whole vectors.
+// The plain loops, compiled for this instruction set; arrays of a batch have room for whole vectors.
 [[gnu::flatten]] void decode_lanes(ChannelType type, const std::uint32_t* codes, float* values, std::size_t count) {
     scalar::decode(type, codes, values, padded(count));
 }

@@ -1,5 +1,5 @@
-// pipeline/stages/stencil_lanes.h - the loops of stencil.h, compiled once an instruction set. Included by
-// stages_simd.cpp alone.
+// pipeline/stages/stencil_lanes.h - the loops of stencil.h, compiled once per instruction set. Included only by
+// stages_simd.cpp.
 #pragma once
 #include <algorithm>
 #include <type_traits>
@@ -14,12 +14,12 @@ namespace scalar {
 
 using Mask = rasterizer::Lanes<std::uint32_t>;
 
-// Calls body with the operation as a constant; `keep` does not call it, because nothing would change.
+// Calls body with the operation as a constant; not called for `keep`, which changes nothing.
 template <class Body>
 void with_op(StencilOp op, Body&& body) {
     using enum StencilOp;
     switch (op) {
-        case keep: return;  // nothing changes
+        case keep: return;  // changes nothing
         case zero: return body(std::integral_constant<StencilOp, zero>{});
         case replace: return body(std::integral_constant<StencilOp, replace>{});
         case incr: return body(std::integral_constant<StencilOp, incr>{});
@@ -30,7 +30,7 @@ void with_op(StencilOp op, Body&& body) {
     }
 }
 
-// Applies `op` to the lanes in `chosen`; every lane is chosen for one of the three outcomes at most.
+// Applies `op` to the lanes in `chosen`; a lane is chosen for at most one of the three outcomes.
 inline void update(const StencilFace& face, StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
     const std::uint32_t ref = face.ref, write_mask = face.write_mask;
     const auto count = static_cast<std::size_t>(lanes.count);
@@ -41,7 +41,7 @@ inline void update(const StencilFace& face, StencilOp op, const Mask& chosen, co
     });
 }
 
-// Looks at the stored values before `update` changes them: 255 before INCR, 0 before DECR.
+// Reads the stored values before `update` changes them: 255 before INCR, 0 before DECR.
 inline void mark_saturated(StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
     if (lanes.saturated == nullptr || (op != StencilOp::incr && op != StencilOp::decr)) return;
     const std::uint32_t limit = op == StencilOp::incr ? 255 : 0;
@@ -54,7 +54,8 @@ inline void finish(const StencilFace& face, StencilOp op, const Mask& chosen, co
     update(face, op, chosen, lanes);
 }
 
-// One face's test for the lanes in `subject`; `survivors` gathers who passes stencil and depth. Answers how many fail.
+// Tests one face for the lanes in `subject`; adds the lanes that pass stencil and depth to `survivors`. Returns the
+// number that fails.
 inline int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& lanes,
                      Mask& survivors) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
@@ -79,7 +80,7 @@ inline int test_face(const StencilFace& face, const Mask& subject, const Stencil
     return static_cast<int>(failed);
 }
 
-// With the test off the stencil buffer is not touched. Two faces touch disjoint lanes, so their order does not matter.
+// With the test off the stencil buffer is unchanged. The two faces have disjoint lanes, so their order does not matter.
 inline int stencil_test(const StencilTest& state, const StencilLanes& lanes) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
     if (lanes.saturated != nullptr) std::fill_n(lanes.saturated, count, 0u);

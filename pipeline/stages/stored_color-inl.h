@@ -1,10 +1,11 @@
-// pipeline/stages/stored_color-inl.h - stored_color.h a vector of pixels at a time. For *_simd.cpp alone: Highway
-// compiles it once a set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
+// pipeline/stages/stored_color-inl.h - stored_color.h for a vector of pixels at a time. For *_simd.cpp only: Highway
+// compiles it once per instruction set, in each file that includes foreach_target.h (rasterizer/reference/kernels.md
+// 3).
 //
-// Rule     Between blends an 8-bit channel is held as its code, a float as what blending makes of its value: without
-//          denormals where the device flushes them.
-// Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so that no product or sum of them
-//          is a denormal of binary32, which flushing would make 0.
+// Rule     Between blends an 8-bit channel is held as its code, a float channel as its blending operand: without
+//          denormals if the device flushes them.
+// Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so no product or sum of them is a
+//          denormal of binary32, which flushing would change to 0.
 // Tests    tests/peeling/loops/block_passes_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/half-inl.h"
@@ -22,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-inline constexpr std::size_t most_lanes = 16;  // of a block of columns
+inline constexpr std::size_t most_lanes = 16;  // of a block of per-pixel lists
 using Words = hn::CappedTag<std::uint32_t, most_lanes>;
 using Signed = hn::RebindToSigned<Words>;
 using Floats = hn::RebindToFloat<Words>;
@@ -39,7 +40,7 @@ HWY_INLINE FloatVec choose(WordMask mask, FloatVec yes, FloatVec no) {
 }
 HWY_INLINE WordMask is_set(WordVec x) { return hn::Ne(x, hn::Zero(Words{})); }
 HWY_INLINE WordMask is_set(FloatVec x) { return is_set(hn::BitCast(Words{}, x)); }
-// Of values that are not negative, whose bits order as they do.
+// For values that are not negative, whose bits have the same order.
 HWY_INLINE WordVec greater(WordVec a, WordVec b) { return hn::Max(a, b); }
 HWY_INLINE FloatVec greater(FloatVec a, FloatVec b) {
     return hn::BitCast(Floats{}, hn::Max(hn::BitCast(Words{}, a), hn::BitCast(Words{}, b)));
@@ -68,8 +69,8 @@ class StoredColors<Unorm8Rules<blend, to_code, storage>> {
     HWY_INLINE static FloatVec operand(Held x) { return blends_values ? value(x) : number(x); }
     HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
 
-    // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut
-    // to 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
+    // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is
+    // clamped to 255^2; the shifts divide by 255 and round as in fragment-stages.md 8.2.
     HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
         using enum BlendRounding;
         const Signed di;

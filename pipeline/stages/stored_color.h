@@ -1,12 +1,13 @@
-// pipeline/stages/stored_color.h - how a colour target keeps and blends a channel, for passes that blend no pixel
+// pipeline/stages/stored_color.h - how a colour target stores and blends a channel, for passes that blend no pixel
 // twice: the scalar reference of stored_color-inl.h.
 //
-// Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes
-//          operands, codes of 8 bits as whole numbers and floats without denormals, and rounds its sum once, or each
-//          product, as blend_unorm8.h and blend_float.h say. Of BlendStorage::cached_tiles there remains that codes of
-//          8 bits are blended as the values that they stand for, in binary32; so they are by
-//          BlendRounding::unrounded_source, for a layer that was stored is a code.
-// Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
+// Rule     A channel is stored as a code. A program reads the value of the code, and its output is converted once. A
+//          blend has operands (8-bit codes as integers, floats without denormals) and rounds its sum once, or each
+//          product, as in blend_unorm8.h and blend_float.h. With BlendStorage::cached_tiles 8-bit codes are blended as
+//          their values, in binary32; this is the only effect here. The same holds for BlendRounding::unrounded_source,
+//          because a stored layer is a code.
+// Numbers  Codes of values that are not negative have the order of the values: MAX of a plain colour is MAX of its
+//          code.
 // Tests    tests/peeling/loops/block_passes_test.cpp
 #pragma once
 #include <bit>
@@ -21,12 +22,12 @@
 
 namespace strata::pipeline {
 
-// What storing and blending a colour go by.
+// The rules for storing and blending a colour.
 struct ColorRules {
     ChannelType type = ChannelType::unorm8;
     ColorRounding rounding = HalfRounding::nearest_even;
     BlendRounding blend = BlendRounding::nearest;
-    bool flushes = true;  // denormals, in blends of floats
+    bool flushes = true;  // flushes denormals in float blends
     BlendStorage storage = BlendStorage::target;
 };
 
@@ -38,7 +39,7 @@ struct ColorRules {
             .storage = profile.blend_storage};
 }
 
-// The rules as types, for loops that are compiled for them.
+// The rules as types, for loops that are compiled per rule.
 template <BlendRounding blend, UnormRounding to_code, BlendStorage storage = BlendStorage::target>
 struct Unorm8Rules {};
 template <ChannelType type, HalfRounding half>
@@ -91,7 +92,7 @@ struct StoredColor<Unorm8Rules<blend, to_code, storage>> {
     explicit StoredColor(const ColorRules&) noexcept {}
     [[nodiscard]] static float value(std::uint32_t code) noexcept { return code_value<to_code>(code); }
     [[nodiscard]] static std::uint32_t code(float x) noexcept { return to_unorm8<to_code>(x); }
-    // What MAX leaves of x, above 0.
+    // The code that MAX stores for x > 0.
     [[nodiscard]] static std::uint32_t max_code(float x) noexcept { return code(x); }
     [[nodiscard]] static float operand(std::uint32_t code) noexcept {
         return blends_values ? value(code) : static_cast<float>(code);

@@ -1,11 +1,11 @@
-// pipeline/stages/sum_rows.h - weighted sums of fragments straight into halves or binary32, row by row: what an
-// additive pass of (c a, a) and 1 does through batches, programs and blending. It runs by default in place of the draw
-// of weighted_average and weighted_sum (peeling/algorithms/), on sets that convert halves.
+// pipeline/stages/sum_rows.h - adds weighted sums of fragments directly to halves or binary32, row by row: the result
+// of an additive pass of (c a, a) and 1 through batches, programs and blending. By default it replaces the draw of
+// weighted_average and weighted_sum (peeling/algorithms/) on instruction sets that convert halves.
 //
 // Rule     Each fragment of the triangles, in submission order, whose code is LESS than the opaque one adds (c a, a) to
-//          the sums and 1 to the count: halves as add_halves of lane_words.h adds, binary32 as blend_float.h adds with
-//          both factors 1. Colours are those of FragmentValues::fill.
-// Tests    tests/peeling/execution_test.cpp: against literal execution
+//          the sums and 1 to the count: halves like add_halves of lane_words.h, binary32 like blend_float.h with both
+//          factors 1. Colours are those of FragmentValues::fill.
+// Tests    tests/peeling/execution_test.cpp compares with literal execution.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace strata::pipeline {
 
 enum class SumWords : std::uint8_t { halves, binary32 };
 
-// A region's pixels row by row, a word each, with rasterizer::row_padding more behind the last; of two halves the low
-// one is first.
+// One word per pixel of a region, row by row, followed by rasterizer::row_padding more words. Of two halves in a word,
+// the first is the low one.
 struct SumPlanes {
     SumWords words;
-    // Halves: the sums of r a and g a share a word, those of b a and a the next plane's. Binary32: a plane each.
+    // Halves: the sums of r a and g a share a word, those of b a and a are in the next plane. Binary32: one plane each.
     std::array<std::uint32_t*, 4> sums;
-    // The count, or in the low half its half and 0 in the high one; null: not wanted.
+    // The count: binary32, or a half in the low bits with 0 in the high ones; null: not requested.
     std::uint32_t* count;
     // Depth codes of the opaque surfaces; null: every fragment passes.
     const std::uint32_t* opaque = nullptr;
@@ -31,8 +31,8 @@ struct SumPlanes {
     bool flushes = false;
 };
 
-// Only where rasterizer::row_walk_suits, which leaves out the sets that convert no halves, and where colours are exact
-// planes.
+// Preconditions: rasterizer::row_walk_suits, which excludes instruction sets without half conversion, and colours are
+// exact planes.
 rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
                                     const SumPlanes& planes) noexcept;

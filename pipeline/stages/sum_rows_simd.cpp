@@ -1,4 +1,4 @@
-// pipeline/stages/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for the sets that convert halves.
+// pipeline/stages/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for instruction sets that convert halves.
 // How kernels are written: kernels.md. Tests: tests/peeling/execution_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/sum_rows_simd.cpp"
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
 
-// State of a pass of sums over all its triangles: the planes it adds to, the conversion of depths to codes, the counts.
+// State of a pass of sums over all its triangles: the planes, the conversion of depths to codes, the counts.
 struct SumState {
     SumPlanes planes;
     rasterizer::DepthConversion<float> to_code;
@@ -22,7 +22,7 @@ struct SumState {
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
 
-// A word holds two halves: of two channels, or of one and nothing. So do vectors of twice as many lanes.
+// A word has two halves: two channels, or one and 0. A vector of Pair accordingly has twice as many lanes.
 using Pair = hn::Twice<F32>;
 using VPair = hn::Vec<Pair>;
 using HalfPair = hn::Rebind<hwy::float16_t, Pair>;
@@ -31,20 +31,20 @@ constexpr std::int32_t lanes = hn::MaxLanes(F32{});
 alignas(64) constexpr std::int32_t zipped[16] = {0, lanes,     1, lanes + 1, 2, lanes + 2, 3, lanes + 3,
                                                  4, lanes + 4, 5, lanes + 5, 6, lanes + 6, 7, lanes + 7};
 
-// Lanes of two channels as pairs, in the order in which a word's halves lie.
+// Interleaves the lanes of two channels in the order of a word's halves.
 HWY_INLINE VPair paired(V32 low, V32 high) {
     return hn::TableLookupLanes(hn::Combine(Pair{}, high, low), hn::SetTableIndices(Pair{}, zipped));
 }
-// Words as pairs of binary32.
+// Loads words as pairs of binary32.
 HWY_INLINE VPair loaded(const std::uint32_t* words) {
     return hn::PromoteTo(Pair{}, hn::BitCast(HalfPair{}, hn::LoadU(U32{}, words)));
 }
-// Rounds to nearest even and stores the covered words alone.
+// Rounds to nearest even and stores only the covered words.
 HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) {
     hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
-// How sums lie in halves.
+// Sums stored as halves.
 struct HalfSums {
     static HWY_INLINE void flush_negative(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes) {
         if (!planes.flushes) return;
@@ -57,14 +57,14 @@ struct HalfSums {
             for (V32& v : source) v = flushed(U32{}, v);
     }
 
-    // Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
-    // lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same
-    // half, whatever they are added to) or a sum is NaN: they are done for rows that have one.
+    // Adds `source` to the stored sums, per channel, like sum_of_halves of stages_simd.cpp; stores the covered lanes.
+    // Two steps of sum_of_halves matter only if a source is negative (a positive denormal and +0 give the same half,
+    // whatever they are added to) or a sum is NaN, so they are done only for rows that have one.
     static HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
         flush_negative(source, covered, planes);
         VPair low = hn::Add(paired(source[0], source[1]), loaded(planes.sums[0] + pixel));
         VPair high = hn::Add(paired(source[2], source[3]), loaded(planes.sums[1] + pixel));
-        // One test for both: NaN where either sum is one, and where infinities of both signs meet.
+        // One test for both: NaN if either sum is NaN, and if infinities of both signs are added.
         const VPair both = hn::Add(low, high);
         if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
             for (VPair* v : {&low, &high}) *v = canonical(hn::RebindToUnsigned<Pair>{}, *v);
@@ -73,7 +73,7 @@ struct HalfSums {
         store(high, covered, planes.sums[1] + pixel);
     }
 
-    // Counts one more in the low halves of words. NaN comes out as it does above.
+    // Adds one to the count in the low half of each word. NaN is handled as above.
     static HWY_INLINE void count(raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
         const F32 d;
         std::uint32_t* const words = planes.count + pixel;
@@ -83,7 +83,7 @@ struct HalfSums {
     }
 };
 
-// How they lie in words of their own: combine<add> of blend_float.h on each.
+// Sums stored in separate words: combine<add> of blend_float.h on each.
 struct FloatSums {
     static HWY_INLINE void add_to(V32 source, raster::RowMask covered, bool flushes, std::uint32_t* words) {
         const U32 d;
@@ -103,13 +103,13 @@ struct FloatSums {
 
 template <bool is_tested, class Sums>
 struct SumOf {
-    // The planes of one triangle. Where nothing is tested no depth is computed: is_tested is a constant of the pass.
+    // The planes of one triangle. is_tested is a constant of the pass; without a test no depth is computed.
     template <bool unsnapped>
     class Shade {
       public:
         HWY_INLINE Shade(SumState& state, const DrawnTriangle& triangle)
             : state_{state}, planes_{state.planes}, to_code_{state.to_code}, triangle_{triangle}, color_{triangle} {
-            // Without opaque surfaces nothing is tested, and the plane of depth is not needed.
+            // Without opaque surfaces there is no test, and the plane of depth is not needed.
             if constexpr (!is_tested) return;
             depth_ = RationalPlane{triangle.geometry.depths(triangle.index), 1.0, state.z_units};
             filter_ = raster::filter_of(depth_, triangle);
@@ -119,7 +119,7 @@ struct SumOf {
             raster::RowMask covered = row.covered;
             if constexpr (is_tested) {
                 covered = hn::And(covered, nearer(row, b));
-                // A row that lies wholly behind the opaque surfaces needs no colours.
+                // A row that is completely behind the opaque surfaces needs no colours.
                 if (hn::AllFalse(F32{}, covered)) return;
                 passed_ += hn::CountTrue(F32{}, covered);
             }

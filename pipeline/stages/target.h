@@ -1,4 +1,4 @@
-// pipeline/stages/target.h - what a batch reads from a render target and writes to it.
+// pipeline/stages/target.h - the values that a batch reads from a render target and writes to it.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,15 +13,15 @@ using rasterizer::batch_capacity;
 using rasterizer::FragmentBatch;
 using rasterizer::Lanes;
 
-// The values of a clear: a colour, converted to the target's format like a source's; a depth, clamped to [0,1] unless
-// the profile stores it as it is (formats.md 5.5); a stencil value.
+// The values of a clear: a colour, converted to the target's format like a source colour; a depth, clamped to [0,1]
+// unless the profile stores it unclamped (formats.md 5.5); a stencil value.
 struct ClearValue {
     Rgba color{0, 0, 0, 0};
     float depth = 1.0f;
     std::uint8_t stencil = 0;
 };
 
-// A batch's stored colours, an array a channel: 8-bit codes, half bits or binary32 bits, zero-extended.
+// A batch's stored colours, one array per channel: 8-bit codes, half bits or binary32 bits, zero-extended.
 using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;
 // A batch's colours r g b a as binary32.
 using ColorLanes = std::array<Lanes<float>, 4>;

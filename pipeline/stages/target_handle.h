@@ -1,9 +1,9 @@
-// pipeline/stages/target_handle.h - a render target as state names it.
+// pipeline/stages/target_handle.h - the handle of a render target in pass state.
 #pragma once
 
 namespace strata::pipeline {
 
-// A handle into its region's storage: copy it, swap it, compare it. The same number in every region.
+// An index into its region's storage; may be copied, swapped and compared. The same index in every region.
 struct Target {
     int id = -1;
     [[nodiscard]] constexpr bool exists() const noexcept { return id >= 0; }

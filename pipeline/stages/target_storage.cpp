@@ -45,12 +45,12 @@ Texels layout(Format format) noexcept { return {{}, info(format).channels, bits_
 TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels, TargetWords memory)
     : format_{format}, samples_{samples}, pixels_{pixels}, layout_{layout(format)}, words_{std::move(memory)} {
     const std::size_t size = static_cast<std::size_t>(samples) * words_per_sample();
-    if (words_.capacity() < size) words_.clear();  // nothing of it is copied
+    if (words_.capacity() < size) words_.clear();  // clear first, so that resize copies nothing
     words_.resize(size);
 }
 
-// Const, because the contents are zeros for any first reader. A region belongs to one thread, so no two reads happen at
-// the same time.
+// Const, because the contents are zeros for every first reader. A region belongs to one thread, so reads are never
+// concurrent.
 void TargetStorage::write_zeros() const noexcept {
     std::ranges::fill(words_, 0u);
     has_words_ = true;
@@ -70,11 +70,12 @@ std::uint32_t TargetStorage::code(std::size_t pixel, int channel, int sample) co
     return texels(sample).plane(f.word).words[pixel] >> f.shift & f.bits;
 }
 
-// A clear of all samples writes every word, spare ones too, so that no zeros are needed before it. A format with
-// stencil beside its depth needs them: the stencil keeps its contents here.
+// A clear of all samples writes every word including spare ones, so zeros are not needed before it. A format with depth
+// and stencil needs them, because this clear does not write the stencil.
 void TargetStorage::fill(const std::array<std::uint32_t, 4>& codes, unsigned sample_mask) {
     const unsigned all_samples = (1u << samples_) - 1;
-    if (stencil_word() == 0 && (sample_mask & all_samples) == all_samples) has_words_ = true;  // none is left out below
+    // every word is written below
+    if (stencil_word() == 0 && (sample_mask & all_samples) == all_samples) has_words_ = true;
     std::array<std::uint32_t, 4> words{};
     for (int c = 0; c < layout_.channels; ++c) {
         const Field f = layout_.field(c);

@@ -20,13 +20,13 @@ namespace strata::pipeline {
 
 using TargetWords = UninitializedVector<std::uint32_t>;
 
-// Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
-// format. A colour pixel has one word of rgba8, two of rgba16f (r g, b a) and rg32f, four of rgba32f, one of r16f and
-// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes. All codes are 0 at
-// first.
+// Planes of 32-bit words, row-major, so that kernels read and write any pixels of a batch by vector, whatever the
+// format. A colour pixel has one word in rgba8, two in rgba16f (r g, b a) and rg32f, four in rgba32f, one in r16f and
+// r32f; depth and stencil codes have one word each. Samples are consecutive, each with its planes. All codes are
+// initially 0.
 class TargetStorage {
   public:
-    // `memory`: of a target that is no more, if there is one.
+    // `memory` is reused from a released target, if there is one.
     TargetStorage(Format format, int samples, std::size_t pixels, TargetWords memory = {});
     [[nodiscard]] TargetWords give_memory() noexcept { return std::move(words_); }
 
@@ -34,13 +34,13 @@ class TargetStorage {
     [[nodiscard]] int samples() const noexcept { return samples_; }
     [[nodiscard]] std::size_t pixels() const noexcept { return pixels_; }
 
-    // Lanes i < count of the listed pixels, and scratch beyond; scatter touches lanes with alive[i] != 0 and channels
-    // in `mask` only.
+    // Lanes i < count of the listed pixels, and scratch past them; scatter changes only lanes with alive[i] != 0 and
+    // channels in `mask`.
     void gather(const Lanes<std::uint32_t>& pixel, int count, int sample, ColorCodes& codes) const;
     void scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
                  unsigned mask, const ColorCodes& codes);
 
-    // As add_halves of lane_words.h; of an fp16 target.
+    // add_halves of lane_words.h. Precondition: the format is fp16.
     [[nodiscard]] bool add(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
                            const ColorLanes& source, bool flushes) {
         return add_halves(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), source.data(),
@@ -61,7 +61,7 @@ class TargetStorage {
         return texels(sample).plane(stencil_word()).words;
     }
 
-    // The code of one channel of one sample, as Image holds it. A d24s8 target answers with its depth.
+    // The code of one channel of one sample, as in Image. For a d24s8 target this is the depth.
     [[nodiscard]] std::uint32_t code(std::size_t pixel, int channel, int sample) const;
     void fill(const std::array<std::uint32_t, 4>& codes, unsigned sample_mask);  // colour or depth
     void fill_stencil(std::uint8_t value, unsigned sample_mask);
@@ -77,12 +77,13 @@ class TargetStorage {
     Format format_;
     int samples_;
     std::size_t pixels_;
-    Texels layout_;  // without a place
+    Texels layout_;  // without the address
     mutable TargetWords words_;
-    mutable bool has_words_ = false;  // else zeros that were not read yet: most targets are cleared first
+    mutable bool has_words_ = false;  // false: the contents are zeros that have not been read yet, because most targets
+                                      // are cleared first
 };
 
-// The codes that a colour target of this format stores for a colour, channel by channel; 0 for depth and stencil.
+// The codes that a colour target of this format stores for a colour, per channel; 0 for depth and stencil.
 [[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, ColorRounding rounding, const Rgba& color);
 
 }  // namespace strata::pipeline
