@@ -1,4 +1,4 @@
-// pipeline/region/executor.cpp - both executions by one class: literal is the case of a single region, whose own counts
+// pipeline/region/executor.cpp - both executions in one class: literal execution has a single region, whose own counts
 // are the frame's (execution.md 4, 5 and 8).
 #include "pipeline/region/executor.h"
 
@@ -18,10 +18,10 @@ namespace strata::pipeline {
 
 namespace {
 
-// The part of a region that is kept when its storage is given back.
+// What remains of a region after its storage is released.
 struct RegionRun {
     RegionStatistics statistics;
-    std::uint64_t fragments = 0;  // of all its runs
+    std::uint64_t fragments = 0;  // sum over all its runs
     int runs = 0;
 };
 
@@ -66,7 +66,7 @@ class FrameRun {
   private:
     [[nodiscard]] const rasterizer::Rect& rect(std::size_t r) const { return areas_[r].rect; }
 
-    // Copies a part of the frame into its place; parts are disjoint, so threads do not meet.
+    // Copies a part of the frame to its position; parts are disjoint, so threads do not conflict.
     void copy_into(const Image& part, const rasterizer::Rect& at, Image& whole) const {
         const auto row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels());
         for (int y = 0; y < part.height; ++y)
@@ -75,8 +75,8 @@ class FrameRun {
                                                   whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
     }
 
-    // True if no list has a triangle in region `r`, a tile, and the frame promises that its body does not depend on
-    // place there (execution.md 6).
+    // True if no list has a triangle in tile `r`, and the frame promises that the body's result there does not depend
+    // on the position (execution.md 6).
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) {
             return list == nullptr || list->geometry.bin(areas_[r].tile).empty();
@@ -85,9 +85,9 @@ class FrameRun {
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
 
-    // Runs one blank tile of each size: every blank tile of that size would do the same, and gets a copy later. Returns
-    // the tiles that are still to be run or copied. A tile with diagnostics is no model for others: they name its
-    // pixels.
+    // Runs one blank tile of each size: every other blank tile of that size has the same result and gets a copy later.
+    // Returns the tiles that are still to be run or copied. A tile with diagnostics is not copied, because they refer
+    // to its pixels.
     [[nodiscard]] std::vector<std::size_t> run_one_blank_of_each_size() {
         std::vector<std::size_t> others;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -110,7 +110,7 @@ class FrameRun {
         return others;
     }
 
-    // The copy has the equal tile's statistics, for the machine would have worked in both tiles; but it rasterized
+    // The copy has the other tile's statistics, because the device would have worked in both tiles, but it rasterized
     // nothing itself.
     void copy_blank(std::size_t r) {
         regions_[r] = regions_[look_alike_[r]];
@@ -121,8 +121,7 @@ class FrameRun {
         if (frame_.nearest_depth) copy(look_alike_[r], r, result_.depth);
     }
 
-    // What a region counts for in the progress: its triangles of every list, and one. All regions together come to the
-    // whole.
+    // A region's share of the progress: its triangles in every list plus one.
     [[nodiscard]] std::size_t weight(std::size_t r) const {
         if (extent_ == Extent::frame) return 1;
         std::size_t triangles = 1;
@@ -131,7 +130,7 @@ class FrameRun {
         return triangles;
     }
 
-    // Region `r` is done. One that runs again counts again: never more than the whole.
+    // Reports that region `r` is done. A region that runs again is counted again, but the total is limited to 1.
     void show(std::size_t r) {
         if (!progress_) return;
         const std::size_t done = weight_done_ += weight(r);
@@ -148,8 +147,8 @@ class FrameRun {
         for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
     }
 
-    // Runs region `r` with the answers of `script`; beyond them it guesses from its own counts (region_loop.cpp).
-    // The image of the nearest depth depends on no answer, so the first run writes it for good.
+    // Runs region `r` with the answers of `script`; further answers are guessed from its own counts (region_loop.cpp).
+    // The image of the nearest depth does not depend on answers, so the first run writes its final values.
     void run_region(std::size_t r, const Answers& script) {
         const Clock::time_point start = Clock::now();
         RegionStatistics statistics;
@@ -176,15 +175,15 @@ class FrameRun {
         parallel_for(which.size(), threads_, [&](std::size_t i) { run_region(which[i], script); });
     }
 
-    // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there,
-    // or it had stopped before, and has promised that further iterations change nothing.
+    // True if region r is not affected by the frame's answer to decision d: it counted nothing there, or it had stopped
+    // earlier, and promised that further iterations change nothing.
     [[nodiscard]] static bool is_idle(const LoopStatistics& loop, std::size_t d) {
         const std::size_t last = std::min(d, loop.decisions.size() - 1);
         return loop.decisions[last].own == 0 && loop.decisions[last].idle != Idle::no;
     }
 
-    // How many further answers are "yes": those of a region that has gone the frame's way up to decision d, and counted
-    // enough by itself. A hint that saves runs: every answer is settled in its own round.
+    // The number of further answers known to be "yes": those of a region that had the frame's answers up to decision d,
+    // and whose own counts suffice. A hint that avoids runs: every answer is settled in its own round.
     [[nodiscard]] std::size_t certain_after(std::size_t loop, std::size_t d, bool answer) const {
         std::size_t longest = 0;
         for (const auto& [r, fragments, runs] : regions_) {
@@ -197,9 +196,9 @@ class FrameRun {
         return longest;
     }
 
-    // A limit counts the passes of all loops. A region that leaves a loop before the others has made fewer, and may go
-    // too far. From loop to loop it follows how many iterations the limit leaves to the frame: a region with more runs
-    // again.
+    // A limit counts the passes of all loops. A region that leaves a loop before the others has made fewer passes and
+    // may iterate too often later. For each loop in turn this computes how many iterations the limit leaves to the
+    // frame; a region with more runs again.
     void limit_loops() {
         std::vector<int> most;  // iterations of each loop
         for (std::size_t loop = 0; loop < regions_[0].statistics.loops.size(); ++loop) {
@@ -218,22 +217,22 @@ class FrameRun {
         result_.work.reruns += again.size();
     }
 
-    // Geometry passes of a loop of so many iterations, or of as many as the frame has made if they are fewer. Every
-    // iteration of a loop makes as many; a loop without any has those that stand before it.
+    // The geometry passes of `iterations` iterations of a loop, or of as many as the frame has made if these are fewer.
+    // Every iteration of a loop makes the same number; for a loop without iterations it is the passes before it.
     [[nodiscard]] int passes_of(std::size_t loop, int iterations) const {
         const LoopStatistics& longest = regions_[longest_in(loop)].statistics.loops[loop];
         if (longest.iterations == 0) return longest.passes.geometry;
         return std::min(iterations, longest.iterations) * (longest.passes.geometry / longest.iterations);
     }
 
-    // A region that has run a loop as long as the frame does: where something was left to count until its end.
+    // A region that runs a loop as long as the frame does, because it had something to count until the end.
     [[nodiscard]] std::size_t longest_in(std::size_t loop) const {
         const auto iterations = [loop](const RegionRun& r) { return r.statistics.loops[loop].iterations; };
         return static_cast<std::size_t>(std::ranges::max_element(regions_, {}, iterations) - regions_.begin());
     }
 
-    // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers
-    // only, so each round settles at least one, and regions that guessed otherwise run again with the answers known so
+    // Settles the frame's answers one decision after the other. The counts at a decision depend only on earlier
+    // answers, so each round settles at least one; regions that guessed otherwise run again with the answers known so
     // far.
     void settle() {
         if (extent_ == Extent::frame) {
@@ -272,8 +271,8 @@ class FrameRun {
         }
     }
 
-    // Puts the frame together from the statistics of all regions. Diagnostics merge in any order, so the result does
-    // not depend on threads. Without a query every region ran the same iterations.
+    // Assembles the frame from the statistics of all regions. Diagnostics merge in any order, so the result does not
+    // depend on threads. Without queries all regions ran the same iterations.
     void gather() {
         result_.work.regions = regions_.size();
         result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;
@@ -309,8 +308,8 @@ class FrameRun {
         all.queries += log.queries;
     }
 
-    // A region that stopped early shows its last layer, an empty one, in every further layer of the frame. From which
-    // end a layer was taken is known to the regions that took it.
+    // A region that stopped early uses its last layer, an empty one, for every further layer of the frame. The end from
+    // which a layer was taken is known to the regions that took it.
     void gather_layers() {
         std::size_t layer_count = 0;
         for (const auto& [r, fragments, runs] : regions_)
@@ -328,7 +327,7 @@ class FrameRun {
                 }
                 copy_into(part.color, rect(r), kept.color);
                 copy_into(part.depth, rect(r), kept.depth);
-                if (layer + 1 < layers.size()) layers[layer] = {};  // what is left of the memory serves the next
+                if (layer + 1 < layers.size()) layers[layer] = {};  // frees memory for the next layer
             }
             result_.layers.push_back(std::move(kept));
         }
@@ -345,14 +344,14 @@ class FrameRun {
     Extent extent_;
     RegionScratchPool scratch_;
     std::vector<RegionArea> areas_;
-    std::vector<RegionRun> regions_;  // at these places
+    std::vector<RegionRun> regions_;  // index as in areas_
     static constexpr std::size_t no_look_alike = ~std::size_t{0};
-    std::vector<std::size_t> blanks_, look_alike_;  // blank regions that ran; by region: which of them it is like
-    std::vector<int> passes_before_;                // by loop, once a limit has asked for them
+    std::vector<std::size_t> blanks_, look_alike_;  // blank regions that ran; per region, the one that it is a copy of
+    std::vector<int> passes_before_;                // per loop; empty until a limit needs them
     FrameResult result_;
     std::size_t weight_of_all_ = 0;
     std::atomic<std::size_t> weight_done_{0};
-    // Sums over all threads, in ticks of the clock. Only their ratio is told: no result bit knows the time.
+    // Sums over all threads, in clock ticks. Only their ratio is reported; no result bit depends on time.
     std::atomic<Clock::rep> time_in_bodies_{0}, time_in_watch_{0};
 };
 
@@ -361,12 +360,12 @@ class FrameRun {
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
                 const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch) {
     const FloatEnvironment ours;
-    // A run that is to be timed with one effect more rasterizes in every pass: recalled fragments would skip the
+    // A run that times one additional effect rasterizes in every pass, because recorded fragments would skip the
     // effect.
     const auto run_as = [&](const Frame& given, Execution way) {
         return FrameRun{given, body, way, threads, progress, instruments, watch}.finish();
     };
-    Frame rasterized = frame;  // in every pass
+    Frame rasterized = frame;  // without replay: rasterizes in every pass
     rasterized.replay = {};
     const bool is_plain = execution == Execution::replay && instruments.once_more == Effect::none;
     const Frame& given = is_plain ? frame : rasterized;
@@ -376,7 +375,7 @@ FrameResult run(const Frame& frame, const Body& body, Execution execution, int t
     if (execution == Execution::literal) return run_as(given, execution);
     if (!frame.needs_frame) try {
             return run_as(given, execution);
-        } catch (const NeedsFrame&) {  // a lookup left its region: all of it again, as the definition has it
+        } catch (const NeedsFrame&) {  // a lookup left its region: run the frame again literally
         }
     return run_as(rasterized, Execution::literal);
 }

@@ -1,5 +1,6 @@
-// pipeline/region/fragment_path.cpp - the chip's two units as one program of a pass: the texture shader gives four
-// colours, kills fragments and perhaps replaces their depth; the combiners make the fragment's colour of what it gives.
+// pipeline/region/fragment_path.cpp - the chip's two units as one fragment program: the texture shader outputs four
+// colours, may kill fragments and may replace their depth; the combiners compute the fragment's colour from its
+// outputs.
 #include "pipeline/region/fragment_path.h"
 
 #include "pipeline/device/check.h"
@@ -7,8 +8,9 @@
 namespace strata::pipeline {
 namespace {
 
-// The state that the texture shader looks at beside its stages: the depth range and clamp of the draw list, the format
-// of a replaced depth, and each unit's depth texture, either an image of the caller's or a depth target of this region.
+// The state that the texture shader reads in addition to its stages: the depth range and clamp of the draw list, the
+// format of a replaced depth, and each unit's depth texture, either an image of the caller or a depth target of this
+// region.
 ShaderMachine machine_of(const Region& region, const ShaderStages& stages) {
     const rasterizer::RasterState& raster = region.frame().transparent->geometry.state;
     ShaderMachine machine;
@@ -44,8 +46,8 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
         throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
 }
 
-// A stage that is off gets no texture, so that it neither counts loads nor makes a feedback loop. Colours are needed as
-// the combiners' primary colour, coordinates as far as an operation reads them (texture-shader.md 8).
+// A disabled stage gets no texture, so that it neither counts loads nor creates a feedback loop. Colours are needed as
+// the combiners' primary colour, coordinates only as far as an operation reads them (texture-shader.md 8).
 void FragmentPathProgram::apply(PassState& state) const {
     state.needs.color = true;
     state.needs.units |= coordinates_of(path_.shader, ops_);
@@ -54,8 +56,8 @@ void FragmentPathProgram::apply(PassState& state) const {
         state.textures[u] = ops_[u] == ShaderOp::none ? Target{} : path_.shader[u].texture.depth;
 }
 
-// A fragment dies by CULL_FRAGMENT or by a depth out of range (texture-shader.md 6 and 7). Combiners run on dead lanes,
-// too: their colours are never stored.
+// CULL_FRAGMENT or a depth out of range kills a fragment (texture-shader.md 6 and 7). Combiners also run on dead lanes,
+// whose colours are never stored.
 void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outputs& out) {
     const auto count = static_cast<std::size_t>(in.count);
     run_texture_shader(path_.shader, ops_, machine_, in, *results_);

@@ -1,8 +1,8 @@
 // pipeline/region/fragment_path.h - GeForce3's fragment path as a fragment program: texture shader, then register
 // combiners.
 //
-// Rule     The state of a pass is a value; `apply` tells the pass what it needs. Coordinates come with the draw list
-//          (PrepareOptions::units) or with a TriangleSoup of one's own. A replaced depth takes the place of the
+// Rule     The state of a pass is a value; `apply` adds to it what the path needs. Coordinates come with the draw list
+//          (PrepareOptions::units) or with the caller's TriangleSoup. A replaced depth is used instead of the
 //          rasterizer's in depth units, stencil and depth test.
 // Source   fragment-stages.md 1 (order); texture-shader.md 1; combiners.md 2 and 3.
 // Tests    tests/pipeline/region/fragment_path_test.cpp, tests/peeling/listing2_test.cpp
@@ -15,8 +15,8 @@
 
 namespace strata::pipeline {
 
-// The GeForce3's texture shader and register combiners, programmed for one pass. Stages and textures that it points to
-// outlive the pass. Without a shader every stage is NONE; default combiners give black, alpha 0.
+// GeForce3's texture shader and register combiners, programmed for one pass. The stages and textures that it points to
+// must outlive the pass. Without a shader every stage is NONE; default combiners give black, alpha 0.
 struct FragmentPath {
     ShaderStages shader{};
     Combiners combiners;
@@ -24,11 +24,12 @@ struct FragmentPath {
 
 class FragmentPathProgram {
   public:
-    // Throws Refused where the profile has no NV_texture_shader, std::logic_error for combiner state that no machine
-    // runs.
+    // Throws Refused if the profile has no NV_texture_shader, std::logic_error for combiner state that no device
+    // supports.
     FragmentPathProgram(const Region& region, const FragmentPath& path);
 
-    // Adds to `state` what the program looks at, the depth targets that it samples, and whether it replaces depth.
+    // Adds to `state` the values that the program reads, the depth targets that it samples, and whether it replaces
+    // depth.
     void apply(PassState& state) const;
     void operator()(const FragmentBatch& in, const Loads& own, Outputs& out);
 

@@ -1,4 +1,4 @@
-// pipeline/region/region.cpp - a region from its parts, and the opaque scene that is there before the body starts
+// pipeline/region/region.cpp - assembles a region from its parts, and draws the opaque scene before the body starts
 // (execution.md 1.1).
 #include "pipeline/region/region.h"
 
@@ -10,7 +10,7 @@ namespace strata::pipeline {
 
 namespace {
 
-// The terms of a weighted sum: (c a, a), and 1 for every further target.
+// Outputs the terms of a weighted sum: (c a, a), and 1 for every further target.
 void leave_terms(const PassState& state, const FragmentBatch& in, Outputs& out) noexcept {
     const auto lanes = static_cast<std::size_t>(in.count);
     for (std::size_t c = 0; c < 3; ++c)
@@ -35,7 +35,7 @@ void RegionShared::report(Fault fault, std::uint64_t pixels, std::uint32_t first
                                    rect().y0 + static_cast<int>(first_pixel / width), std::move(detail)});
 }
 
-// The trace begins with what the opaque scene leaves: nothing.
+// The trace is empty after the opaque scene.
 Region::Region(const Frame& frame, const RegionArea& place, RegionStatistics& statistics,
                const Instruments& instruments, RegionScratchPool* pool)
     : pool_{pool},
@@ -51,7 +51,7 @@ Region::Region(const Frame& frame, const RegionArea& place, RegionStatistics& st
     if (!is_empty) draw_opaque();
 }
 
-// Scratch goes back to the pool, so that the next region finds memory that is already there.
+// Returns the scratch to the pool, so that the next region reuses its memory.
 Region::~Region() {
     if (pool_ == nullptr) return;
     scratch_->keep_words(targets_.all());
@@ -106,7 +106,7 @@ void Region::draw_opaque() {
     state.color[0] = opaque_color();
     draw(state, *frame().opaque, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         out.color[0] = in.color;
-        out.color[0][3].fill(1.0f);  // alphaMode OPAQUE ignores alpha, and what MASK keeps is opaque
+        out.color[0][3].fill(1.0f);  // alphaMode OPAQUE ignores alpha, and fragments that MASK keeps are opaque
     });
 }
 
@@ -125,13 +125,13 @@ Drawn Region::draw_sums(const PassState& state) {
     return drawn;
 }
 
-// Both ways from the same targets. What is kept is the outcome of visiting everything, the definition. A program that
-// writes elsewhere than to its outputs does so twice.
+// Runs both versions from the same targets and compares. The result is that of visiting every fragment, the definition.
+// A program that writes elsewhere than to its outputs does so twice.
 Drawn Region::checked(const std::function<Drawn()>& quick, const std::function<Drawn()>& definition) {
     std::vector<TargetStorage> targets = targets_.all();
     const std::size_t traced = scratch_->trace.size();
     const Count quick_passed = quick().passed;
-    std::swap(targets_.all(), targets);  // and takes what the quick way left
+    std::swap(targets_.all(), targets);  // `targets` then has the result of the optimized version
     scratch_->trace.shorten(traced);
     const Drawn drawn = definition();
     if ((quick_passed.own_ > 0) != (drawn.passed.own_ > 0))

@@ -1,11 +1,11 @@
-// pipeline/region/region.h - a rectangle of the frame with render targets of its own: what peeling algorithms are
-// written against.
+// pipeline/region/region.h - a rectangle of the frame with its own render targets: the interface for peeling
+// algorithms.
 //
-// Rule     An algorithm is one function over a region. Literal execution gives it the frame, replay one tile after
-//          another; bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
-//          A region is its targets, stages, source and loop (region_shared.h says who looks at whom); what the executor
-//          reads afterwards stands in RegionStatistics (region_statistics.h); what fast ways need, in RegionShortcuts
-//          (region_shortcuts.h).
+// Rule     An algorithm is one function over a region. Literal execution passes it the frame, replay one tile after the
+//          other; bits, pass counts and query results are the same. Only `any` turns a query into a branch. A region
+//          consists of targets, stages, source and loop (region_shared.h describes their dependencies). What the
+//          executor reads afterwards is in RegionStatistics (region_statistics.h); what optimized paths need, in
+//          RegionShortcuts (region_shortcuts.h).
 // Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
@@ -27,7 +27,7 @@ class RegionScratchPool;
 
 class Region {
   public:
-    // `pool`: where the region borrows its arrays; without one it brings its own.
+    // `pool`: lends the region its arrays; null: the region allocates its own.
     Region(const Frame& frame, const RegionArea& place, RegionStatistics& statistics,
            const Instruments& instruments = {}, RegionScratchPool* pool = nullptr);
     Region(const Region&) = delete;
@@ -38,7 +38,8 @@ class Region {
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return shared_.profile(); }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return shared_.rect(); }
 
-    // Contents 0; same order in every region. Throws Refused for more samples than the profile has.
+    // Contents are 0; targets are created in the same order in every region. Throws Refused for more samples than the
+    // profile has.
     [[nodiscard]] Target make(Format format, int samples = 1) { return targets_.make(format, samples); }
     [[nodiscard]] Target make_color() { return make(frame().color_format); }
     [[nodiscard]] Target make_depth() { return targets_.make_depth(); }
@@ -46,7 +47,7 @@ class Region {
     // the background (without opaque geometry: depth 1, the background).
     [[nodiscard]] Target opaque_depth() const noexcept { return targets_.opaque_depth(); }
     [[nodiscard]] Target opaque_color() const noexcept { return targets_.opaque_color(); }
-    // What people call a target, for observers and alterations.
+    // Names a target for observers and alterations.
     void call(Target target, std::string_view name) const { targets_.call(target, name); }
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff) {
@@ -54,53 +55,53 @@ class Region {
     }
     void copy(Target from, Target to) { targets_.copy(from, to); }  // same format and samples: a bit copy
     [[nodiscard]] const TargetStorage& storage(Target target) const { return targets_.at(target); }
-    [[nodiscard]] Targets& targets() noexcept { return targets_; }  // whatever else is done with them
+    [[nodiscard]] Targets& targets() noexcept { return targets_; }  // for all other operations on targets
     [[nodiscard]] const Targets& targets() const noexcept { return targets_; }
 
-    // One geometry pass over the transparent list, or over the part of it that `state.primitives` names.
+    // One geometry pass over the transparent list, or over the part of it in `state.primitives`.
     template <FragmentProgram P>
     Drawn draw(const PassState& state, P&& program) {
         return draw(state, *frame().transparent, program);
     }
-    // One over a list of the frame, or over one that is not: only a frame that is a single region may (surface.h).
+    // One geometry pass over a list of the frame, or over another list; the latter only if the frame is a single region
+    // (surface.h).
     template <FragmentProgram P>
     Drawn draw(const PassState& state, const PreparedDraw& list, P&& program);
-    // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it
-    // can.
+    // One geometry pass that tests and writes depth, without a program or colours; written directly to the target if
+    // possible.
     Drawn draw_depth(const PassState& state);
-    // One geometry pass whose program leaves (c a, a) of every fragment to color[0], and 1 to each further target:
-    // straight into the targets where `state` adds them, and nothing else is done to them.
+    // One geometry pass whose program outputs (c a, a) of every fragment to color[0], and 1 to each further target;
+    // added directly to the targets if `state` adds them and does nothing else with them.
     Drawn draw_sums(const PassState& state);
-    // A screen-aligned quad: every pixel of the region once.
+    // A screen-aligned quad: one fragment at every pixel of the region.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
 
-    // The frame's answer to "is the count above the limit that --termination sets?". A promise belongs to the query
-    // that ends the loop, the last act of its iteration: a region that keeps it may stop there. A query for a branch
-    // within the iteration asks with Idle::no.
+    // The frame's answer to "is the count above the limit of --termination?". A promise belongs to the query that ends
+    // the loop, the last act of its iteration: a region that keeps it may stop there. A query for a branch within the
+    // iteration uses Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle) { return loop_.any(count, idle); }
     void begin_iteration() { loop_.begin_iteration(); }
-    // A further loop begins: promises made so far concern the loops before it, and further ones it alone. Where a limit
-    // counts passes across the loops, a tile that left one early learns how many the frame has made.
+    // Begins a further loop: promises made so far apply to the loops before it, and later ones only to the new loop. If
+    // a limit counts passes across the loops, a tile that left a loop early is told how many the frame has made.
     void begin_loop() { loop_.begin_loop(); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1) { return loop_.limit_reached(passes); }
     void keep_layer(Target color, Target depth, Side side = Side::front) { loop_.keep_layer(color, depth, side); }
-    // After the last one: what this region shows in layers that other regions have more than it.
+    // After the last layer: the contents of this region in layers that only other regions have.
     void keep_no_layer(Target color, Target depth) { loop_.keep_no_layer(color, depth); }
-    // Hands over the final colour, which is an algorithm's result. Where the picture has another format, a quad copies
-    // it.
+    // Sets the final colour, the algorithm's result. If the image has another format, a quad converts it.
     void publish(Target color);
 
-    // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
+    // Adds to the trace the pixels that `program` marks, with `read` as its only load. For the audit; not a pass.
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
-    void trace(const TraceEntry& entry) { shared_.trace(entry); }  // one step that no pass shows
-    // `pixels` of this region, the first of them at region index `first_pixel`.
+    void trace(const TraceEntry& entry) { shared_.trace(entry); }  // one step that is not part of a pass
+    // `pixels` pixels of this region, the first of them at region index `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) {
         shared_.report(fault, pixels, first_pixel, std::move(detail));
     }
-    void report(Fault fault, std::string detail);  // no pixel is meant
+    void report(Fault fault, std::string detail);  // without a pixel
 
   private:
     friend class RegionShortcuts;
@@ -125,7 +126,7 @@ class Region {
     Loop loop_;
 };
 
-// The colours of a target in another one: a bit copy, or a quad where its format is another.
+// Copies the colours of a target to another: a bit copy, or a quad if the formats differ.
 void copy_color(Region& region, Target from, Target to);
 
 template <FragmentProgram P>
@@ -168,7 +169,7 @@ Drawn Region::draw_visits(const PassState& state, P& program) {
     stages_.close_cache();
     if (is_routed) source_.finish_submitted(state);
     if (state.selection.outside == Outside::writes_alike)
-        drawn.passed.own_ = source_.recorded();  // what lies outside passes, too
+        drawn.passed.own_ = source_.recorded();  // includes the fragments outside passes
     return drawn;
 }
 

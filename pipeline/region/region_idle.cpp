@@ -1,11 +1,11 @@
-// pipeline/region/region_idle.cpp - stages that no state needs, simulated with a state that changes nothing: what
-// Effects::all adds.
+// pipeline/region/region_idle.cpp - disabled stages simulated with a state that changes nothing, as Effects::all
+// requires.
 //
-// Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its outcome goes on to
-//          the next stage wherever it is the same by the stage's own rule: every alpha test and depth test that passes
-//          all, a stencil that keeps, and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0 d is
-//          not s for -0, infinity and NaN: there the sum is made and dropped.
-// Tests    tests/peeling/execution_test.cpp: against Effects::needed
+// Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its result is passed to
+//          the next stage wherever the stage's rule guarantees that it is unchanged: alpha and depth tests that pass
+//          everything, a stencil that keeps, and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0
+//          d differs from s for -0, infinity and NaN: there the sum is computed and discarded.
+// Tests    tests/peeling/execution_test.cpp compares with Effects::needed.
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_stages.h"
@@ -16,7 +16,7 @@
 
 namespace strata::pipeline {
 
-// Whatever the alpha is, its 8-bit code is at least 0.
+// The 8-bit code of any alpha is at least 0.
 void Stages::idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out) {
     if (!state.color[0].exists()) return;  // no alpha of colour 0
     constexpr AlphaTest passes_all{.enabled = true, .func = CompareFunc::gequal, .ref = 0.0f};

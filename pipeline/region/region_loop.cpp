@@ -1,4 +1,5 @@
-// pipeline/region/region_loop.cpp - how a region iterates, asks and stops. The frame's side of it is executor.cpp.
+// pipeline/region/region_loop.cpp - a region's iterations, queries and termination. The frame's counterpart is
+// executor.cpp.
 #include "pipeline/region/region_loop.h"
 
 #include "pipeline/frame/verdict.h"
@@ -18,8 +19,8 @@ void Loop::begin_iteration() {
     ++shared_.statistics.loops.back().iterations;
 }
 
-// A tile that counts nothing stops; the executor runs it again, with what the frame answered, unless it has promised to
-// be idle.
+// A tile that counts nothing stops; the executor runs it again with the frame's answers, unless it has promised to be
+// idle.
 bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;
@@ -41,8 +42,8 @@ bool Loop::any(Count count, Idle idle) {
     return answer;
 }
 
-// Both limits count geometry passes of the whole algorithm (keys-and-counts.md 3.2). Every region has made as many at
-// this place, so all of them stop together.
+// Both limits count geometry passes of the whole algorithm (keys-and-counts.md 3.2). Every region has made the same
+// number at this point, so all of them stop together.
 bool Loop::limit_reached(int passes) const {
     const int fixed = shared_.frame.termination.rule == TerminationRule::fixed ? shared_.frame.termination.passes : 0;
     const int after = shared_.statistics.geometry_passes + passes;

@@ -1,5 +1,5 @@
-// pipeline/region/region_loop.h - how a region iterates, asks and stops, and what it keeps of an iteration. The frame's
-// side of it is executor.cpp.
+// pipeline/region/region_loop.h - a region's iterations, queries and termination, and the layers that it keeps. The
+// frame's counterpart is executor.cpp.
 //
 // Source   execution.md 4; keys-and-counts.md 3.
 // Tests    tests/pipeline/region/executor_test.cpp, tests/peeling/execution_test.cpp

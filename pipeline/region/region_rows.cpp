@@ -1,6 +1,5 @@
-// pipeline/region/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the
-// targets, where that leaves the same bits. Literal execution never takes this way: it is what this one is tested
-// against.
+// pipeline/region/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows are written directly to
+// the targets, if that gives the same bits. Literal execution never uses this path, which is tested against it.
 #include <algorithm>
 
 #include "pipeline/region/region_scratch.h"
@@ -15,10 +14,10 @@ namespace strata::pipeline {
 
 namespace {
 
-// A row reads and writes whole vectors: the words behind a target's last pixel are room for the last one.
+// A row reads and writes whole vectors: the words after a target's last pixel make room for the last vector.
 static_assert(rasterizer::row_padding <= spare_words);
 
-// Literal execution, --effects all and a timed effect go through batches.
+// Literal execution, --effects all and a timed effect use batches.
 [[nodiscard]] bool may_leave_batches(const RegionShared& shared) {
     return !shared.is_frame() && shared.frame.effects == Effects::needed &&
            shared.instruments.once_more == Effect::none;
@@ -30,8 +29,8 @@ bool Source::may_walk_rows(const PreparedDraw& list) const {
     return may_leave_batches(shared_) && row_walk_suits(list.geometry, shared_.frame.key_request(), shared_.rect());
 }
 
-// Whether nothing stands between the rasterizer and the tests of this pass. What rows of depth can do is more than what
-// other rows can: they ask may_walk_rows, too.
+// True if no stage is needed between the rasterizer and the tests of this pass. Depth rows support more cases than
+// other rows, which also require may_walk_rows.
 bool Source::draws_rows(const PassState& state, const PreparedDraw& list) {
     if (!may_leave_batches(shared_) || !depth_rows_suit(list.geometry, shared_.frame.key_request(), shared_.rect()))
         return false;
@@ -43,7 +42,7 @@ bool Source::draws_rows(const PassState& state, const PreparedDraw& list) {
     return is_plain && !is_recorded;
 }
 
-// LESS with a write is the one depth pass that rows know; every other goes through batches (execution.md 7).
+// LESS with a write is the only depth pass that rows implement; every other uses batches (execution.md 7).
 bool Source::depth_suits_rows(const PassState& state) {
     const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
     return is_nearest && targets_.is_one_sample(state.depth_target) && draws_rows(state, *shared_.frame.transparent);
@@ -59,8 +58,8 @@ rasterizer::DepthDrawn Source::draw_depth_rows(const PassState& state) {
     return rows;
 }
 
-// Rows add halves to nearest, and binary32, of colours by exact planes, without texture or shadow (execution.md 7). All
-// else runs the program.
+// Rows add to halves, rounded to nearest, and to binary32; colours must be exact planes without texture or shadow
+// (execution.md 7). Everything else runs the program.
 bool Source::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return targets_.is_one_sample(state.color[k]) && targets_.at(state.color[k]).format() == format &&
@@ -83,7 +82,7 @@ bool Source::sums_suit_rows(const PassState& state) {
 rasterizer::DepthDrawn Source::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *shared_.frame.transparent;
     stages_.begin_pass(state, PassKind::geometry);
-    // Of triangles of few pixels a test of each fragment takes less than a bound of all triangles.
+    // For triangles of few pixels, testing each fragment takes less time than bounding all triangles.
     const bool has_few_pixels = 4 * list.geometry.bin(shared_.place.tile).size() > shared_.rect().area();
     const bool is_open = has_few_pixels || depth_outcome(state, list) == DepthOutcome::open;
     const bool has_count_target = state.color[1].exists();

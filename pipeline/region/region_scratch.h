@@ -1,5 +1,5 @@
-// pipeline/region/region_scratch.h - what a region borrows while it runs: the arrays that one batch passes through, the
-// rasterizer's own, and the captured fragments. Handed from region to region, so that nothing is allocated per batch
+// pipeline/region/region_scratch.h - memory that a region borrows while it runs: the arrays of one batch, those of the
+// rasterizer, and the recorded fragments. It is passed from region to region, so that nothing is allocated per batch
 // and little per tile.
 #pragma once
 #include <memory>
@@ -16,26 +16,27 @@
 
 namespace strata::pipeline {
 
-// Contents last from one stage of a batch to the next, but for the record and what is sorted of it, `trace`, which last
-// as long as the region.
+// Contents are valid from one stage of a batch to the next; the record, its sorted lists and `trace` are valid while
+// the region exists.
 struct alignas(64) RegionScratch {
     Loads loads;
     Outputs out;
-    FragmentBatch screen;               // of full-screen passes
-    FragmentBatch recorded;             // from the record
-    ColorLanes texel;                   // a texture's or a shadow's colours; also the cut source of narrow surfaces
-    ColorCodes codes, idle_codes;       // stored values on their way through the blender
-    Lanes<std::uint32_t> alive;         // of one sample
-    Lanes<std::uint32_t> depth_stored;  // of a pixel that is stored alone
+    FragmentBatch screen;               // for full-screen passes
+    FragmentBatch recorded;             // read from the record
+    ColorLanes texel;                   // a texture's or a shadow's colours; also the truncated source of narrow
+                                        // surfaces
+    ColorCodes codes, idle_codes;       // stored values passing through the blender
+    Lanes<std::uint32_t> alive;         // for one sample
+    Lanes<std::uint32_t> depth_stored;  // of the pixel that store_pixel writes
     Lanes<std::uint32_t> depth_pass;
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     TileFragments fragments;
     TileFragments::Reading reading;
-    SortedLists sorted, other_sorted;  // of the record: what the present pass looks into, and what another did
-    FragmentWaves waves;               // of the present pass
+    SortedLists sorted, other_sorted;  // of the record: for the current pass, and for another selection
+    FragmentWaves waves;               // for the current pass
     Trace trace;
-    std::vector<TargetWords> target_words;  // of targets that are no more
+    std::vector<TargetWords> target_words;  // memory of released targets
 
     [[nodiscard]] TargetWords take_words() {
         if (target_words.empty()) return {};
@@ -43,14 +44,14 @@ struct alignas(64) RegionScratch {
         target_words.pop_back();
         return words;
     }
-    // Where there is no memory for the list, the rest of the words goes.
+    // If there is no memory for the list, the remaining words are freed.
     void keep_words(std::vector<TargetStorage>& storages) noexcept try {
         for (TargetStorage& storage : storages) target_words.push_back(storage.give_memory());
     } catch (...) {
     }
 };
 
-// Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.
+// Free sets, at most as many as regions ran at once. A set has no values from earlier regions.
 class RegionScratchPool {
   public:
     [[nodiscard]] std::unique_ptr<RegionScratch> take() {
@@ -63,7 +64,7 @@ class RegionScratchPool {
         scratch->other_sorted.forget();
         return scratch;
     }
-    // Called by destructors: where there is no memory for the list, the scratch goes.
+    // Called by destructors: if there is no memory for the list, the scratch is freed.
     void give(std::unique_ptr<RegionScratch> scratch) noexcept try {
         const std::scoped_lock lock{mutex_};
         free_.push_back(std::move(scratch));

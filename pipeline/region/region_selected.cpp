@@ -1,6 +1,5 @@
-// pipeline/region/region_selected.cpp - geometry passes that visit only what decides: the fragments that a selection
-// keeps go through the stages, and no others (execution.md 7.1). Literal execution never takes this way: it is what
-// this one is tested against.
+// pipeline/region/region_selected.cpp - geometry passes that visit only the fragments that a selection keeps: only they
+// go through the stages (execution.md 7.1). Literal execution never uses this path, which is tested against it.
 #include <algorithm>
 
 #include "pipeline/fragments/find_fragments.h"
@@ -18,7 +17,7 @@ using rasterizer::FragmentNeeds;
 
 namespace {
 
-// A stencil test that every fragment counts down, and that lets one code through, at every sample.
+// True for a stencil test that every fragment counts down and that passes for one code, at every sample.
 bool routes_submitted(const PassState& state) {
     constexpr auto decr = StencilOp::decr;
     const StencilFace& face = state.stencil.front;
@@ -30,7 +29,7 @@ bool routes_submitted(const PassState& state) {
            state.depth == DepthTest{.enabled = true, .func = CompareFunc::always, .write = true};
 }
 
-// Whether the pass's tests are those of what it keeps.
+// True if the pass's tests are those that its Keeps requires.
 bool has_tests_of_its_kind(const PassState& state, int samples) {
     constexpr DepthTest leaves_the_nearest{.enabled = true, .func = CompareFunc::less, .write = true};
     const bool is_plain = samples == 1 && (state.sample_mask & 1u) != 0 && !state.stencil.enabled;
@@ -47,7 +46,8 @@ bool has_tests_of_its_kind(const PassState& state, int samples) {
     return false;
 }
 
-// Ranges hold depths; channels hold values of stored codes, near which a program decides.
+// True if the bounds suit the key: ranges contain depths; channels contain values of stored codes, near which a program
+// decides.
 bool bounds_suit(const PassState& state, DepthKey key) {
     const FragmentSelection& selection = state.selection;
     const bool has_values = selection.near.channel >= 0 ||
@@ -60,7 +60,7 @@ bool bounds_suit(const PassState& state, DepthKey key) {
 
 }  // namespace
 
-// Of a tile whose fragments fit into memory, and are sortable.
+// Requires that the tile's fragments fit into memory and can be sorted.
 bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run =
@@ -84,7 +84,7 @@ bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
     return true;
 }
 
-// The sorting that this pass looks into: one of two, for passes in turn may ask for two parts of a list.
+// Selects the sorted lists for this pass. There are two, because alternating passes may use two parts of a list.
 bool Source::sort_for(const PassState& state) {
     SortRequest request{.key = shared_.frame.key,
                         .is_float = shared_.frame.key_request().format == DepthFormat::d32f,
@@ -157,7 +157,7 @@ bool Source::find_kept(const PassState& state) {
     return false;
 }
 
-// Whether sample s of every pixel with fragments takes arrival number first_submitted + s.
+// True if sample s of every pixel with fragments waits for fragment first_submitted + s of its pixel.
 bool Source::waits_in_order(const PassState& state) const {
     if (state.selection.far[0].target != targets_.opaque_depth()) return false;
     const SortedLists& sorted = shared_.scratch.sorted;
@@ -180,8 +180,8 @@ void Source::find_submitted(const PassState& state) {
             shared_.scratch.waves.add(k - first, p, sorted.list(p)[k]);
 }
 
-// Those that come before have counted the stencil down by the time that the kept ones come, and met no sample's test.
-// Sample s takes kept arrival s, which fails the tests of the others.
+// Fragments before the kept ones have counted the stencil down without passing any sample's test. Sample s then takes
+// kept fragment s, which fails the tests of the other samples.
 void Source::route_submitted(const PassState& state) {
     for (std::size_t s = 0; s < shared_.scratch.waves.waves(); ++s) {
         std::uint32_t* const stored = targets_.at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
@@ -189,7 +189,7 @@ void Source::route_submitted(const PassState& state) {
     }
 }
 
-// What all of a pixel's fragments leave of stencils that waited in order.
+// Sets the stencils of samples that waited in order to the values that all of a pixel's fragments leave.
 void Source::finish_submitted(const PassState& state) {
     const SortedLists& sorted = shared_.scratch.sorted;
     for (int s = 0; s < stages_.samples(); ++s) {
@@ -201,8 +201,8 @@ void Source::finish_submitted(const PassState& state) {
     }
 }
 
-// Where the pixels of a batch lie in the interval. A tile has at most 2^14 pixels in rows of up to 2^7, so that the
-// reciprocal's error, below 2^-21 a pixel, is less than one part of a row.
+// Computes the window positions of a batch's pixels from their indices. A tile has at most 2^14 pixels in rows of up to
+// 2^7, so the reciprocal's error, below 2^-21 per pixel, is less than one part of a row.
 void Source::find_positions(FragmentBatch& batch) const {
     const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
                x0 = static_cast<std::uint32_t>(shared_.rect().x0);
@@ -215,7 +215,7 @@ void Source::find_positions(FragmentBatch& batch) const {
     }
 }
 
-// Stored codes are keys, which need no fetching.
+// Stored codes are the keys, so they need not be fetched.
 FragmentBatch* Source::next_visit(const PassState& state) {
     const FragmentWaves::Part part = shared_.scratch.waves.next();
     if (part.pixel.empty()) return nullptr;

@@ -1,9 +1,9 @@
-// pipeline/region/region_shared.h - what the parts of a region share while it runs: its place, its statistics, and who
-// watches.
+// pipeline/region/region_shared.h - what the parts of a region share while it runs: its area, its statistics and its
+// instruments.
 //
-// Rule     Targets hold render targets, stages take batches through a pass, source says where its fragments come from,
-//          loop asks and stops. Each looks at those before it alone: targets, stages, source; loop beside them. Region
-//          (region.h) has them all.
+// Rule     Targets own the render targets; stages pass batches through the fragment operations; source provides the
+//          fragments; loop makes queries and ends the loop. Each part uses only the parts before it in the order
+//          targets, stages, source; loop is independent of them. Region (region.h) contains all of them.
 // Tests    tests/pipeline/region/region_test.cpp
 #pragma once
 #include <cstddef>
@@ -26,40 +26,40 @@ struct RegionShared {
     RegionArea place;
     RegionStatistics& statistics;
     Instruments instruments;
-    RegionScratch& scratch;  // the arrays that a batch passes through
-    Region& region;          // for those who watch or alter its steps
+    RegionScratch& scratch;  // the arrays through which a batch passes
+    Region& region;          // for observers and alterations of its steps
 
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return *frame.profile; }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return place.rect; }
     // Literal execution: the frame is one region.
     [[nodiscard]] bool is_frame() const noexcept { return place.extent == Extent::frame; }
-    // Whether depths beyond the range have codes of their own (depth.md 2.9).
+    // True if depths outside the depth range have codes (depth.md 2.9).
     [[nodiscard]] bool wraps_depths() const noexcept {
         return profile().raster.depth_limits == rasterizer::DepthLimits::wrap;
     }
-    // Whether to simulate an effect that changes nothing.
+    // True if an effect that changes nothing is to be simulated.
     [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
         return instruments.once_more == effect || (frame.effects == Effects::all && !is_called_for);
     }
-    // Null where the next step is to be taken as it is.
+    // Null if the next step is not altered.
     [[nodiscard]] const Alteration* alteration() const noexcept {
         return statistics.counts ? instruments.alteration : nullptr;
     }
-    // What the machine does; the emulator's own work is not counted.
+    // Counts the device's work; the emulator's own work is not counted.
     void count(const Counters& counters) const noexcept {
         if (statistics.counts) statistics.counters += counters;
     }
     void count_pass(const PassCount& passes) const noexcept {
         if (statistics.counts) statistics.loops.back().passes += passes;
     }
-    void show(StepEvent event) const {  // to the observer, if there is one
+    void show(StepEvent event) const {  // reports to the observer, if there is one
         if (instruments.observer == nullptr || !instruments.observer->step) return;
         event.is_counted = statistics.counts;
         event.iteration = statistics.iterations;
         instruments.observer->step(region, event);
     }
-    void trace(const TraceEntry& entry) const;  // and shows it
-    // Diagnostics name pixels of the window, not of the region: `pixels` of it, the first of them at region index
+    void trace(const TraceEntry& entry) const;  // and reports it
+    // Diagnostics refer to pixels of the window, not of the region: `pixels` of them, the first at region index
     // `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) const;
 };

@@ -1,5 +1,5 @@
-// pipeline/region/region_shortcuts.cpp - looks at a region's fragments beside its passes, and words of targets lent to
-// kernels (execution.md 7). A look is no pass: the counters do not see it.
+// pipeline/region/region_shortcuts.cpp - access to a region's fragments outside its passes, and target words for
+// kernels (execution.md 7). Such access is not a pass and is not counted.
 #include "pipeline/region/region_shortcuts.h"
 
 #include <algorithm>
@@ -53,13 +53,13 @@ std::vector<CapturedFragment> RegionShortcuts::capture(Counting counting) {
     return all;
 }
 
-// Each part has twice as many triangles as the one before. A program that soon has enough is asked soon, and few
+// Each part has twice as many triangles as the previous one. A program that needs little is asked early, and few
 // batches end early.
 void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
                                      const bool& goes_on) {
     const PreparedDraw& list = *region_.frame().transparent;
     const MaterialNeeds& materials = region_.source_.needs_of_tile(list);
-    needs.color |= materials.color;  // MASK decides which fragments there are
+    needs.color |= materials.color;  // MASK decides which fragments exist
     needs.texcoord |= materials.texcoord && needs.color;
     const bool takes_shadow = needs.color && list.needs.shadow != 0;
     region_.stages_.set_material(needs.texcoord, takes_shadow);
@@ -96,7 +96,7 @@ void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba
     TargetStorage& to = region_.targets_.at(target);
     const auto codes = color_codes(to.format(), region_.profile().color_rounding(), color);
     RegionScratch& s = *region_.scratch_;
-    Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
+    Lanes<std::uint32_t>& index = s.depth_stored;  // only its first lane is used
     index[0] = pixel;
     s.alive[0] = ~0u;
     for (std::size_t c = 0; c < 4; ++c) s.codes[c][0] = codes[c];
@@ -112,7 +112,7 @@ std::uint64_t RegionShortcuts::target_words() const {
     return words;
 }
 
-// Geometry passes also count for limit_reached, as the passes that are replaced would have.
+// Geometry passes also count for limit_reached, like the passes that they replace.
 void RegionShortcuts::count_passes(const PassCount& passes) {
     region_.shared_.count_pass(passes);
     region_.shared_.statistics.geometry_passes += passes.geometry;

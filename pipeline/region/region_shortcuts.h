@@ -1,10 +1,10 @@
-// pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the
-// machine's, in the machine's own statistics. The resolve of dual (peeling/loops), the kernels of rows and whole
-// pixels, and the emulator's own looks.
+// pipeline/region/region_shortcuts.h - access for optimized paths through a region, which compute the same bits without
+// the device's passes and record them in the device's statistics: the resolve of dual peeling (peeling/loops), the
+// kernels for rows and whole pixels, and the emulator's own queries.
 //
-// Rule     Nothing here is a pass, and nothing is counted unless `count_passes` says so: the caller statistics what the
-//          passes that it replaces would have counted. An algorithm that is written as its paper says needs none of it.
-// Tests    tests/peeling/execution_test.cpp: every fast way against literal execution
+// Rule     Nothing here is a pass, and nothing is counted except by `count_passes`: the caller records what the passes
+//          that it replaces would have counted. An algorithm written as in its paper needs none of it.
+// Tests    tests/peeling/execution_test.cpp compares every optimized path with literal execution.
 #pragma once
 #include <optional>
 #include <span>
@@ -19,7 +19,7 @@ namespace strata::pipeline {
 class SortedLists;
 class TileFragments;
 
-// A tile's fragments, and by pixel in the order of the frame's key.
+// A tile's fragments, and their per-pixel lists in the order of the frame's key.
 struct SortedRecord {
     const TileFragments& fragments;
     const SortedLists& sorted;
@@ -29,29 +29,29 @@ class RegionShortcuts {
   public:
     explicit RegionShortcuts(Region& region) noexcept : region_{region} {}
 
-    // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
+    // Adds to `coverage[i]` the number of fragments of pixel i of the region, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
-    // program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` counts row
-    // by row from the band's first. Once the program answers false it sees no more, and so does the caller.
+    // Calls program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` is
+    // relative to the band, row by row. Stops once the program returns false, and then returns false.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
-    // What the tile draws of the list, with the values that `needs` names; nothing where that is not recorded or has no
-    // order.
+    // The tile's fragments of the list, with the values that `needs` names; empty if that is not recorded or not
+    // sortable.
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.
     [[nodiscard]] std::vector<CapturedFragment> capture(Counting counting);
-    // Runs `work`, whose passes, clears and copies are the emulator's own: nothing counts them.
+    // Runs `work`, whose passes, clears and copies are the emulator's own and are not counted.
     template <class Work>
     void uncounted(Work&& work) {
         const UncountedWork own{region_.shared_.statistics};
         work();
     }
 
-    // Words a pixel that the region's targets have by now, samples and all.
+    // Words per pixel of the region's targets so far, including all samples.
     [[nodiscard]] std::uint64_t target_words() const;
-    void count_passes(const PassCount& passes);  // that something stood in for
-    // Whether a whole loop was computed from the record: null, or why not, in a sentence.
+    void count_passes(const PassCount& passes);  // passes that another computation replaced
+    // Records whether a whole loop was computed from the record: null, or the reason why not, as an error sentence.
     void note_resolved(const char* why_not) noexcept {
         region_.shared_.statistics.taken.is_resolved = why_not == nullptr;
         region_.shared_.statistics.taken.why_unresolved = why_not;
@@ -60,16 +60,16 @@ class RegionShortcuts {
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
     [[nodiscard]] Trace& trace() noexcept;
 
-    // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
+    // An rgba8 target's codes: one word per pixel, red in the lowest byte, followed by spare_words.
     [[nodiscard]] Word* words(Target target) { return region_.targets_.at(target).depth_plane(0).words; }
-    // Consecutive pixels, all channels, sample 0.
+    // Writes consecutive pixels, all channels, sample 0.
     void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
-    // A pixel's colour, converted like a write without blending.
+    // Writes a pixel's colour, converted like a write without blending.
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
 
-    // Depth of the nearest visible key: the frame's Z. Never counted.
+    // The depth of the nearest visible key: the frame's depth image. Never counted.
     [[nodiscard]] Target nearest_depth();
-    void write_image(Target target, Image& frame) const;  // into this region's index in an image of the frame
+    void write_image(Target target, Image& frame) const;  // into this region's rectangle of an image of the frame
 
   private:
     void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,

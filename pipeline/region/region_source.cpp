@@ -1,5 +1,5 @@
-// pipeline/region/region_source.cpp - where a geometry pass gets its fragments from: the rasterizer, or what is
-// recorded of the tile.
+// pipeline/region/region_source.cpp - provides the fragments of a geometry pass, from the rasterizer or from the tile's
+// record.
 #include "pipeline/region/region_source.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Source::Source(const RegionShared& shared, Targets& targets, Stages& stages)
       rasterizer_{std::make_unique<rasterizer::TileRasterizer>(shared.rect())} {}
 Source::~Source() = default;
 
-// A second list's is not asked for tile by tile.
+// Computed per tile for the transparent and the opaque list, not for a second list.
 const MaterialNeeds& Source::needs_of_tile(const PreparedDraw& list) {
     const bool is_transparent = &list == shared_.frame.transparent, is_opaque = &list == shared_.frame.opaque;
     if (shared_.is_frame() || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
@@ -35,14 +35,14 @@ const MaterialNeeds& Source::needs_of_tile(const PreparedDraw& list) {
     return *needs;
 }
 
-// Numbers of the triangles that may touch the region, in submission order.
+// Indices of the triangles that may touch the region, in submission order.
 std::span<const std::uint32_t> Source::triangles_of(const PreparedDraw& list) const noexcept {
     return shared_.is_frame() ? std::span<const std::uint32_t>{list.geometry.all_triangles}
                               : list.geometry.bin(shared_.place.tile);
 }
 
-// Without ranges all triangles are drawn. Triangles stand in submission order, and the pieces of a clipped one carry
-// its number, so that a range of primitives is a run of triangles.
+// Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
+// index, so a range of primitives is a run of triangles.
 void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink given) {
     stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
@@ -52,7 +52,7 @@ void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
         require_range(batch);
         given(batch);
     };
-    // A silent look orders nothing.
+    // a silent query does not order fragments
     const bool checks = shared_.wraps_depths() && needs.code && (shared_.statistics.counts || from_ == From::recording);
     const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, shared_.frame.key_request(), needs, sink);
@@ -68,7 +68,7 @@ void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
     }
 }
 
-// Codes beyond the range order as no key does: where one comes, the frame is drawn as its definition has it
+// Codes outside the depth range are ordered differently from keys: if one occurs, the frame is drawn literally
 // (execution.md 5.4).
 void Source::require_range(const FragmentBatch& batch) const {
     const rasterizer::DepthFormat format = shared_.frame.key_request().format;
@@ -77,15 +77,15 @@ void Source::require_range(const FragmentBatch& batch) const {
         throw NeedsFrame{};
 }
 
-// Whether passes may look at what was recorded, rather than rasterize the list again.
+// True if passes may read the record instead of rasterizing the list again.
 bool Source::may_record(const PreparedDraw& list) const {
     return !shared_.is_frame() && shared_.frame.effects == Effects::needed &&
            shared_.instruments.once_more == Effect::none && shared_.frame.replay.bytes > 0 &&
            &list == shared_.frame.repeated();
 }
 
-// What all passes look at is recorded before the first of them. False where that does not fit, or is not recorded at
-// all.
+// Records the values that all passes read before the first of them. Returns false if they do not fit or cannot be
+// recorded.
 bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     TileFragments& fragments = shared_.scratch.fragments;
     if (fragments.serves(needs)) return true;
@@ -118,7 +118,7 @@ bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     return fragments.serves(needs);
 }
 
-// Sends all recorded fragments down the stages, in submission order.
+// Passes all recorded fragments to the sink, in submission order.
 void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
     const From before = std::exchange(from_, From::record);
     FragmentBatch& batch = shared_.scratch.recorded;
@@ -138,7 +138,7 @@ void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
     from_ = before;
 }
 
-// Whether the test against a cleared opaque depth can be left out in this tile.
+// Decides whether the test against a cleared opaque depth can be skipped in this tile.
 DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& list) const {
     using rasterizer::DepthPath;
     const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
@@ -154,7 +154,7 @@ DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& l
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }
 
-// Of passes over the list that may be recorded.
+// For passes over the list that may be recorded.
 void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
     PathTaken& taken = shared_.statistics.taken;
     taken.rasterizes = true;
@@ -167,7 +167,7 @@ void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs)
                                                        : "a tile's fragments take more than --fragment-memory";
 }
 
-// A list that did not fit is rasterized every time.
+// A list that did not fit is rasterized in every pass.
 void Source::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     const DepthOutcome depth = depth_outcome(state, list);
     stages_.set_depth(depth);

@@ -1,7 +1,7 @@
-// pipeline/region/region_source.h - where a geometry pass gets its fragments from: the rasterizer, what is recorded of
-// the tile, the part of that which decides, or rows that go straight into the targets.
+// pipeline/region/region_source.h - provides the fragments of a geometry pass: from the rasterizer, from the tile's
+// record, from the selected part of the record, or as rows that are written directly to the targets.
 //
-// Rule     Literal execution rasterizes, in every pass: it is what all other ways are tested against.
+// Rule     Literal execution rasterizes in every pass; all other paths are tested against it.
 // Source   execution.md 5 and 7.
 // Tests    tests/peeling/execution_test.cpp, selection_test.cpp, tests/pipeline/region/needs_of_tiles_test.cpp
 #pragma once
@@ -32,29 +32,31 @@ class Source {
     Source& operator=(const Source&) = delete;
     ~Source();
 
-    // All fragments of a pass, from the record where that is possible.
+    // All fragments of a pass, from the record if possible.
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
     [[nodiscard]] bool reads_record() const noexcept { return from_ == From::record; }
 
-    // The fragments that a selection keeps, if they can be found: batch after batch, null after the last.
+    // Finds the fragments that a selection keeps, if possible; next_visit returns them batch by batch, null after the
+    // last.
     [[nodiscard]] bool find_fragments(const PassState& state, const PreparedDraw& list);
     [[nodiscard]] FragmentBatch* next_visit(const PassState& state);
-    [[nodiscard]] std::size_t wave() const noexcept { return wave_; }  // of that batch
-    [[nodiscard]] std::uint64_t recorded() const noexcept;             // fragments
-    // Around waves by submission: before the first, and behind the last.
+    [[nodiscard]] std::size_t wave() const noexcept { return wave_; }  // the wave of that batch
+    [[nodiscard]] std::uint64_t recorded() const noexcept;             // number of fragments in the record
+    // For waves in submission order: called before the first wave, and after the last.
     void route_submitted(const PassState& state);
     void finish_submitted(const PassState& state);
 
-    // Passes that rows can draw. Whether they can, and what they did.
+    // Passes that rows can draw: whether they suit, and the drawing, which returns its counts.
     [[nodiscard]] bool depth_suits_rows(const PassState& state);
     [[nodiscard]] rasterizer::DepthDrawn draw_depth_rows(const PassState& state);
     [[nodiscard]] bool sums_suit_rows(const PassState& state);
     [[nodiscard]] rasterizer::DepthDrawn draw_sum_rows(const PassState& state);
 
-    // The record of the transparent list with the values that `needs` names, in the order of the frame's key. False
-    // where that is not recorded or has no order.
+    // Records the transparent list with the values that `needs` names, sorted by the frame's key. Returns false if that
+    // cannot be recorded or sorted.
     [[nodiscard]] bool record_sorted(const rasterizer::FragmentNeeds& needs);
-    // Numbers of the triangles that may touch the region, in submission order, and what their materials need.
+    // Indices of the triangles that may touch the region, in submission order; needs_of_tile: the needs of their
+    // materials.
     [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
     [[nodiscard]] const MaterialNeeds& needs_of_tile(const PreparedDraw& list);
     [[nodiscard]] rasterizer::TileRasterizer& rasterizer() noexcept { return *rasterizer_; }
@@ -83,7 +85,7 @@ class Source {
     Targets& targets_;
     Stages& stages_;
     std::unique_ptr<rasterizer::TileRasterizer> rasterizer_;
-    std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
+    std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, computed on demand
     From from_ = From::rasterizer;
     std::size_t wave_ = 0;
 };

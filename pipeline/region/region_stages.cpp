@@ -1,6 +1,6 @@
-// pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order:
-// texture and MASK, (the fragment program), alpha test, depth units, stencil test, depth test, query, blending.
-// fragment-stages.md 1.
+// pipeline/region/region_stages.cpp - the stages of a batch from the rasterizer to the render targets, in OpenGL's
+// order: texture and MASK, (the fragment program), alpha test, depth units, stencil test, depth test, query, blending
+// (fragment-stages.md 1).
 #include "pipeline/region/region_stages.h"
 
 #include <algorithm>
@@ -28,13 +28,13 @@ namespace strata::pipeline {
 
 namespace {
 
-// Cuts what the blender left to the bits that a narrow surface stores (formats.md 4.1).
+// Truncates the blender's result to the bits that a narrow surface stores (formats.md 4.1).
 void narrow(Format format, ColorCodes& codes, int count) noexcept {
     for (int c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
             codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
 }
-// The source of a blend on a 16-bit surface: colours already cut to its bits, alpha as it is (narrow.h).
+// The source of a blend on a 16-bit surface: colours truncated to its bits, alpha unchanged (narrow.h).
 const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorLanes& cut, int count) noexcept {
     if (info(format).bytes_per_pixel != 2 || !is_narrow(format)) return source;
     for (std::size_t c = 0; c < 4; ++c)
@@ -43,7 +43,7 @@ const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorL
                 c == 3 ? source[c][i] : unorm8_value(narrowed(format, static_cast<int>(c), to_unorm8(source[c][i])));
     return cut;
 }
-// Blending ONE and ZERO, which leaves an UNORM8 source as it is (execution.md 6.1); the write mask stays the pass's.
+// Blending ONE and ZERO, which leaves an UNORM8 source unchanged (execution.md 6.1), with the pass's write mask.
 Blend idle(const Blend& blending) {
     return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask};
 }
@@ -63,9 +63,9 @@ void Stages::show(Stage stage, const PassState& state, const FragmentBatch& batc
                  {stage, state, batch, out, alive, sample, kind_ == PassKind::geometry, shared_.statistics.counts});
 }
 
-// Checks a pass, and statistics all of it that does not depend on its fragments. Fragments bring one code each, so a
-// depth target must have the format of the frame's codes. All targets have one number of samples: check_pass has seen
-// to it.
+// Checks a pass and records everything about it that does not depend on its fragments. Fragments have one code each, so
+// a depth target must have the format of the frame's codes. check_pass ensures that all targets have the same number of
+// samples.
 void Stages::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
@@ -87,7 +87,7 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
     }
     shared_.count_pass({.full_screen = 1});
     for (std::size_t k = 0; k < state.color.size();
-         ++k)  // a quad's traffic is every pixel's, whatever its program discards
+         ++k)  // a quad's traffic includes every pixel, whatever its program discards
         if (state.color[k].exists())
             count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.rect().area());
 }
@@ -96,7 +96,8 @@ void Stages::count_color_bytes(const Blend& blending, const TargetStorage& targe
     shared_.count(of_color(pixel_bytes(target), pixels, blending.enabled));
 }
 
-// The pixels of a full-screen pass, row by row. Window positions fit 16 bits: a frame has at most 16,384 pixels a side.
+// The pixels of a full-screen pass, row by row. Window positions fit in 16 bits: a frame has at most 16,384 pixels per
+// side.
 FragmentBatch* Stages::next_screen_batch(std::size_t& next) {
     FragmentBatch& batch = shared_.scratch.screen;
     const std::size_t left = shared_.rect().area() - next;
@@ -116,7 +117,7 @@ FragmentBatch* Stages::next_screen_batch(std::size_t& next) {
     return count > 0 ? &batch : nullptr;
 }
 
-// Colours are not cleared: a program writes the outputs that its pass has targets for.
+// Colours are not cleared: a program writes the outputs for which its pass has targets.
 Outputs& Stages::start_batch(const FragmentBatch& batch) {
     Outputs& out = shared_.scratch.out;
     std::fill_n(out.alive.begin(), batch.count, ~0u);
@@ -124,8 +125,8 @@ Outputs& Stages::start_batch(const FragmentBatch& batch) {
     return out;
 }
 
-// fragment-stages.md 2: texture, shadow, MASK. MASK cuts at the material's own alpha, so the alpha scale comes behind
-// it; its precision is that of the frame's colour format, whatever the pass's targets are.
+// Texture, shadow, MASK (fragment-stages.md 2). MASK compares the material's own alpha, so the alpha scale is applied
+// after it; its precision is that of the frame's colour format, whatever the pass's targets are.
 void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     shared_.statistics.fragments_drawn += static_cast<std::uint64_t>(batch.count);
     shared_.count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
@@ -145,7 +146,7 @@ void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.color[3][i] *= material.alpha_scale;
 }
 
-// Dead lanes load, too: the traffic is that of every fragment of the batch (execution.md 8.1).
+// Dead lanes load too: the traffic is that of every fragment of the batch (execution.md 8.1).
 void Stages::load(const PassState& state, const FragmentBatch& batch) {
     for (const Target t : state.textures)
         if (t.exists()) shared_.count(of_loads(pixel_bytes(targets_.at(t)), static_cast<std::uint64_t>(batch.count)));
@@ -158,7 +159,7 @@ void Stages::load(const PassState& state, const FragmentBatch& batch) {
     }
 }
 
-// A depth is loaded as its code. Of a colour, channels that the format lacks read 0, and alpha 1.
+// A depth is loaded as its code. In a colour, channels that the format lacks read as 0, alpha as 1.
 void Stages::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
     if (is_depth(from.format()))
         return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &shared_.scratch.loads.depth_[read]);
@@ -200,7 +201,7 @@ void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& 
     if (shared_.statistics.counts) shared_.statistics.fragments_processed += static_cast<std::uint64_t>(batch.count);
 }
 
-// The alpha test compares 8-bit codes unless target 0 holds floats and the profile goes by the target
+// The alpha test compares 8-bit codes unless target 0 is a float format and the profile decides by the target
 // (fragment-stages.md 3).
 void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
     if (state.alpha.enabled) {
@@ -218,8 +219,8 @@ void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs&
     drawn.tallied = Count{tallied_};
 }
 
-// Every sample has the same colour and code, and tests of its own. Queries count samples; the counter `blended` and the
-// trace look at sample 0 alone (fragment-stages.md 10.3).
+// Every sample has the same colour and code, but its own tests. Queries count samples; the counter `blended` and the
+// trace use only sample 0 (fragment-stages.md 10.3).
 void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                            Drawn& drawn) {
     Lanes<std::uint32_t>& alive = shared_.scratch.alive;
@@ -232,7 +233,7 @@ void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, c
         is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
     drawn.passed.own_ += passed;
     show(Stage::tests, state, batch, out, alive, sample);
-    // Without a test, fragments that a program discards fetch tiles, too (fragment-stages.md 9.5).
+    // Without a test, fragments that a program discards also fetch tiles (fragment-stages.md 9.5).
     if (passed == 0 && (cache_ == nullptr || is_tested)) return;
     if (kind_ == PassKind::geometry && sample == 0) shared_.count({.blended = passed});
     write_colors(state, batch, out, sample, alive, passed);
@@ -240,7 +241,7 @@ void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, c
     if (out.traced && shared_.frame.trace && shared_.statistics.counts && sample == 0) record_trace(batch, out, alive);
 }
 
-// A quad composites a layer and no fragment of its own, so it names no primitive: then the audit compares keys alone.
+// A quad composites a layer and not a fragment of its own, so it has no primitive: the audit then compares only keys.
 void Stages::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
@@ -265,9 +266,9 @@ void Stages::close_cache() {
     if (cache_ != nullptr) cache_->close();
 }
 
-// Sums into halves have a kernel that adds in place; on sets that do not convert halves it answers false, and the
-// general way below, its definition, runs. Stored values are fetched only where blending or a partial write mask looks
-// at them.
+// Sums into halves have a kernel that adds in place; on instruction sets that do not convert halves it returns false,
+// and the general path below, its definition, runs. Stored values are fetched only if blending or a partial write mask
+// needs them.
 void Stages::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                           const Lanes<std::uint32_t>& alive, std::uint64_t passed) {
     for (std::size_t k = 0; k < state.color.size(); ++k) {
@@ -284,7 +285,7 @@ void Stages::write_colors(const PassState& state, const FragmentBatch& batch, co
         }
         const bool is_idle = shared_.idles(Effect::blending, blending.enabled);
         const bool keeps_source =
-            is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do
+            is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO have the same result
         if (is_idle && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
         const bool adds_halves = shared_.frame.effects == Effects::needed && format.type == ChannelType::half &&
                                  shared_.profile().half_rounding == HalfRounding::nearest_even &&

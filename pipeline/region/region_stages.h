@@ -1,8 +1,8 @@
-// pipeline/region/region_stages.h - one pass over batches: a batch's way from its values to the render targets, in
+// pipeline/region/region_stages.h - one pass over batches: the stages from a batch's values to the render targets, in
 // OpenGL's order.
 //
-// Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first,
-//          close_cache behind the last.
+// Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first batch,
+//          close_cache after the last.
 // Source   fragment-stages.md 1.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
@@ -30,8 +30,8 @@ class Stages {
     ~Stages();
 
     void begin_pass(const PassState& state, PassKind kind);
-    void begin_look() noexcept { kind_ = PassKind::full_screen; }  // that is no pass
-    // What the depth test of this pass comes to, and whether anyone looks at its colours' textures and shadow.
+    void begin_look() noexcept { kind_ = PassKind::full_screen; }  // for a query that is not a pass
+    // Sets what is known about the depth test of this pass, and whether its colours use textures and shadow.
     void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
     void set_material(bool samples_textures, bool takes_shadow) noexcept {
         samples_textures_ = samples_textures;
@@ -39,11 +39,12 @@ class Stages {
     }
     [[nodiscard]] int samples() const noexcept { return samples_; }  // of the pass's targets
 
-    // Around the batches of a pass whose blends binary32 holds (tile_cache.h); nothing for other profiles.
+    // Called around the batches of a pass whose blends are stored in binary32 (tile_cache.h); no effect for other
+    // profiles.
     void open_cache(const PassState& state);
     void close_cache();
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
-    // The pixels of a full-screen pass, row by row, from number `next` on; null after the last.
+    // The pixels of a full-screen pass, row by row, from index `next` on; null after the last.
     [[nodiscard]] FragmentBatch* next_screen_batch(std::size_t& next);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
     void load(const PassState& state, const FragmentBatch& batch);
@@ -60,7 +61,7 @@ class Stages {
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                        Drawn& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
-                                         Lanes<std::uint32_t>& alive);  // answers how many pass
+                                         Lanes<std::uint32_t>& alive);  // returns the number that pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
@@ -77,13 +78,13 @@ class Stages {
     const RegionShared& shared_;
     Targets& targets_;
     std::optional<TargetStorage> idle_stencil_;
-    std::unique_ptr<TileCache> cache_;         // of profiles with BlendStorage::cached_tiles
-    DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
+    std::unique_ptr<TileCache> cache_;         // for profiles with BlendStorage::cached_tiles
+    DepthOutcome depth_ = DepthOutcome::open;  // for the current pass
     PassKind kind_ = PassKind::geometry;
     int samples_ = 1;
     bool samples_textures_ = false, takes_shadow_ = false;
     std::uint64_t tallied_ = 0;
-    std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
+    std::vector<bool> has_saturated_;  // pixels whose stencil has reached its limit; empty until one does
 };
 
 }  // namespace strata::pipeline

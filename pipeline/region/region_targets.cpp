@@ -1,4 +1,4 @@
-// pipeline/region/region_targets.cpp - a region's targets: made, cleared, copied, read (execution.md 1.1).
+// pipeline/region/region_targets.cpp - creates, clears, copies and reads a region's targets (execution.md 1.1).
 #include "pipeline/region/region_targets.h"
 
 #include <algorithm>
@@ -24,7 +24,8 @@ namespace strata::pipeline {
 
 namespace {
 
-// Neighbouring pixels of the two commonest layouts, whose words are nearly the image's codes; false for the others.
+// Reads consecutive pixels of the two most common layouts, whose words are nearly the image's codes; false for other
+// layouts.
 bool read_words(const Texels& from, std::size_t first, std::size_t count, std::uint32_t* out) {
     const std::uint32_t* const words = from.plane(0).words + first;
     const bool is_bytes = from.channels == 4 && from.bits_per_channel == 8;
@@ -37,13 +38,13 @@ bool read_words(const Texels& from, std::size_t first, std::size_t count, std::u
     return true;
 }
 
-// All samples of all pixels, in the sizes of formats.md 1: those that counters are told in.
+// Bytes of all samples of all pixels, with the pixel sizes of formats.md 1, which counters use.
 std::uint64_t bytes(const TargetStorage& s) {
     return s.pixels() * static_cast<std::uint64_t>(s.samples()) *
            static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
 }
 
-// Whether a word holds a channel whose exponent is all ones.
+// True if a channel in the word has an exponent of all ones.
 bool holds_non_finite(Word word, ChannelType type) noexcept {
     constexpr Word single = 0x7f800000u, half = 0x7c00u;
     if (type == ChannelType::single) return (word & single) == single;
@@ -71,7 +72,7 @@ FoundPixels non_finite_pixels(const TargetStorage& storage, ChannelType type) {
 
 }  // namespace
 
-// The opaque targets are numbers 0 and 1 in every region. Priming them is the emulator's own work and counted nowhere.
+// The opaque targets have indices 0 and 1 in every region. Priming them is the emulator's own work and is not counted.
 Targets::Targets(const RegionShared& shared) : shared_{shared} {
     opaque_depth_ = make_depth();
     opaque_color_ = make(shared_.frame.behind_format());  // the background of what is blended from behind
@@ -109,7 +110,7 @@ void Targets::clear(Target given, const ClearValue& given_value, std::uint8_t sa
             if (!std::isfinite(value.color[c])) cleared_non_finite_.push_back(target.id);
         storage.fill(color_codes(format, shared_.profile().color_rounding(), value.color), sample_mask);
     } else if (is_depth(format)) {
-        // D32F is cleared as it is on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere
+        // D32F is cleared unclamped on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere
         // (formats.md 5.5).
         const bool unclamped = format == Format::d32f && shared_.profile().has_unclamped_depth_clear;
         const std::uint32_t code = unclamped ? std::bit_cast<std::uint32_t>(value.depth)
@@ -122,7 +123,7 @@ void Targets::clear(Target given, const ClearValue& given_value, std::uint8_t sa
     shared_.show({.step = Step::clear, .to = target, .clear = &value, .sample_mask = sample_mask});
 }
 
-// A bit copy of codes (formats.md 5.6): it rounds nothing, and -0 and NaN stay what they are.
+// A bit copy of codes (formats.md 5.6): nothing is rounded, and -0 and NaN are kept.
 void Targets::copy(Target given_from, Target given_to) {
     Target from = given_from, to = given_to;
     if (const Alteration* a = shared_.alteration(); a != nullptr && a->copy && !a->copy(shared_.region, from, to))
@@ -135,8 +136,8 @@ void Targets::copy(Target given_from, Target given_to) {
     shared_.show({.step = Step::copy, .to = to, .from = from});
 }
 
-// The part that lies in this region is written, and its source must lie here, too: a tile knows no neighbour. Else the
-// frame is run again as a whole (execution.md 5.4).
+// Writes the part in this region; its source must also be in this region, because a tile cannot access its neighbours.
+// Otherwise the frame is run again as a whole (execution.md 5.4).
 void Targets::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy) {
     const TargetStorage& source = at(from);
     TargetStorage& texture = at(to);
@@ -155,7 +156,7 @@ void Targets::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Tar
     shared_.show({.step = Step::copy, .to = to, .from = from});
 }
 
-// Row y of `written`; overlapping copies within one target are not asked for.
+// Copies row y of `written`. Overlapping copies within one target are not supported.
 void Targets::copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
                        TargetStorage& texture) {
     const auto index = [&](int column, int row) {
@@ -188,7 +189,7 @@ DepthTexels Targets::depth_texels(Target depth) const {
     return texels;
 }
 
-// Channels that the format lacks are 0, alpha 1, as a program loads them.
+// Channels that the format lacks are 0, alpha 1, as for loads of a program.
 Rgba Targets::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = at(target);
     const FormatInfo format = info(from.format());
@@ -212,7 +213,7 @@ Image Targets::image(Target target) const {
     return image;
 }
 
-// One row of the region as Image orders it: pixels, their samples, their channels.
+// One row of the region in Image order: pixels, their samples, their channels.
 void Targets::read_row(Target target, int y, std::uint32_t* out) const {
     const TargetStorage& from = at(target);
     const auto width = static_cast<std::size_t>(shared_.rect().width()), first = static_cast<std::size_t>(y) * width;

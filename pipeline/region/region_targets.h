@@ -1,8 +1,8 @@
-// pipeline/region/region_targets.h - a region's render targets: made, cleared, copied, read; among them those of the
-// opaque scene.
+// pipeline/region/region_targets.h - a region's render targets, including those of the opaque scene: creates, clears,
+// copies and reads them.
 //
-// Rule     Numbers of targets are the same in every region of a frame: bodies make them in one order. Clears fill the
-//          region: scissor and write masks belong to passes.
+// Rule     Targets have the same indices in every region of a frame, because the body creates them in the same order.
+//          Clears fill the region: scissor and write masks belong to passes.
 // Source   execution.md 1.1; formats.md 5.
 // Tests    tests/pipeline/region/region_test.cpp, region_rarities_test.cpp
 #pragma once
@@ -21,26 +21,26 @@ struct RegionShared;
 
 class Targets {
   public:
-    // With the opaque scene's two, depth 1 and the background in them.
+    // Creates the two targets of the opaque scene, with depth 1 and the background.
     explicit Targets(const RegionShared& shared);
 
     [[nodiscard]] Target make(Format format, int samples = 1);
     [[nodiscard]] Target make_depth();
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
-    // 1 everywhere, as before the first opaque triangle.
+    // True if it is 1 everywhere, as before the first opaque triangle.
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
-    // Whether its depths lie within the range, as those do that are sorted: codes beyond it have no order (depth.md
-    // 2.9).
+    // True if its depths are within the depth range, as those of sorted fragments are: codes outside have no order
+    // (depth.md 2.9).
     [[nodiscard]] bool has_ordered_surface() const;
     void note_written(Target target) noexcept { opaque_depth_is_cleared_ &= target != opaque_depth_; }
 
     void call(Target target, std::string_view name) const;
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
-    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one
-    // sample each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in
-    // memory. Throws NeedsFrame where a region would have to look beyond itself.
+    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, with
+    // one sample each: copies the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down,
+    // as in memory. Throws NeedsFrame if a region would have to read outside itself.
     void copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy);
 
     [[nodiscard]] int count() const noexcept { return static_cast<int>(storages_.size()); }
@@ -48,19 +48,19 @@ class Targets {
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const TargetStorage& at(Target t) const { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && at(t).samples() == 1; }
-    // Null where there is no such target.
+    // Null if there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? at(t).depth(0) : nullptr; }
-    // A depth target as texture units see it; `t` runs up where the frame's y does.
+    // A depth target as a texture; its `t` increases in the frame's y direction.
     [[nodiscard]] DepthTexels depth_texels(Target depth) const;
     // The contents of a target: one colour as a program would load it, or all codes as an image of the region.
     [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;
     [[nodiscard]] Image image(Target target) const;
-    // Row y of the region, from 0 on, as Image orders it.
+    // Row y of the region, from 0 on, in Image order.
     void read_row(Target target, int y, std::uint32_t* out) const;
-    // Reports colour targets that hold infinity or NaN and were not cleared to it: all of them where
-    // Frame::checks_targets, else what is published. For the executor, when the body has ended.
+    // Reports colour targets that contain infinity or NaN without having been cleared to it: all of them if
+    // Frame::checks_targets is set, else the published one. Called by the executor when the body has ended.
     void report_non_finite(Target published) const;
-    // Throws std::logic_error where a target holds other codes than in `others`, which a selection has left.
+    // Throws std::logic_error if a target has other codes than in `others`, the result of a selection.
     void require_equal(const std::vector<TargetStorage>& others) const;
 
   private:
@@ -70,8 +70,8 @@ class Targets {
     const RegionShared& shared_;
     std::vector<TargetStorage> storages_;
     mutable std::vector<std::pair<int, std::string>>
-        names_;                            // where Frame::checks_targets: of targets by their numbers
-    std::vector<int> cleared_non_finite_;  // targets that were
+        names_;                            // names of targets by index, if Frame::checks_targets is set
+    std::vector<int> cleared_non_finite_;  // targets cleared to infinity or NaN
     Target opaque_depth_, opaque_color_;
     bool opaque_depth_is_cleared_ = true;
 };

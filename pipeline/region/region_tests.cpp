@@ -1,5 +1,5 @@
-// pipeline/region/region_tests.cpp - the tests of a batch's fragments at one sample: depth units, stencil, depth.
-// fragment-stages.md 4 to 6.
+// pipeline/region/region_tests.cpp - the tests of a batch's fragments at one sample: depth units, stencil, depth
+// (fragment-stages.md 4 to 6).
 #include <algorithm>
 
 #include "pipeline/frame/pass_counters.h"
@@ -13,7 +13,8 @@
 
 namespace strata::pipeline {
 
-// The units test one after the other, without a write; a fragment stops at the first that fails (fragment-stages.md 4).
+// The units test one after the other, without a write; a fragment is killed by the first that fails (fragment-stages.md
+// 4).
 void Stages::test_depth_units(const PassState& state, const FragmentBatch& batch, int sample,
                               Lanes<std::uint32_t>& alive) {
     for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
@@ -25,8 +26,8 @@ void Stages::test_depth_units(const PassState& state, const FragmentBatch& batch
     }
 }
 
-// Three ways to one result: the test is known to pass and only booked (depth_outcome), depth alone in one kernel, or
-// stencil and depth together, because the stencil operation depends on both (fragment-stages.md 5).
+// Three ways to the same result: the test is known to pass and is only counted (depth_outcome), depth alone in one
+// kernel, or stencil and depth together, because the stencil operation depends on both (fragment-stages.md 5).
 std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                              Lanes<std::uint32_t>& alive) {
     RegionScratch& s = shared_.scratch;
@@ -39,7 +40,7 @@ std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const Fragm
         tested = test_depth(state.depth, depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
                             batch.code.data(), alive.data());
     } else {
-        // The depth's answer for every fragment first; it is written when the stencil has had its say.
+        // First the depth result of every fragment; depth is written after the stencil test.
         tested.arriving = count_lanes(alive, batch.count);
         std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
         if (depth != nullptr)
@@ -51,7 +52,7 @@ std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const Fragm
         if (depth != nullptr && state.depth.write)
             scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
-    // What is compared may be wider than what is kept (depth.md 2.9).
+    // The compared code may be wider than the stored one (depth.md 2.9).
     if (shared_.wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
             depth->depth_plane(sample).words[batch.pixel[i]] &= rasterizer::max_code(depth_format(depth->format()));
@@ -62,8 +63,8 @@ std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const Fragm
     return tested.passed;
 }
 
-// Dead lanes are written back with the value that they had: no pixel occurs twice in a batch. A stencil value is a byte
-// of traffic, read and written by every fragment that arrives.
+// Dead lanes are written back unchanged, because no pixel occurs twice in a batch. Each fragment that arrives reads and
+// writes one byte of stencil traffic.
 std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                    Lanes<std::uint32_t>& alive) {
     RegionScratch& s = shared_.scratch;
@@ -74,7 +75,7 @@ std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& 
                                                     s.stencil_stored.data(), s.saturated.data(), batch.count});
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
     shared_.count({.bytes_read = arriving, .bytes_written = arriving});
-    if (state.selection.keeps != Keeps::submitted) report_saturation(batch);  // whose counts stop at 0 on purpose
+    if (state.selection.keeps != Keeps::submitted) report_saturation(batch);  // whose counts are meant to stop at 0
     return static_cast<std::uint64_t>(killed);
 }
 
@@ -83,7 +84,7 @@ void Stages::report_saturation(const FragmentBatch& batch) {
     const Lanes<std::uint32_t>& saturated = shared_.scratch.saturated;
     if (count_lanes(saturated, batch.count) == 0) return;
     has_saturated_.resize(shared_.rect().area());
-    std::uint64_t pixels = 0;  // that had not saturated before
+    std::uint64_t pixels = 0;  // pixels that had not saturated before
     std::uint32_t first = ~0u;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
         if (saturated[i] == 0 || has_saturated_[batch.pixel[i]]) continue;

@@ -1,5 +1,5 @@
-// pipeline/region/stage_lanes.h - a batch's lanes and a target's words, in the form in which the kernels of the stages
-// take them.
+// pipeline/region/stage_lanes.h - builds the argument structs of the stage kernels from a batch's lanes and a target's
+// planes.
 #pragma once
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace strata::pipeline {
 
-// The one channel of a depth or stencil plane.
+// The single channel of a depth or stencil plane.
 [[nodiscard]] inline Texels codes_in(Plane plane) noexcept { return {plane, 1, 32}; }
 
 [[nodiscard]] inline PixelLanes lanes_of(const FragmentBatch& batch) noexcept {

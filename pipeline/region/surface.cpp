@@ -1,5 +1,5 @@
-// pipeline/region/surface.cpp - a surface is a frame of one region, whose list of triangles changes from draw to draw
-// (execution.md 12). The region's own stages do the work, so a rule of a stage stands in one place.
+// pipeline/region/surface.cpp - a surface is a frame of one region whose list of triangles changes from draw to draw
+// (execution.md 12). It uses the region's own stages, so that the rules of a stage have one implementation.
 #include "pipeline/region/surface.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Surface::State {
           depth{region.make_depth()},
           stencil{region.make(Format::s8)} {}
 
-    // The region points to the frame, and the frame to the profile and the list: they stay where they are made.
+    // Not copyable: the region points to the frame, and the frame to the profile and the list.
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
@@ -43,7 +43,7 @@ struct Surface::State {
 
     DeviceProfile profile;
     SurfaceLayout layout;
-    PreparedDraw list;  // what is drawn
+    PreparedDraw list;  // the triangles of the current draw
     Frame frame;
     RegionStatistics statistics;
     Region region;
@@ -56,12 +56,12 @@ void require(Verdict verdict, const DeviceProfile& profile) {
     if (verdict) throw Refused{profile, *std::move(verdict)};
 }
 
-// Sets one draw up: the soup is one run of one material, and its window positions are final.
+// Sets up one draw: the soup is one run of one material, and its window positions are final.
 PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout, const DrawState& state,
                       rasterizer::TriangleSoup soup) {
     rasterizer::RasterState raster;
     raster.viewport = {0, 0, layout.width, layout.height};
-    raster.y_direction = rasterizer::YDirection::up;  // facing is as seen; positions are done
+    raster.y_direction = rasterizer::YDirection::up;  // facing is as seen in the window; positions are not changed
     raster.front_face = state.front_face;
     raster.cull = state.cull;
     raster.scissor = state.window_clip;
@@ -84,7 +84,7 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     return list;
 }
 
-// Every pixel of `target` gets its codes from a batch that is the same in all places.
+// Stores the codes of a batch that is the same everywhere in every pixel of `target`.
 template <class Target>
 void store_everywhere(Region& region, Target target, std::size_t pixels, const ColorCodes& codes) {
     for (std::size_t first = 0; first < pixels; first += batch_capacity)
@@ -116,7 +116,7 @@ void Surface::clear_color(const PixelCode& value) {
     store_everywhere(state_->region, state_->color, state_->frame.rect().area(), codes);
 }
 
-// The code is stored as it is: a clear of a region would convert a float and could not name every code (formats.md
+// Stores the code directly: a clear of a region would convert a float and could not express every code (formats.md
 // 5.5).
 void Surface::clear_depth(std::uint32_t code) {
     ColorCodes codes{};
@@ -143,7 +143,8 @@ void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
         }
 }
 
-// The counter `blended` grows by the fragments that pass all tests, which is what an occlusion query counts.
+// The increase of the counter `blended` is the number of fragments that pass all tests, which an occlusion query
+// counts.
 std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup) {
     const FloatEnvironment ours;
     State& s = *state_;
@@ -173,7 +174,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     return s.statistics.counters.blended - before;
 }
 
-// A narrow surface stores 8-bit codes with the bits that it lacks filled in, so its image is one of rgba8.
+// A narrow surface stores 8-bit codes with the missing bits filled in, so its image has format rgba8.
 Image Surface::color() const {
     Image image = state_->region.targets().image(state_->color);
     image.format = Format::rgba8;

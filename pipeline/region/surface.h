@@ -1,10 +1,10 @@
-// pipeline/region/surface.h - immediate mode: a colour surface with depth and stencil that draws of any state change,
-// one after the other, as a driver's calls do. For scenes that are no peel: hardware checks, render to texture.
+// pipeline/region/surface.h - immediate mode: a colour surface with depth and stencil, and draws with arbitrary state
+// changes, one after the other, like a driver's calls. For scenes other than peels: hardware checks, render to texture.
 //
-// Rule     A draw is set up, rasterized and finished before the next one begins, by the stages of region_stages.cpp. A
-//          surface is one region, the whole of itself. What one surface holds, another one samples: `color` and `depth`
-//          are finished images.
-// Tests    tests/tools/hardware_check/suites_test.cpp: pictures of silicon
+// Rule     A draw is set up, rasterized and finished by the stages of region_stages.cpp before the next one begins. A
+//          surface is a single region. Another surface can sample its contents: `color` and `depth` return finished
+//          images.
+// Tests    tests/tools/hardware_check/suites_test.cpp: hardware captures
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -20,7 +20,7 @@ struct FragmentPath;  // pipeline/region/fragment_path.h
 
 struct SurfaceLayout {
     Format color = Format::rgba8;
-    DepthFormat depth = DepthFormat::d24;  // d24 has 8 bits of stencil beside it
+    DepthFormat depth = DepthFormat::d24;  // d24 includes 8 bits of stencil
     int width = 640, height = 480;         // pixels
 };
 
@@ -33,14 +33,16 @@ struct DrawState {
     std::uint8_t color_mask = 0xf;                  // bit 0 r, 1 g, 2 b, 3 a
     std::optional<rasterizer::Rect> window_clip{};  // half-open, like every Rect
     rasterizer::CullFace cull = rasterizer::CullFace::none;
-    rasterizer::FrontFace front_face = rasterizer::FrontFace::counter_clockwise;  // as seen
+    rasterizer::FrontFace front_face = rasterizer::FrontFace::counter_clockwise;  // as seen in the window
     float depth_near = 0.0f, depth_far = 1.0f;  // fragments outside are dropped, or clamped
     bool depth_clamp = false;
-    bool range_culls_triangles = false;  // those outside of the range with all corners' z
+    bool range_culls_triangles = false;  // drops triangles if all corners' z are outside the range on the same side
     rasterizer::PolygonOffset polygon_offset{};
-    std::optional<rasterizer::DepthPath> depth_path{};  // default: the profile's
-    const Texture* texture = nullptr;                   // multiplies the vertex colour; rectangle textures take texels
-    // Texture shader and combiners instead; the soup's extras bring the units' coordinates. Depth textures are images.
+    std::optional<rasterizer::DepthPath> depth_path{};  // empty: the profile's
+    const Texture* texture = nullptr;                   // multiplies the vertex colour; rectangle textures take texel
+                                                        // coordinates
+    // Replaces the texture by texture shader and combiners; the soup's extras provide the units' coordinates. Depth
+    // textures are images.
     const FragmentPath* path = nullptr;
 };
 
@@ -48,23 +50,23 @@ using PixelCode = std::array<std::uint8_t, 4>;  // r g b a
 
 class Surface {
   public:
-    // Contents 0. Throws Refused for a format that the profile lacks.
+    // Contents are 0. Throws Refused for a format that the profile lacks.
     Surface(const DeviceProfile& profile, const SurfaceLayout& layout);
     ~Surface();
     Surface(Surface&&) noexcept;
     Surface& operator=(Surface&&) noexcept;
 
     void clear_color(const PixelCode& value);
-    void clear_depth(std::uint32_t code);  // as stored
+    void clear_depth(std::uint32_t code);  // the stored code
     void clear_stencil(std::uint8_t value);
-    // Writes every pixel as the CPU would: no stage, but what the format keeps.
+    // Writes every pixel like the CPU: no stage is applied, only the truncation of the format.
     void fill(const std::function<PixelCode(int x, int y)>& value);
 
-    // Triangles of `soup` in listed order, materials ignored. Answers how many fragments passed all tests: what an
-    // occlusion query reports.
+    // Draws the triangles of `soup` in listed order, ignoring materials. Returns the number of fragments that passed
+    // all tests, as an occlusion query does.
     std::uint64_t draw(const DrawState& state, rasterizer::TriangleSoup soup);
 
-    [[nodiscard]] Image color() const;  // as rgba8: what the blender would read
+    [[nodiscard]] Image color() const;  // as rgba8: the codes that the blender would read
     [[nodiscard]] Image depth() const;
     [[nodiscard]] Image stencil() const;  // zero without a stencil buffer
 
