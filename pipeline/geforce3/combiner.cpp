@@ -27,12 +27,12 @@ constexpr std::int32_t one = combiner_one;
     return {};  // unreachable: the enum is closed
 }
 
-// Which of the two products a choice takes.
+// True if the choice takes C D.
 [[nodiscard]] constexpr bool takes_cd(CombinerSum rule, std::int32_t alpha) noexcept {
     return rule == CombinerSum::mux_low_bit ? (alpha & 1) != 0 : alpha >= combiner_half;
 }
 
-// Colour sum and E F are no registers of general stages, and neither is `discard`.
+// True for registers with a value: not colour sum, E F or `discard`, which general stages cannot read.
 [[nodiscard]] constexpr bool holds_value(Reg r) noexcept { return static_cast<std::size_t>(r) < combiner_registers; }
 [[nodiscard]] constexpr bool is_written(Reg r) noexcept { return r >= Reg::primary_color && r <= Reg::spare1; }
 
@@ -40,7 +40,7 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"combiner state: "} + what);
 }
 
-// Throws for what NV_register_combiners makes an error: a mistake of the program, never a lack of the device.
+// Throws for what is an error in NV_register_combiners: a programming error, not a missing feature of the device.
 void check(const CombinerPortion& p, bool is_alpha) {
     for (const Input& input : {p.a, p.b, p.c, p.d})
         require(holds_value(input.source), "an input of a general stage names no register that it has");
@@ -75,7 +75,7 @@ const CombinerUnit::Register& CombinerUnit::value_of(Reg r) const noexcept {
     return registers_[static_cast<std::size_t>(r)];
 }
 
-// In an alpha portion, as in G, `own` means alpha.
+// In an alpha portion, as for G, `own` means alpha.
 CombinerOperand CombinerUnit::operand(const Input& input, bool is_alpha) const noexcept {
     const Register& reg = value_of(input.source);
     CombinerOperand operand{{}, map_of(input.mapping)};
@@ -102,7 +102,7 @@ void CombinerUnit::set_constants(const std::array<Rgba, 2>& constant, std::size_
                         std::int32_t{to_unorm8(constant[k][c])});
 }
 
-// The sum adds the exact products, before either is rounded: one rounding for each of the three results.
+// The sum adds the exact products before either is rounded: one rounding for each of the three results.
 void CombinerUnit::run_portion(const CombinerPortion& p, bool is_alpha, std::size_t count) {
     const CombinerLoops& loops = combiner_loops();
     const CombinerScaling scaling = scaling_of(p);
@@ -126,7 +126,7 @@ void CombinerUnit::commit(const CombinerPortion& p, bool is_alpha, std::size_t c
             std::copy_n(result_[k][ch].begin(), count, at(to[k])[ch].begin());
 }
 
-// Both portions are computed before either writes: rgb must not show in alpha's inputs.
+// Both portions are computed before either is written, because alpha's inputs must not include the new rgb.
 void CombinerUnit::run_stage(const CombinerStage& stage, std::size_t count) {
     set_constants(stage.constant, count);
     run_portion(stage.rgb, false, count);
@@ -141,7 +141,7 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
     set_constants(f.constant, count);
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t i = 0; i < count; ++i) {
-            // spare0 may be negative here; the sum takes it as 0 (combiners.md 3).
+            // spare0 may be negative here; the sum clamps it to 0 (combiners.md 3).
             const std::int32_t spare0 = std::max(at(Reg::spare0)[c][i], 0), secondary = at(Reg::secondary_color)[c][i];
             const std::int32_t sum =
                 (f.inverts_spare0 ? one - spare0 : spare0) + (f.inverts_secondary_color ? one - secondary : secondary);
@@ -153,12 +153,12 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
     }
     const CombinerMix rgb{operand(f.a, false), operand(f.b, false), operand(f.c, false), operand(f.d, false)};
     for (std::size_t c = 0; c < 3; ++c) loops.mix(rgb, c, out[c].data(), count);
-    // Alpha is G alone: 0 G + (1 - 0) 0 + G.
+    // Alpha is just G: 0 G + (1 - 0) 0 + G.
     const CombinerOperand g = operand(f.g, true), zero = operand({.source = Reg::zero}, true);
     loops.mix({zero, g, zero, g}, 3, out[3].data(), count);
 }
 
-// Alpha of spare0 starts as texture 0's alpha, and everything else of the spare registers as 0 (combiners.md 1).
+// Initially the alpha of spare0 is texture 0's alpha, and everything else in the spare registers is 0 (combiners.md 1).
 void CombinerUnit::run(const CombinerSources& sources, ColorLanes& out, int count) {
     const auto n = static_cast<std::size_t>(count);
     for (const Reg r : {Reg::zero, Reg::spare0, Reg::spare1}) load(r, nullptr, n);

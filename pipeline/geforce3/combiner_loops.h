@@ -1,8 +1,8 @@
 // pipeline/geforce3/combiner_loops.h - the loops of the register combiners over the fragments of a batch, for
-// combiner.cpp: one source, which compilers vectorise for every instruction set.
+// combiner.cpp: one source, vectorized by the compiler for every instruction set.
 //
 // Rule     combiners.md 2 and 3, in units of 1/255. Every loop writes `count` values of `to`.
-// Numbers  Registers hold -255 to 255, the colour sum up to 510: sums of products stay below 2^20.
+// Numbers  Registers are -255 to 255, the colour sum is up to 510: sums of products are below 2^20.
 // Tests    tests/pipeline/geforce3/combiner_test.cpp, on every instruction set
 #pragma once
 #include <algorithm>
@@ -40,13 +40,14 @@ struct CombinerMap {
     return {};  // unreachable: the enum is closed
 }
 
-// An input as a portion reads it: for each of its output channels the channel of the register, and the mapping.
+// An input of a portion: the register's channel for each output channel, and the mapping.
 struct CombinerOperand {
     std::array<const std::int32_t*, 4> channel;
     CombinerMap map;
 };
 
-// What becomes of a portion's sum: (((rounded - bias) << left) + right) >> right, between -1 and 1; a half goes up.
+// The scaling of a portion's rounded sum: (((rounded - bias) << left) + right) >> right, clamped to -1..1; a half
+// rounds up.
 struct CombinerScaling {
     std::int32_t bias = 0, left = 0, right = 0;
 };
@@ -59,13 +60,13 @@ struct CombinerLoops {
     // x y in output channel `c`, or the dot product of their rgb.
     void (*multiply)(const CombinerOperand& x, const CombinerOperand& y, CombinerProduct kind, std::size_t c,
                      std::int32_t* to, std::size_t count) noexcept;
-    // A sum of products, to 1/255, scaled.
+    // Rounds a sum of products to 1/255 and scales it.
     void (*settle)(const CombinerScaling& scaling, const std::int32_t* from, std::int32_t* to,
                    std::size_t count) noexcept;
     void (*mix)(const CombinerMix& operands, std::size_t c, float* to, std::size_t count) noexcept;
 };
 
-// The loops of the chosen instruction set.
+// The loops of the selected instruction set.
 [[nodiscard]] const CombinerLoops& combiner_loops() noexcept;
 
 inline namespace strict {
@@ -75,7 +76,7 @@ namespace scalar {
     return map.scale * std::min(std::max(e, map.least), map.greatest) + map.offset;
 }
 
-// A sum of products in units of 1/255^2, to 1/255, to nearest, a half away from 0.
+// Rounds a sum of products in units of 1/255^2 to 1/255, to nearest, a half away from 0.
 [[nodiscard]] constexpr std::int32_t rounded(std::int32_t sum) noexcept {
     const std::int32_t sign = sum >> 31;
     const auto size = static_cast<std::uint32_t>((sum ^ sign) - sign);
@@ -107,7 +108,7 @@ inline void settle(const CombinerScaling& scaling, const std::int32_t* from, std
     }
 }
 
-// Both products are summed exactly and rounded once; D is added behind the rounding.
+// Both products are summed exactly and rounded once; D is added after the rounding.
 inline void mix(const CombinerMix& operands, std::size_t c, float* __restrict to, std::size_t count) noexcept {
     const std::array map{operands[0].map, operands[1].map, operands[2].map, operands[3].map};
     const std::array from{operands[0].channel[c], operands[1].channel[c], operands[2].channel[c],

@@ -1,4 +1,5 @@
-// pipeline/geforce3/combiner_loops_simd.cpp - combiner_loops.h for every instruction set; the meaning stands there.
+// pipeline/geforce3/combiner_loops_simd.cpp - combiner_loops.h, compiled once per instruction set; that header defines
+// the meaning.
 // How kernels are written: kernels.md. Tests: tests/pipeline/geforce3/combiner_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/geforce3/combiner_loops_simd.cpp"
@@ -10,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
 
-// Vectorised by the compiler, for this set.
+// Vectorized by the compiler for this instruction set.
 [[gnu::flatten]] void load(const float* from, std::int32_t* to, std::size_t count) noexcept {
     scalar::load(from, to, count);
 }

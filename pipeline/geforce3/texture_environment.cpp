@@ -10,7 +10,7 @@ using Reg = CombinerRegister;
 using Map = CombinerMapping;
 using Part = CombinerComponent;
 
-// 1, as the inverted zero register: a product with it passes the other factor.
+// 1, as the inverted zero register: a product with it is the other factor.
 constexpr Input unity{Reg::zero, Map::unsigned_invert};
 
 [[nodiscard]] Reg texture(std::size_t unit) {
@@ -18,8 +18,8 @@ constexpr Input unity{Reg::zero, Map::unsigned_invert};
     return static_cast<Reg>(static_cast<std::size_t>(Reg::texture0) + unit);
 }
 
-// The inputs of one unit's stage: the registers that stand for Cf (the previous stage) and Ct (the texture), and Cc. A
-// portion for alpha reads the alpha of these registers: Af and At.
+// The inputs of one unit's stage: the registers of Cf (the previous stage), Ct (the texture) and Cc. A portion for
+// alpha reads the alpha of these registers: Af and At.
 struct Sources {
     Reg previous, texture;
     [[nodiscard]] Input f() const { return {previous}; }
@@ -36,7 +36,7 @@ struct Sources {
     return input;
 }
 
-// a b + c d into spare0.
+// A portion that writes a b + c d to spare0.
 [[nodiscard]] CombinerPortion sum_of(Input a, Input b, Input c = {}, Input d = {}) {
     CombinerPortion p;
     p.a = a;
@@ -55,7 +55,7 @@ struct Sources {
         case TexEnvMode::decal: return sum_of(s.f(), inverted(alpha_of(s.t())), s.t(), alpha_of(s.t()));
         case TexEnvMode::blend: return sum_of(s.f(), inverted(s.t()), Sources::c(), s.t());
         case TexEnvMode::add: return sum_of(s.f(), unity, s.t(), unity);
-        case TexEnvMode::combine: break;  // has a state of its own
+        case TexEnvMode::combine: break;  // handled by its own state
     }
     return {};
 }
@@ -68,7 +68,7 @@ struct Sources {
         case TexEnvMode::modulate:
         case TexEnvMode::blend:
         case TexEnvMode::add: return sum_of(s.f(), s.t());
-        case TexEnvMode::combine: break;  // has a state of its own
+        case TexEnvMode::combine: break;  // handled by its own state
     }
     return {};
 }
@@ -93,7 +93,7 @@ struct Sources {
 [[nodiscard]] CombinerPortion combined(const CombineState& state, const Sources& s) {
     const Input a = argument(state.argument[0], s), b = argument(state.argument[1], s),
                 c = argument(state.argument[2], s);
-    // 1 - c: the argument's own mapping turned round.
+    // 1 - c: the argument with the inverse mapping.
     const Input not_c{c.source, c.mapping == Map::unsigned_invert ? Map::unsigned_identity : Map::unsigned_invert,
                       c.component};
     // 2 * 0 - 1: expand_normal of the zero register.
@@ -128,7 +128,7 @@ Combiners texture_environment(std::span<const TexEnv> units) {
         all.stages.push_back(stage);
         previous = Reg::spare0;
     }
-    // The final stage passes the last stage on: A, B and C are zero, so only D is left.
+    // The final stage passes the last stage through: A, B and C are zero, so only D remains.
     all.final_stage.d = {previous};
     all.final_stage.g = {previous};
     return all;

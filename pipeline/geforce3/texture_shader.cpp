@@ -17,7 +17,7 @@ using rasterizer::FragmentBatch;
 using rasterizer::Lanes;
 using Coordinates = std::array<Lanes<float>, 4>;
 
-// One stage over one batch. Stages run in order, so the results of the stages before it are complete.
+// One stage applied to one batch. Stages run in order, so the results of earlier stages are complete.
 struct StageRun {
     const ShaderStages& stages;
     const ShaderMachine& machine;
@@ -32,12 +32,12 @@ struct StageRun {
     [[nodiscard]] std::size_t input() const noexcept { return static_cast<std::size_t>(stage().previous); }
 };
 
-// The colour of operations that look nothing up: (0, 0, 0, 0).
+// The colour of operations without a lookup: (0, 0, 0, 0).
 void clear(ColorLanes& rgba, std::size_t count) noexcept {
     for (Lanes<float>& channel : rgba) std::fill_n(channel.begin(), count, 0.0f);
 }
 
-// Every divide of a stage is the one of perspective_rq and depth_replace.
+// Every division of a stage follows the rule of perspective_rq and depth_replace.
 [[nodiscard]] rasterizer::DivideRule divide_rule(const ShaderMachine& machine) noexcept {
     return machine.profile->raster.hypothesis.divide;
 }
@@ -47,13 +47,13 @@ void divide(const StageRun& run, std::size_t component, Lanes<float>& out) noexc
         out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.machine));
 }
 
-// One division: signed codes reach 32767/32768 and no further (texture-shader.md 4).
+// One division: signed codes reach at most 32767/32768 (texture-shader.md 4).
 float hilo_component(std::uint16_t k, bool is_signed) noexcept {
     return is_signed ? static_cast<float>(static_cast<std::int16_t>(k)) / 32768.0f : static_cast<float>(k) / 65535.0f;
 }
 
-// HILO textures are looked up nearest alone; the third component
-// of a signed one completes a unit vector (texture-shader.md 4).
+// HILO textures have only nearest lookups; the third component of a signed one completes a unit vector
+// (texture-shader.md 4).
 void look_up(const HiloTexture& texture, const DeviceProfile& profile, const Lanes<float>& s, const Lanes<float>& t,
              StageResult& own, std::size_t count) {
     TexelLanes column, row;
@@ -96,9 +96,9 @@ void projective_lookup(const StageRun& run) {
     look_up(run, s, t);
 }
 
-// [0, 1] to 8 bits as the chip does it: 12 bits, of which 255/256 by a shift, all cut. 1 is 255.
+// Converts [0, 1] to 8 bits like the chip: 12 bits, times 255/256 by a shift, everything truncated. 1 becomes 255.
 [[nodiscard]] constexpr std::uint8_t pass_through_code(float x) noexcept {
-    // x has 24 bits and 4096 is a power of two, so only the cut loses anything.
+    // x has 24 bits and 4096 is a power of two, so only the truncation is inexact.
     const auto fixed = static_cast<std::uint32_t>(x * 4096.0f);
     return static_cast<std::uint8_t>((fixed - (fixed >> 8)) >> 4);
 }
@@ -112,7 +112,7 @@ void pass_through(const StageRun& run) {
         }
 }
 
-// A comparison with a NaN is false, so it kills under either mode.
+// A comparison with NaN is false, so NaN kills the fragment in either mode.
 void cull(const StageRun& run) {
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < run.count; ++i) {
@@ -122,7 +122,7 @@ void cull(const StageRun& run) {
     clear(run.own().rgba, run.count);
 }
 
-// The coordinates are not divided by q; HILO texels are never stretched (texture-shader.md 3).
+// The coordinates are not divided by q; HILO texels are never expanded (texture-shader.md 3).
 void dot(const StageRun& run) {
     const StageResult& from = run.out.stage[run.input()];
     const bool is_colour = run.stages[run.input()].texture.hilo == nullptr;
@@ -139,14 +139,14 @@ void dot(const StageRun& run) {
     }
 }
 
-// The range and the conversion of a replaced depth, in the units that the device's quotient has.
+// The range and the conversion of a replaced depth, in the units of the device's quotient.
 class DepthRule {
   public:
     rasterizer::DepthConversion<double> to_code;
     bool clamps;
 
     explicit DepthRule(const ShaderMachine& m) : to_code{conversion(m)}, clamps{m.depth_clamp} {}
-    // With depth clamp everything but NaN is accepted, and `code` clamps it.
+    // With depth clamp everything except NaN is accepted, and `code` clamps it.
     [[nodiscard]] bool accepts(float z) const noexcept {
         return rasterizer::is_in_depth_range(z, to_code.least, to_code.greatest) || (clamps && z == z);
     }
@@ -161,7 +161,7 @@ class DepthRule {
     }
 };
 
-// The quotient is the one of perspective_rq and depth_replace of the rasterizer, to the bit (texture-shader.md 7).
+// The quotient is that of perspective_rq and depth_replace in the rasterizer, bit for bit (texture-shader.md 7).
 void replace_depth(const StageRun& run) {
     const DepthRule rule{run.machine};
     for (std::size_t i = 0; i < run.count; ++i) {

@@ -1,15 +1,15 @@
 // pipeline/geforce3/texture_shader.h - the four texture shader stages of GeForce3: from interpolated coordinates to
-// texture results, a culled fragment, or another depth.
+// texture results, a culled fragment, or a replaced depth.
 //
 // Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q
-//          clamped to [0,1]; where the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our
-//          own fit, every one of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others].
+//          clamped to [0,1]; if the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own
+//          fit, equal at all 65,536 pixels of the chip's capture Passthru; floor(255 x) differs at 9,656].
 //          CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input,
 //          not divided by q; _TEXTURE_2D, _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot);
-//          _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one divide, floored or rounded like
-//          a depth write; outside the depth range, NaN and zero divisors among it, the fragment dies (with depth clamp
-//          it is clamped). A HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 - LO^2)); in colour it is 0. A
-//          stage that is not consistent is NONE: (0, 0, 0, 0).
+//          _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one division, floored or rounded
+//          like a depth write; outside the depth range, which includes NaN and zero divisors, the fragment dies (with
+//          depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 - LO^2)); as a colour
+//          it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
 // Source   NV_texture_shader 3.8.13; texture-shader.md 1 to 7; chip-geometry.md 4. Binary32 in the written order [A].
 // Tests    tests/pipeline/geforce3/texture_shader_test.cpp
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace strata::pipeline {
 
-// Operations of a stage, by NV_texture_shader's names. texture-shader.md 10 lists those that are missing here.
+// The operations of a stage, named as in NV_texture_shader. texture-shader.md 10 lists those that are not implemented.
 enum class ShaderOp : std::uint8_t {
     none,
     texture_2d,
@@ -37,24 +37,24 @@ enum class ShaderOp : std::uint8_t {
     dot_product_depth_replace
 };
 
-// A coordinate's test in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN
-// fails both.
+// The test of a coordinate in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN
+// fails both modes.
 enum class CullMode : std::uint8_t {
-    // The default: lives where the coordinate is at least 0.
+    // The default: passes if the coordinate is at least 0.
     gequal,
-    // Lives where it is below 0.
+    // Passes if it is less than 0.
     less
 };
 
-// How an unsigned colour enters a dot product: as k / 255, or stretched to [-1, 1].
+// The mapping of an unsigned colour in a dot product: k / 255, or expanded to [-1, 1].
 enum class DotMapping : std::uint8_t { unsigned_identity, expand_normal };
 
-// The reference R of a depth comparison. GL's drivers pick the three-dimensional projective stage, which compares r /
+// The reference R of a depth comparison. GL drivers select the three-dimensional projective stage, which compares r /
 // q; the chip's two-dimensional stage compares 0 (texture-shader.md 2).
 enum class CompareReference : std::uint8_t { r_over_q, zero };
 
-// Two 16-bit components a texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Nearest
-// lookups.
+// Two 16-bit components per texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Only
+// nearest lookups.
 struct HiloTexture {
     TextureTarget target = TextureTarget::two_d;
     int width = 1, height = 1;
@@ -63,16 +63,17 @@ struct HiloTexture {
     std::vector<std::array<std::uint16_t, 2>> texels;
 };
 
-// One at most; none: an incomplete texture. `depth` is a target of the pass's region, `depth_image` a finished one.
+// At most one texture is set; none: an incomplete texture. `depth` is a target of the pass's region, `depth_image` a
+// finished image.
 struct BoundTexture {
     const Texture* color = nullptr;
     const HiloTexture* hilo = nullptr;
     const Image* depth_image = nullptr;
     Target depth{};
     bool eight_bit_depth = false;  // DepthTexels::is_eight_bit
-    // Of depth_image: row 0 is the last row of memory. A target's follows from the frame.
+    // For depth_image: row 0 is the last row of memory. For a target this follows from the frame.
     bool bottom_up = false;
-    ShadowCompare compare{};  // of depth textures
+    ShadowCompare compare{};  // for depth textures
     CompareReference reference = CompareReference::r_over_q;
 
     [[nodiscard]] bool is_depth() const noexcept { return depth_image != nullptr || depth.exists(); }
@@ -80,7 +81,7 @@ struct BoundTexture {
 
 struct ShaderStage {
     ShaderOp op = ShaderOp::none;
-    // PREVIOUS_TEXTURE_INPUT_NV: the number of an earlier stage, whose texel a dot product takes.
+    // PREVIOUS_TEXTURE_INPUT_NV: the index of an earlier stage whose texel a dot product uses.
     int previous = 0;
     std::array<CullMode, 4> cull{};
     DotMapping mapping = DotMapping::unsigned_identity;
@@ -89,29 +90,29 @@ struct ShaderStage {
 using ShaderStages = std::array<ShaderStage, rasterizer::texture_units>;
 using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 
-// The operations as they take effect: NONE for those that are not consistent (a texture that is missing or of another
-// kind; a previous input that is no earlier stage or holds no texel; a dot product that is not continued after one).
+// The operations in effect: NONE for those that are not consistent (a texture that is missing or of another kind; a
+// previous input that is not an earlier stage or has no texel; a dot product that is not continued by the next stage).
 [[nodiscard]] ShaderOps consistent_operations(const ShaderStages& stages);
-// Whether a stage that takes effect gives the fragment another depth.
+// True if a stage in effect replaces the fragment's depth.
 [[nodiscard]] bool replaces_depth(const ShaderOps& ops) noexcept;
-// The coordinates that the operations look at, as FragmentNeeds::units.
+// The coordinates that the operations read, as FragmentNeeds::units.
 [[nodiscard]] rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept;
 
 // The state that all fragments of a pass share.
 struct ShaderMachine {
     const DeviceProfile* profile = nullptr;
-    // The buffer that a replaced depth is for, by its format.
+    // The buffer that receives a replaced depth; its format is used.
     rasterizer::DepthRequest depth;
     float depth_near = 0.0f, depth_far = 1.0f;  // glDepthRange
     bool depth_clamp = false;
-    std::array<DepthTexels, rasterizer::texture_units> texels;  // of the stages with depth textures
+    std::array<DepthTexels, rasterizer::texture_units> texels;  // for stages with depth textures
 };
 
-// The results that one stage hands to the next.
+// The results that a stage passes to later ones.
 struct StageResult {
     // The texture's colour, for the combiners.
     ColorLanes rgba;
-    // The texel as a dot product of a later stage multiplies it, not yet stretched.
+    // The texel as operand of a later stage's dot product, before DotMapping.
     std::array<rasterizer::Lanes<float>, 3> xyz;
     rasterizer::Lanes<float> dot;
 };
@@ -120,12 +121,12 @@ struct ShaderResults {
     std::array<StageResult, rasterizer::texture_units> stage;
     // ~0, or 0 where a stage killed the fragment.
     rasterizer::Lanes<std::uint32_t> alive;
-    // The replaced depth's code, valid where replaces_depth says so and the fragment lives.
+    // The replaced depth's code, valid if replaces_depth is true and the fragment is alive.
     rasterizer::Lanes<std::uint32_t> code;
 };
 
-// Runs the stages on all fragments of a batch, dead ones too: what
-// they leave there means nothing. Throws NeedsFrame (depth_texels.h).
+// Runs the stages on all fragments of a batch, including dead ones, whose results are unspecified. Throws NeedsFrame
+// (depth_texels.h).
 void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderMachine& machine,
                         const rasterizer::FragmentBatch& in, ShaderResults& out);
 

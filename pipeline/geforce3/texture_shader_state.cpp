@@ -1,13 +1,13 @@
-// pipeline/geforce3/texture_shader_state.cpp - which stages are consistent, and what they look at. NV_texture_shader
-// 3.8.13.2.
+// pipeline/geforce3/texture_shader_state.cpp - decides which stages are consistent, and which coordinates they read
+// (NV_texture_shader 3.8.13.2).
 #include "pipeline/geforce3/texture_shader.h"
 
 namespace strata::pipeline {
 namespace {
 
-enum class Result : std::uint8_t { none, texel, scalar };  // what a later stage may take from a stage
+enum class Result : std::uint8_t { none, texel, scalar };  // what a later stage can use of a stage
 
-// There is a texture, and it has the target that the operation names.
+// True if there is a texture and its target is that of the operation.
 bool is_complete(const BoundTexture& texture, TextureTarget target) {
     if (texture.color != nullptr) return texture.color->target == target;
     if (texture.hilo != nullptr) return texture.hilo->target == target;
@@ -34,8 +34,8 @@ Result result_of(ShaderOp op) {
     return op == ShaderOp::dot_product ? Result::scalar : Result::none;
 }
 
-// `before` holds the operations of earlier stages as they take
-// effect: one that is not consistent gives nothing to later ones.
+// `before` has the operations of earlier stages in effect: a stage that is not consistent provides nothing to later
+// ones.
 bool is_consistent(const ShaderStages& stages, const ShaderOps& before, std::size_t stage) {
     const ShaderStage& s = stages[stage];
     if (is_lookup(s.op) && !is_complete(s.texture, target_of(s.op))) return false;
@@ -43,7 +43,7 @@ bool is_consistent(const ShaderStages& stages, const ShaderOps& before, std::siz
     const bool has_input = s.previous >= 0 && static_cast<std::size_t>(s.previous) < stage &&
                            result_of(before[static_cast<std::size_t>(s.previous)]) == Result::texel;
     if (s.op == ShaderOp::dot_product) return has_input;
-    // A comparison needs an r, which a dependent lookup has not.
+    // A comparison needs an r, which a dependent lookup does not have.
     return has_input && result_of(before[stage - 1]) == Result::scalar && !s.texture.is_depth();
 }
 
@@ -62,7 +62,7 @@ bool replaces_depth(const ShaderOps& ops) noexcept {
     return false;
 }
 
-// Coordinates that no operation divides by or multiplies with are not interpolated (texture-shader.md 8).
+// Coordinates that no operation uses are not interpolated (texture-shader.md 8).
 rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept {
     constexpr unsigned s = 1, t = 2, r = 4, q = 8;
     unsigned mask = 0;

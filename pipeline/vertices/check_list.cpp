@@ -9,13 +9,13 @@
 namespace strata::pipeline {
 namespace {
 
-// The widest profile's limit; texel addresses hold for 2^15 texels a side (texturing.md 1).
+// The limit of the largest profile; texel addresses are valid up to 2^15 texels per side (texturing.md 1).
 constexpr int greatest_size_px = 16384;
 
 void check_indices(const Requirements& list, const Mesh& mesh, std::size_t number) {
     const FieldName indices{"meshes", number, "indices"};
     if (mesh.indices.size() % 3 != 0) list.fail(indices, "three a triangle", mesh.indices.size());
-    // The greatest index first: one loop without branches, and a search only where it is too large.
+    // Computes the greatest index in one loop without branches, and searches only if it is too large.
     std::uint32_t greatest = 0;
     for (const std::uint32_t i : mesh.indices) greatest = std::max(greatest, i);
     if (mesh.indices.empty() || greatest < mesh.positions.size()) return;
@@ -56,7 +56,7 @@ void check_texture(const Requirements& list, const Texture& texture, std::size_t
     list.listed(field("wrap_t"), texture.wrap_t);
 }
 
-// The soup numbers all vertices and all indices with 32 bits.
+// The soup has 32-bit numbers for all vertices and all indices.
 void check_instances(const Requirements& its, const DrawList& list) {
     std::uint64_t vertices = 0, indices = 0;
     for (std::size_t i = 0; i < list.instances.size(); ++i) {

@@ -1,5 +1,5 @@
-// pipeline/vertices/draw_list.h - what a scene hands to the machine: meshes, materials, textures, instances and a view.
-// Plain values.
+// pipeline/vertices/draw_list.h - the input from a scene: meshes, materials, textures, instances and a view, as plain
+// values.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -18,27 +18,27 @@ using strata::Rgba;
 using strata::Vec2;
 using strata::Vec3;
 
-// Object space. `normals` is never empty when the material is lit; `colors` and `texcoords` may be empty.
-// An attribute is empty or has one value for each position; three indices make a triangle.
+// A mesh in object space. `normals` must not be empty if the material is lit; `colors` and `texcoords` may be. An
+// attribute is empty or has one value per position; three indices form a triangle.
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;
-    // The fourth coordinates of homogeneous positions, such as those of clip space under identity matrices; empty: 1.
+    // The fourth coordinates of homogeneous positions, for example in clip space with identity matrices; empty: 1.
     std::vector<float> w;
     std::vector<Vec3> normals;
     std::vector<Rgba> colors;
-    // Those that the material's base colour texture names, with its transform applied.
+    // The coordinates for the material's base colour texture, with its transform applied.
     std::vector<Vec2> texcoords;
-    // Three a triangle.
+    // Three per triangle.
     std::vector<std::uint32_t> indices;
     friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
-// glTF 2.0, 3.9.4: `mask` cuts at the material's cutoff, `blend` is what makes a surface transparent.
+// glTF 2.0, 3.9.4: `mask` tests alpha against the material's cutoff, `blend` makes a surface transparent.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-// encoded: sRGB values are blended as they are, as the hardware did (default). linear: decoded first, encoded when a
-// PNG is written.
+// encoded: sRGB values are blended without decoding, as the hardware did (default). linear: decoded first, and encoded
+// when a PNG is written.
 enum class ColorSpace : std::uint8_t { encoded, linear };
 
 // Colours are in the frame's colour space.
@@ -56,27 +56,27 @@ struct Material {
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-// A mesh with a material at a place in the world.
+// A mesh with a material and a model matrix.
 struct Instance {
     std::uint32_t mesh = 0, material = 0;
     Matrix model = identity;
-    // Its triangles come front to back at every pixel, as listed, from the scene's own view.
+    // Its triangles, in the listed order, are front to back at every pixel from the scene's own view.
     bool arrives_sorted = false;
     friend bool operator==(const Instance&, const Instance&) = default;
 };
 
-// A light that casts shadows: how it sees the scene, and how its shadow map is made and looked at. What it does not see
-// keeps `ambient` of its colour.
+// A light that casts shadows: its view of the scene, and how its shadow map is rendered and sampled. Surfaces outside
+// the light's view keep `ambient` of their colour.
 struct ShadowLight {
-    // World to the light's eye, and that to the light's clip space.
+    // World to the light's eye space, and from there to its clip space.
     Matrix view = identity, projection = identity;
-    // The side of the square shadow map, 1 to 16384.
+    // Side length of the square shadow map, 1 to 16384.
     int size_px = 512;
-    // The share of its colour that a surface in shadow keeps, 0 to 1.
+    // The fraction of its colour that a surface in shadow keeps, 0 to 1.
     float ambient = 0.5f;
     // Polygon offset of the shadow map's depths.
     float offset_factor = 0.0f, offset_units = 0.0f;
-    // Four comparisons, weighted; false: one, with the nearest texel.
+    // true: four comparisons, weighted; false: one, with the nearest texel.
     bool percentage_closer = true;
     friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
@@ -90,7 +90,7 @@ struct DrawList {
     std::vector<Instance> instances;  // in submission order
 };
 
-// A camera: both matrices by columns, and the path by which positions go through them (vertices.md 2).
+// A camera: both matrices stored by columns, and the path by which positions are transformed (vertices.md 2).
 struct View {
     // World to eye, and eye to clip.
     Matrix view = identity;

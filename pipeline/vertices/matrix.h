@@ -1,5 +1,5 @@
-// pipeline/vertices/matrix.h - the one product of matrices: binary64, columns of b through a, summed in this order.
-// vertices.md 1.1.
+// pipeline/vertices/matrix.h - the product of two matrices a b in binary64, with a fixed order of summation
+// (vertices.md 1.1).
 #pragma once
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/numerics.h"

@@ -11,10 +11,10 @@ namespace {
 
 [[nodiscard]] Vec3d between(const Vec3& from, const Vec3& to) { return minus(Vec3d{to}, Vec3d{from}); }
 
-// Corners a, b, c, d in walking order, the triangles being (a, b, c) and (c, d, a).
+// Corners a, b, c, d in order along the boundary; the triangles are (a, b, c) and (c, d, a).
 using Quad = std::array<std::uint32_t, 4>;
 
-// The quad of two triangles, if the second walks a side of the first backwards.
+// The quad of two triangles, if the second has a side of the first in the opposite direction.
 [[nodiscard]] std::optional<Quad> quad_of(const std::uint32_t* first, const std::uint32_t* second) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -25,7 +25,7 @@ using Quad = std::array<std::uint32_t, 4>;
     return std::nullopt;
 }
 
-// Both pairs of triangles face alike, and d lies in the plane of a, b, c.
+// True if both pairs of triangles face the same way, and d is in the plane of a, b, c.
 [[nodiscard]] bool is_flat_and_convex(const Quad& quad, const Mesh& mesh) {
     const auto side = [&](std::size_t i, std::size_t k) {
         return between(mesh.positions[quad[i]], mesh.positions[quad[k]]);
@@ -34,7 +34,7 @@ using Quad = std::array<std::uint32_t, 4>;
     double longest = 0.0;  // squared
     for (std::size_t i = 0; i < 4; ++i)
         longest = std::max(longest, dot_product(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
-    // The distance of d from the plane times |normal|: squares are compared, so no root is taken.
+    // The distance of d from the plane times |normal|: squares are compared, so no root is needed.
     const double off = dot_product(normal, side(0, 3));  // times |normal|
     if (off * off > 0x1p-40 * longest * dot_product(normal, normal)) return false;
     for (std::size_t i = 0; i < 4; ++i)
@@ -77,7 +77,7 @@ DrawList rotate_vertices(DrawList list, int k) {
 Flipped flip_diagonals(DrawList list) {
     Flipped result{std::move(list), 0};
     for (Mesh& mesh : result.list.meshes)
-        if (mesh.w.empty()) result.quads += flip(mesh);  // whether homogeneous corners lie in a plane is not looked at
+        if (mesh.w.empty()) result.quads += flip(mesh);  // whether homogeneous corners are in a plane is not tested
     return result;
 }
 

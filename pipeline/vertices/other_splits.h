@@ -1,11 +1,11 @@
-// pipeline/vertices/other_splits.h - the same surfaces, handed to the machine in another way: what must not change a
-// depth, and does where a device's interpolation depends on it.
+// pipeline/vertices/other_splits.h - submits the same surfaces in a different form. This should not change a depth, but
+// does if the device's interpolation depends on it.
 //
-// Rule     Rotating: corners (0, 1, 2) of every triangle become (k, k + 1, k + 2) modulo 3. Flipping: two triangles of
-//          a mesh, one after the other, that share a side which they walk in opposite directions and lie in one plane
-//          are a quad; (a, b, c) and (c, d, a) become (b, c, d) and (d, a, b). In one plane: d is off the plane of the
-//          first by at most 2^-20 of their longest side, and the quad is convex [A]. Moving: every position in the
-//          window moves by whole pixels, exactly, and the viewport with it.
+// Rule     Rotating: corners (0, 1, 2) of every triangle become (k, k + 1, k + 2) modulo 3. Flipping: two consecutive
+//          triangles of a mesh form a quad if they share a side in opposite directions and are in one plane; (a, b, c)
+//          and (c, d, a) become (b, c, d) and (d, a, b). In one plane means: the distance of d from the plane of the
+//          first triangle is at most 2^-20 of their longest side, and the quad is convex [A]. Moving: every window
+//          position moves by whole pixels, exactly, and so does the viewport.
 // Tests    tests/pipeline/vertices/other_splits_test.cpp
 #pragma once
 #include <cstdint>
@@ -15,17 +15,17 @@
 
 namespace strata::pipeline {
 
-// k may be any integer: it counts modulo 3.
+// k may be any integer; it is used modulo 3.
 [[nodiscard]] DrawList rotate_vertices(DrawList list, int k);
 
 struct Flipped {
     DrawList list;
-    std::uint64_t quads = 0;  // whose diagonal changed
+    std::uint64_t quads = 0;  // number of quads whose diagonal changed
 };
-// A triangle belongs to one quad at most: the second of a pair is not looked at again.
+// A triangle belongs to at most one quad: the second of a pair is not considered again.
 [[nodiscard]] Flipped flip_diagonals(DrawList list);
 
-// The viewport must stay within 0 .. 32768, every position within +-65536 pixels.
+// The viewport must stay within 0 .. 32768, and every position within +-65536 pixels.
 void move_window(rasterizer::Geometry& geometry, int x_px, int y_px);
 
 }  // namespace strata::pipeline

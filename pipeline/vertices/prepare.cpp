@@ -20,7 +20,8 @@ namespace strata::pipeline {
 
 namespace {
 
-// Of the upper 3 x 3. Its sign says whether an instance is mirrored, which turns facing (vertices.md 6).
+// The determinant of the upper 3 x 3. Its sign tells whether an instance is mirrored, which exchanges facing
+// (vertices.md 6).
 double linear_determinant(const Matrix& m) {
     const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
@@ -32,7 +33,7 @@ bool is_selected(const Material& material, Selection selection) {
     return (material.alpha_mode == AlphaMode::blend) == (selection == Selection::transparent);
 }
 
-// The vertices of a soup before they have values: which mesh each part of them is, and how it is transformed.
+// The vertices of a soup before they have values: the mesh of each part, and its transform.
 class SoupVertices {
   public:
     void add(const VertexStage& stage, std::size_t count) {
@@ -40,7 +41,7 @@ class SoupVertices {
         count_ += count;
     }
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
-    // Those from number `begin` on.
+    // Writes the vertices from index `begin` on.
     void write(std::size_t begin, std::span<rasterizer::ClipVertex> out) const {
         auto part = std::ranges::upper_bound(parts_, begin, {}, &Part::begin) - 1;
         for (std::size_t done = 0; done < out.size(); ++part) {
@@ -61,12 +62,12 @@ class SoupVertices {
     std::size_t count_ = 0;
 };
 
-constexpr std::size_t chunk = 1024;  // vertices or indices that a thread writes
+constexpr std::size_t chunk = 1024;  // vertices or indices per task of a thread
 
-// Whether a soup has a copy of its meshes' indices, or they lend them to it.
+// Whether a soup copies its meshes' indices or borrows them.
 enum class Indices : std::uint8_t { copied, lent };
 
-// Appends an instance's vertices, its indices from number soup.indices[first_index] on if they are copied, and its run.
+// Appends an instance's vertices, its indices from soup.indices[first_index] on if they are copied, and its run.
 void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
             Indices indices, SoupVertices& vertices, std::size_t first_index, rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
@@ -80,7 +81,7 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
         const std::size_t begin = c * chunk, end = std::min(copied, begin + chunk);
         for (std::size_t i = begin; i < end; ++i) soup.indices[first_index + i] = base + mesh.indices[i];
     });
-    // An empty mesh lends nothing.
+    // An empty mesh has no indices to borrow.
     soup.runs.push_back({.first_index = static_cast<std::uint32_t>(copied > 0 ? first_index : 0),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                          .material = instance.material,
@@ -118,7 +119,7 @@ void write_all(const SoupVertices& vertices, int threads, rasterizer::TriangleSo
     });
 }
 
-// The values of a vertex that the options ask for beside position and colour, in this order: r and q, then texture
+// The vertex values that the options request in addition to position and colour, in this order: r and q, then texture
 // units.
 rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                                        const rasterizer::RasterRules& rules, const PrepareOptions& options) {
@@ -144,8 +145,8 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
     return extras;
 }
 
-// Depths between which all fragments of a part lie (vertices.md 6).
-// With depth clamp a fragment may have any depth of the range, and of keys depth_bound says nothing.
+// Bounds of the depths of all fragments of a part (vertices.md 6). With depth clamp a fragment may have any depth of
+// the range, and depth_bound has no bound for keys.
 DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
     DrawPart part{primitives, 1, 0};
     const bool is_reversed = geometry.state.depth_order == rasterizer::DepthOrder::greater;
@@ -162,14 +163,15 @@ DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& pri
         const auto z = geometry.depths(i);
         const auto [least, most] = std::minmax({z[0] / units, z[1] / units, z[2] / units});
         const double bound = depth_bound(geometry, std::span{geometry.all_triangles}.subspan(i, 1));
-        // A fragment may stray from its corners as far on the near side as the bound allows on the far side.
+        // A fragment may lie outside the range of its corners on the near side by as much as the bound allows on the
+        // far side.
         part.near = std::min(part.near, least - (bound - most));
         part.far = std::max(part.far, bound);
     }
     return part;
 }
 
-// MASK scales its alpha after the test, so that --alpha cannot change what is cut out.
+// MASK scales its alpha after the test, so that --alpha cannot change which fragments it keeps.
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
     MaterialStage stage;
     if (material.texture >= 0) stage.texture = &list.textures[static_cast<std::size_t>(material.texture)];
@@ -179,13 +181,13 @@ MaterialStage material_stage(const DrawList& list, const Material& material, flo
     return stage;
 }
 
-// W of the far plane of a projection: where z = w. 0 or infinite where there is no such w.
+// w at the far plane of a projection, where z = w. 0 or infinite if there is no such w.
 double far_w(const Matrix& p) {
     const double z = (p[3][3] - p[3][2]) / (p[2][2] - p[2][3]);
     return p[2][3] * z + p[3][3];
 }
 
-// Units of a w buffer in one of clip w (depth.md 4.8): the driver scales the far plane's w to depth 1.
+// Units of a w buffer per unit of clip w (depth.md 4.8): the driver scales the far plane's w to depth 1.
 float w_scale_of(const View& view, const rasterizer::RasterState& state) {
     if (state.w_scale != 0.0f) return state.w_scale;
     const double far = far_w(view.projection);
@@ -210,14 +212,14 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
                      const DeviceProfile& profile, const PrepareOptions& options) {
     const FloatEnvironment ours;
     check(profile);
-    // Before the transform, whose quotient rows read the state.
+    // Before the transform, because the quotient rows depend on the state.
     check(state);
     if (state.sample && profile.raster.coverage == rasterizer::CoverageRule::float_spans)
         throw InputError("raster state", "sample", "none with raster.coverage float_spans", "one");
     if (!options.is_checked) check(list);
     check(view);
     SoupVertices vertices;
-    // Vertices that are not read earlier are written while they are set up, and indices of all of them are not needed.
+    // Vertices that are not read earlier are written during set-up; the soup then needs no copy of the indices.
     const bool alters = options.alteration != nullptr && options.alteration->vertices;
     const bool is_written = alters || options.order;
     rasterizer::TriangleSoup soup =
@@ -249,7 +251,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     return prepared;
 }
 
-// Stops as soon as everything that the list needs is found.
+// Stops as soon as all needs of the list are found.
 MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles) {
     MaterialNeeds needs{.shadow = list.needs.shadow};
     for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {

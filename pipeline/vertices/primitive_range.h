@@ -5,7 +5,7 @@
 namespace strata::pipeline {
 
 struct PrimitiveRange {
-    std::uint32_t first = 0, last = 0;  // `last` is one behind; first == last: nothing
+    std::uint32_t first = 0, last = 0;  // `last` is exclusive; first == last: empty
     friend bool operator==(const PrimitiveRange&, const PrimitiveRange&) = default;
 };
 

@@ -22,7 +22,7 @@ Matrix depth_texture_matrix(const Matrix& projection, const rasterizer::RasterSt
     const double n = state.depth_near, f = state.depth_far;
     const bool symmetric = state.clip_depth == rasterizer::ClipDepth::minus_one_to_one;
     const double s0 = symmetric ? (f - n) * 0.5 : f - n, n0 = symmetric ? (f + n) * 0.5 : n;
-    // By columns. The scale has 0 in x and y: s and t become 0, and only r and q are left.
+    // By columns. The scale has 0 in x and y: s and t become 0, and only r and q remain.
     const Matrix translate{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, n0, 1};
     const Matrix scale{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, s0, 0, 0, 0, 0, 1};
     return product(product(translate, scale), projection);

@@ -13,9 +13,9 @@ float row(const Rows& m, std::size_t r, const std::array<float, 4>& p) noexcept 
     return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r] * p[3];
 }
 
-// The matrix whose rows are the planes of a unit, over object coordinates.
+// The matrix whose rows are the planes of a unit, applied to object coordinates.
 Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
-    // Only eye planes are taken through the modelview: rows of the other kind are 0 in either matrix.
+    // Only eye planes are multiplied by the modelview: the rows of the other kind are 0 in each matrix.
     Matrix object(0.0), eye(0.0);
     for (std::size_t r = 0; r < 4; ++r)
         for (std::size_t c = 0; c < 4; ++c)
@@ -28,7 +28,7 @@ Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
     return rows;
 }
 
-// Behind the product, as quotient_rows.h scales its row r: the same bits from the same matrices.
+// Applied after the product, as quotient_rows.h scales its row r: the same bits from the same matrices.
 Matrix in_depth_units(const CoordinateUnit& unit, Matrix m) {
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t r = 0; r < 3; ++r) m[c][r] *= unit.depth_units[r];
@@ -85,7 +85,7 @@ UnitCoordinates VertexCoordinates::at(const Vec3& position, const Vec2& texcoord
         const Unit& unit = units_[u];
         if (!unit.enabled) continue;
         const std::array<float, 4> generated = unit.of_position(position);
-        // One product of matrices has taken the texture matrix in already.
+        // of_position already includes the texture matrix.
         if (unit.all_generated) {
             all[u] = generated;
             continue;

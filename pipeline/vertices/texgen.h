@@ -1,10 +1,11 @@
-// pipeline/vertices/texgen.h - texture coordinates of a vertex: generated, given, and taken through a texture matrix.
+// pipeline/vertices/texgen.h - texture coordinates of a vertex: generated or given, then transformed by a texture
+// matrix.
 //
 // Rule     A generated coordinate is plane . position, in object or eye space; an eye plane is multiplied by the
-//          inverse of the modelview in force when it is specified. What is not generated is the vertex's own: s and t
-//          of its mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix. Planes, texture matrix and
-//          modelview are multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through
-//          them by the view's vertex path, as they do on their way to clip space (vertex_transform.h).
+//          inverse of the modelview in force when it is specified. Coordinates that are not generated are the vertex's
+//          own: s and t of its mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix is applied. Planes,
+//          texture matrix and modelview are multiplied in binary64 and rounded once to binary32 [A: a driver may];
+//          positions are transformed by the view's vertex path, like those to clip space (vertex_transform.h).
 // Source   GL 1.2.1 2.10.2 and 2.10.4; vertices.md 4.
 // Tests    tests/pipeline/vertices/texgen_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
@@ -17,11 +18,11 @@
 
 namespace strata::pipeline {
 
-// The texture unit whose coordinates look into a light's map, and the mask that names them.
+// The texture unit whose coordinates address a light's map, and the mask of these coordinates.
 inline constexpr std::size_t shadow_unit = 3;
 inline constexpr rasterizer::UnitMask shadow_coordinates = 0xf << (4 * shadow_unit);
 
-// Whether and in which space a coordinate is generated: GL's OBJECT_LINEAR and EYE_LINEAR.
+// Whether a coordinate is generated, and in which space: GL's OBJECT_LINEAR and EYE_LINEAR.
 enum class TexGenMode : std::uint8_t { off, object_linear, eye_linear };
 
 using Plane4 = Vec4d;
@@ -30,19 +31,19 @@ inline constexpr std::array<Plane4, 4> identity_planes{Plane4{1, 0, 0, 0}, Plane
 
 struct TexGen {
     TexGenMode mode = TexGenMode::off;
-    // An eye plane as `eye_plane` leaves it, an object plane as it is.
+    // For eye_linear the result of `eye_plane`, for object_linear the plane itself.
     Plane4 plane{};
     friend bool operator==(const TexGen&, const TexGen&) = default;
 };
 
-// The way of a texture unit's coordinates s, t, r, q: generation, texture matrix, then the factors below.
+// How a texture unit's coordinates s, t, r, q are computed: generation, texture matrix, then the factors below.
 struct CoordinateUnit {
-    // Some stage reads this unit; nothing is computed for the others.
+    // Some stage reads this unit; disabled units are not computed.
     bool enabled = false;
     std::array<TexGen, 4> gen{};
     Matrix matrix = identity;
-    // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in
-    // the units of a depth buffer. OpenGL has none of it: its driver scales the rows of a GeForce3, and so do we.
+    // Factors of s, t and r after the texture matrix: 2^n - 1 if a quotient by q, or by another unit, is to be in the
+    // units of a depth buffer. OpenGL has no such factors: GeForce3's driver scales the rows, and so does this.
     Vec3d depth_units{1, 1, 1};
     friend bool operator==(const CoordinateUnit&, const CoordinateUnit&) = default;
 };
@@ -55,7 +56,7 @@ using UnitCoordinates = std::array<std::array<float, 4>, rasterizer::texture_uni
 // All four coordinates EYE_LINEAR with identity planes, specified under the identity: s t r q are the eye position.
 [[nodiscard]] std::array<TexGen, 4> eye_position();
 
-// glTranslate, glScale as matrices, for texture matrices entered step by step.
+// glTranslate and glScale as matrices, for composing texture matrices.
 [[nodiscard]] constexpr Matrix translation(double x, double y, double z) noexcept {
     return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
 }
@@ -73,9 +74,9 @@ class VertexCoordinates {
     struct Unit {
         bool enabled = false, all_generated = false;
         std::array<bool, 4> generated{};
-        // matrix . planes . modelview where all four are generated, else planes . modelview.
+        // matrix . planes . modelview if all four are generated, else planes . modelview.
         VertexTransform of_position;
-        // The texture matrix for a unit with some coordinate that is given.
+        // The texture matrix, for a unit with some given coordinate.
         std::array<float, 16> of_coordinates{};
     };
     std::vector<Unit> units_;

@@ -1,4 +1,4 @@
-// pipeline/vertices/vertex_lanes_simd.cpp - vertex_lanes.h for every instruction set.
+// pipeline/vertices/vertex_lanes_simd.cpp - vertex_lanes.h, compiled once per instruction set.
 // How kernels are written: kernels.md. Tests: tests/pipeline/vertices/prepare_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/vertices/vertex_lanes_simd.cpp"
@@ -15,7 +15,7 @@ using F = hn::CappedTag<float, vertex_lane_count>;
 using V = hn::Vec<F>;
 
 HWY_INLINE V set(float v) { return hn::Set(F{}, v); }
-// From the left, every operation rounded: the order of vertex_stage.h.
+// Summed from left to right, every operation rounded, in the order of vertex_stage.h.
 HWY_INLINE V sum_of_three(V a, float ma, V b, float mb, V c, float mc) {
     return hn::Add(hn::Add(hn::Mul(set(ma), a), hn::Mul(set(mb), b)), hn::Mul(set(mc), c));
 }
@@ -30,7 +30,7 @@ void transform(const std::array<float, 16>& m, const Vec3* positions, VertexLane
     }
 }
 
-// VertexStage::light_of for every lane; a length of 0 or NaN takes the factor 0.25, whatever the division gave.
+// VertexStage::light_of for every lane; a length of 0 or NaN gives the factor 0.25, whatever the division returns.
 void light(const std::array<float, 9>& m, const Vec3& toward_eye, const Vec3* normals, VertexLanes& out) noexcept {
     for (std::size_t i = 0; i < vertex_lane_count; i += hn::Lanes(F{})) {
         V n[3], world[3];

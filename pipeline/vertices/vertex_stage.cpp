@@ -9,8 +9,8 @@
 namespace strata::pipeline {
 namespace {
 
-// Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for
-// mirrored models, a sign that |N.L| does not see.
+// Cofactors of the upper 3x3, column-major: the transform of normals, up to a positive factor and, for mirrored models,
+// a sign that does not affect |N.L|.
 std::array<float, 9> normal_matrix(const Matrix& m) {
     const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     std::array<float, 9> n{};
@@ -67,8 +67,8 @@ rasterizer::ClipVertex VertexStage::vertex(std::size_t i, const std::array<float
 }
 
 void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) const {
-    // The kernels know VertexPath::separate and w = 1 alone; everything else,
-    // and the remainder of a block, goes vertex by vertex.
+    // The kernels implement only VertexPath::separate and w = 1; everything else, and the remainder of a block, is
+    // processed vertex by vertex.
     const bool is_affine = mesh_.w.empty();
     const VertexKernels* const kernels = is_affine && clip_.separate_matrix() != nullptr ? vertex_kernels() : nullptr;
     std::size_t done = 0;

@@ -1,9 +1,9 @@
-// pipeline/vertices/vertex_stage.h - a mesh's vertices in clip space, lit.
+// pipeline/vertices/vertex_stage.h - transforms a mesh's vertices to clip space and lights them.
 //
-// Rule     As prepare.h says. World normal = cofactors of the upper 3x3 times the normal; |N| = sqrt((x x + y y) + z
-//          z); where it is not above 0 the factor is 0.25. Colour: (material * vertex colour) * factor; alpha:
-//          (material * vertex) * scale of the draw. All in binary32, sums from the left, every operation rounded; eight
-//          or sixteen vertices at a time, with the same bits.
+// Rule     As in prepare.h. World normal = cofactors of the upper 3x3 times the normal; |N| = sqrt((x x + y y) + z z);
+//          if it is not above 0, the factor is 0.25. Colour: (material * vertex colour) * factor; alpha: (material *
+//          vertex) * scale of the draw. All in binary32, sums from left to right, every operation rounded; kernels
+//          process eight or sixteen vertices at a time with the same bits.
 // Tests    tests/pipeline/vertices/prepare_test.cpp
 #pragma once
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace strata::pipeline {
 
-// One mesh with one material under one view. It keeps references: mesh and material must outlive it.
+// One mesh with one material under one view. It stores references: mesh and material must outlive it.
 class VertexStage {
   public:
     VertexStage(const Mesh& mesh, const Material& material, const View& view, const Matrix& model, float alpha_scale);
@@ -25,7 +25,7 @@ class VertexStage {
     void run(std::size_t begin, std::span<rasterizer::ClipVertex> out) const;
 
   private:
-    // 0.25 to 1 (but for roundings): the factor of a vertex's colours by its normal in object space.
+    // 0.25 to 1 (except for rounding): the factor of a vertex's colours from its normal in object space.
     [[nodiscard]] float light_of(const Vec3& normal) const;
     [[nodiscard]] rasterizer::ClipVertex vertex(std::size_t i, const std::array<float, 4>& position, float light) const;
 

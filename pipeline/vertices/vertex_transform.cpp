@@ -20,19 +20,19 @@ using Row = std::array<float, 4>;
     return rasterizer::fused_multiply_add(m[2], p[2], two) + m[3];
 }
 
-// The two sums of pairs do not wait for each other: this is
-// what a compiler that may reassociate makes of four products.
+// The two sums of pairs are independent: a compiler that may reassociate does this with four products.
 [[nodiscard]] float in_pairs(const Row& m, const Row& p) {
     return (m[0] * p[0] + m[1] * p[1]) + (m[2] * p[2] + m[3] * p[3]);
 }
 
 [[nodiscard]] float cut_product(float a, float b) { return rasterizer::cut_to_binary32(double{a} * double{b}); }
 
-// The sum is high + low exactly; where binary64 holds it, low is 0.
+// The sum is high + low exactly; low is 0 if binary64 can represent the sum.
 [[nodiscard]] float cut_sum(float a, float b) {
     const rasterizer::TwoTerms s = rasterizer::two_sum(double{a}, double{b});
     const float f = rasterizer::cut_to_binary32(s.high);
-    // binary64 may have rounded the sum away from zero, onto a float: the cut is the next float toward zero then.
+    // binary64 may have rounded the sum away from zero to a binary32 value: the truncated value is then the next float
+    // toward zero.
     const bool is_beyond = double{f} == s.high && s.low != 0.0 && (s.low > 0.0) != (s.high > 0.0);
     return is_beyond ? std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) - 1) : f;
 }
@@ -65,7 +65,7 @@ std::array<float, 4> VertexTransform::by_path(const Vec3& p) const {
     for (std::size_t r = 0; r < 4; ++r) {
         const Row m = row_of(whole_, r);
         switch (path_) {
-            case VertexPath::separate: break;  // the caller's
+            case VertexPath::separate: break;  // handled by the caller
             case VertexPath::fused: out[r] = fused(m, p); break;
             case VertexPath::reassociated: out[r] = in_pairs(row_of(outer_, r), eye); break;
             case VertexPath::double_precision: {

@@ -1,11 +1,14 @@
 // pipeline/vertices/vertex_transform.h - a matrix times a position, by one of the vertex paths.
 //
 // Rule     Matrices are multiplied in binary64 and rounded once to binary32, m the whole. With x, y, z in binary32, row
-//          r is separate ((m0 x + m1 y) + m2 z) + m3, every operation rounded fused fma(m2, z, fma(m1, y, m0 x)) + m3
-//          reassociated e = inner * p, then outer * e; rows (m0 x + m1 y) + (m2 z + m3), last factor e.w in the second
-//          double as separate in binary64 with matrices never rounded; the result rounded once toward_zero as separate,
-//          every product and sum cut toward zero nv20 one sum of three products and m3 by
-//          rasterizer/base/nv20_arithmetic.h
+//          r is, for each path:
+//            separate: ((m0 x + m1 y) + m2 z) + m3, every operation rounded.
+//            fused: fma(m2, z, fma(m1, y, m0 x)) + m3.
+//            reassociated: e = inner * p, then outer * e; rows (m0 x + m1 y) + (m2 z + m3), the last factor is e.w in
+//            the second.
+//            double: like separate in binary64 with matrices that are not rounded; the result is rounded once.
+//            toward_zero: like separate, with every product and sum truncated toward zero.
+//            nv20: one sum of three products and m3 by rasterizer/base/nv20_arithmetic.h.
 // Source   vertices.md 2 (separate); numbers.md 4 (nv20); the others are ours: what compilers and drivers do [A].
 // Tests    tests/pipeline/vertices/vertex_transform_test.cpp
 #pragma once
@@ -16,10 +19,10 @@
 
 namespace strata::pipeline {
 
-// A matrix that is applied to many positions, rounded to binary32 when it is made (but for `double`).
+// A matrix for transforming many positions, rounded to binary32 by the constructor (except for `double`).
 class VertexTransform {
   public:
-    // `whole` is outer * inner, in whichever order of products its caller has settled.
+    // `whole` is outer * inner, with the order of products chosen by the caller.
     VertexTransform(VertexPath path, const Matrix& whole, const Matrix& outer, const Matrix& inner);
 
     [[nodiscard]] std::array<float, 4> operator()(const Vec3& p) const {
@@ -29,7 +32,7 @@ class VertexTransform {
         return {row(0), row(1), row(2), row(3)};
     }
 
-    // Of a homogeneous position, by whatever path: ((m0 x + m1 y) + m2 z) + m3 w.
+    // For a homogeneous position, whatever the path: ((m0 x + m1 y) + m2 z) + m3 w.
     [[nodiscard]] std::array<float, 4> operator()(const Vec3& p, float w) const {
         const auto& m = whole_;
         const auto row = [&](std::size_t r) {
@@ -38,7 +41,7 @@ class VertexTransform {
         return {row(0), row(1), row(2), row(3)};
     }
 
-    // The matrix, column-major, if that is all: VertexPath::separate.
+    // The matrix, column-major, if the path is VertexPath::separate; otherwise null.
     [[nodiscard]] const std::array<float, 16>* separate_matrix() const noexcept {
         return path_ == VertexPath::separate ? &whole_ : nullptr;
     }
