@@ -125,7 +125,7 @@ class RowWalker {
 
     // The least k >= 0 with e + k rise >= 0, at most the width, without a branch. The estimate is never too high and is
     // low by less than 2: it is at most 2^16 with an error below 2^-35, and an exact quotient that is not an integer is
-    // at least 1 / rise above one.
+    // at least 1 / rise above an integer.
     [[nodiscard]] std::int64_t first_reached(std::int64_t e, const Crossing& c) const noexcept {
         const std::int64_t missing = std::clamp(e, c.beyond, std::int64_t{0});
         auto k = static_cast<std::int64_t>(static_cast<double>(-missing) * c.inverse);

@@ -16,7 +16,7 @@
 namespace strata::rasterizer {
 namespace {
 
-// Tests each edge at the pixel centre of `r` where its value is largest: all three must be covering values there.
+// True if each edge covers the pixel centre of `r` at which its value is largest.
 [[nodiscard]] bool may_cover(const TriangleEdges& edges, const Rect& r, int subpixel_bits) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Edge& edge = edges.edge(i);

@@ -81,8 +81,8 @@ struct PlainShapes {
     Mask is_uncovered;  // known to cover nothing
 };
 
-// Adds their records, starting at record `first` of the group, and their fates; sets a bit of kept_bits for each kept
-// triangle.
+// Adds the records of `lanes` triangles, starting at record `first` of the group, and their fates; sets a bit of
+// kept_bits for each kept triangle.
 HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& s, const std::uint32_t* indices,
                             std::uint32_t primitive, std::size_t first, Records& records, PlainFates& fates,
                             std::uint32_t& kept_bits) {

@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_spans_simd.cpp"
 #include <limits>
 
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/set_up/plain_records-inl.h"
 

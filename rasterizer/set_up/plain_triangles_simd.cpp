@@ -3,7 +3,7 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_triangles_simd.cpp"
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/set_up/plain_records-inl.h"
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/set_up/clip.h"
 #include "rasterizer/set_up/plain_vertices.h"

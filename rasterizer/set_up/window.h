@@ -119,7 +119,7 @@ class WindowTransform {
     }
 
     // A vertex at any position, snapped, in subpixels from the centre of the first pixel, with rows in the direction of
-    // rules.y_axis. Values that do not fit in 32 bits become the least integer; a w of 0 is treated as 1.
+    // rules.y_axis. Values that do not fit in 32 bits become the least 32-bit integer; a w of 0 is treated as 1.
     [[nodiscard]] constexpr SubpixelPoint from_first_centre(const ClipVertex& v) const noexcept {
         const float inverse_w = v.w == 0.0f ? 1.0f : 1.0f / v.w;
         const auto place = [&](const Axis& axis, float c) {

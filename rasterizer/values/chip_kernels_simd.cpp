@@ -2,7 +2,7 @@
 // are written: kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/chip_kernels_simd.cpp"
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/values/chip_lanes-inl.h"
 

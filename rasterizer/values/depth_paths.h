@@ -39,8 +39,9 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
 void float32_plane_depth(const SetupTriangle& triangle, const RasterRules& rules, const TriangleLanes& lanes,
                          double* out) noexcept;
 
-// window_z_depth: the value that window_z converts to a code under WindowZRule::float32. plane_depth: the exact plane
-// in binary64. Both in the units of vertex z; window_z_depth returns the number of exact fallbacks.
+// window_z_depth: the value of window_z under WindowZRule::float32 (the plane rounded once to binary32) or exact (as
+// plane_depth). plane_depth: the plane in binary64. Both in the units of vertex z; window_z_depth returns the number of
+// exact fallbacks.
 int window_z_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
                    double* out) noexcept;
 void plane_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, double* out) noexcept;

@@ -50,8 +50,8 @@ struct CutCoordinate {
     float* out;
 };
 
-// Computes the fragment values of one pass. What state, rules and needs determine is decided by the constructor. One
-// object may serve many triangles.
+// Computes the fragment values of one pass. Decisions that depend only on state, rules and needs are made by the
+// constructor. One object may serve many triangles.
 class FragmentValues {
   public:
     FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);

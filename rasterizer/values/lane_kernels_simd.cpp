@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstring>
 
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/values/weights-inl.h"
 

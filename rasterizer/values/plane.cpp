@@ -59,7 +59,7 @@ float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t 
     // low and high are neighbours, so 25 bits hold the value half way between them.
     const double middle = (double{low} + double{high}) * 0.5;
     const int side = compare(sum, middle, plane, area);
-    if (side == 0) return static_cast<float>(middle);  // a tie goes to the even one
+    if (side == 0) return static_cast<float>(middle);  // ties to even
     const bool takes_larger = side > 0;
     return takes_larger == (high > low) ? high : low;
 }

@@ -2,7 +2,7 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/walk/rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/depth_rows_simd.cpp"
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"
 #include "rasterizer/walk/rows.h"

@@ -6,7 +6,7 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/walk/window_z_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/window_z_rows_simd.cpp"
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "rasterizer/chip/window_z.h"
 #include "rasterizer/values/chip_lanes-inl.h"
