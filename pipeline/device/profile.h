@@ -33,7 +33,7 @@ enum class Depth24 : std::uint8_t { codes, binary32 };
 // or in binary32 (texturing.md 3). It also affects nearest lookups and pass-through coordinates (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, single_lerps };
 // The corner of the image at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT);
-// lower_left as OpenGL draws into framebuffer objects without that call. All rules hold in memory order (devices.md
+// lower_left as OpenGL draws into framebuffer objects without that call. All rules apply in memory order (devices.md
 // 3.8); output images have the upper row first.
 enum class Origin : std::uint8_t { upper_left, lower_left };
 

@@ -16,7 +16,7 @@
 #include "pipeline/formats/value_digest.h"
 
 namespace strata::pipeline {
-namespace hashing {  // ValueDigest::State holds a Hash, so it has external linkage
+namespace hashing {  // external linkage, because ValueDigest::State has a Hash member
 
 struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }

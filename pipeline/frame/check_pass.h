@@ -10,8 +10,8 @@
 namespace strata::pipeline {
 
 // Throws Refused (check.h) for state that the profile lacks, and std::logic_error for a pass that no device could run:
-// targets with different sample counts, a feedback loop (a target read and written without ordered_rmw), a test without
-// its target.
+// targets of the wrong kind or with different sample counts, a feedback loop (a target read and written without
+// ordered_rmw), a test without its target.
 void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets);
 
 }  // namespace strata::pipeline

@@ -41,7 +41,7 @@ struct KeptLayer {
 // record. resolved: a whole loop was computed from the record, without passes.
 enum class Path : std::uint8_t { literal, tiled, recorded, resolved };
 
-// The path of a region, and why it did not take a faster one: error sentences, null if there is none.
+// The path of a region, and why it did not take a faster one: as text, null if there is none.
 struct PathTaken {
     bool rasterizes = false, reads_record = false, is_resolved = false;
     const char *why_rasterized = nullptr, *why_unresolved = nullptr;

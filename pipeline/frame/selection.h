@@ -27,7 +27,7 @@ enum class Keeps : std::uint8_t {
     ends,      // those with the first and the last key including ties, and the nearest and farthest between: for MAX of
                // (-z, z)
     submitted  // from index `first_submitted` of the interval on, in submission order, one per sample: for a stencil
-               // test that all fragments of the interval, and only those, count down
+               // test that all fragments of the interval count down and that no others reach
 };
 
 // The effect of a fragment outside the interval.

@@ -27,7 +27,7 @@ constexpr std::int32_t one = combiner_one;
     return {};  // unreachable: the enum is closed
 }
 
-// True if the choice takes C D.
+// True if the choice selects C D.
 [[nodiscard]] constexpr bool takes_cd(CombinerSum rule, std::int32_t alpha) noexcept {
     return rule == CombinerSum::mux_low_bit ? (alpha & 1) != 0 : alpha >= combiner_half;
 }
@@ -40,7 +40,7 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"combiner state: "} + what);
 }
 
-// Throws for what is an error in NV_register_combiners: a programming error, not a missing feature of the device.
+// Throws for state that is an error in NV_register_combiners: a programming error, not a missing feature of the device.
 void check(const CombinerPortion& p, bool is_alpha) {
     for (const Input& input : {p.a, p.b, p.c, p.d})
         require(holds_value(input.source), "an input of a general stage names no register that it has");

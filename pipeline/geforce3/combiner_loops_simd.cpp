@@ -3,7 +3,7 @@
 // How kernels are written: kernels.md. Tests: tests/pipeline/geforce3/combiner_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/geforce3/combiner_loops_simd.cpp"
-#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/foreach_target.h"  // compiles this file once per instruction set
 #include "hwy/highway.h"
 #include "pipeline/geforce3/combiner_loops.h"
 

@@ -5,7 +5,7 @@
 namespace strata::pipeline {
 namespace {
 
-enum class Result : std::uint8_t { none, texel, scalar };  // what a later stage can use of a stage
+enum class Result : std::uint8_t { none, texel, scalar };  // the result of a stage that a later stage can use
 
 // True if there is a texture and its target is that of the operation.
 bool is_complete(const BoundTexture& texture, TextureTarget target) {

@@ -175,7 +175,7 @@ class FrameRun {
         parallel_for(which.size(), threads_, [&](std::size_t i) { run_region(which[i], script); });
     }
 
-    // True if region r is not affected by the frame's answer to decision d: it counted nothing there, or it had stopped
+    // True if a region is not affected by the frame's answer to decision d: it counted nothing there, or it had stopped
     // earlier, and promised that further iterations change nothing.
     [[nodiscard]] static bool is_idle(const LoopStatistics& loop, std::size_t d) {
         const std::size_t last = std::min(d, loop.decisions.size() - 1);

@@ -3,9 +3,9 @@
 //
 // Rule     An algorithm is one function over a region. Literal execution passes it the frame, replay one tile after the
 //          other; bits, pass counts and query results are the same. Only `any` turns a query into a branch. A region
-//          consists of targets, stages, source and loop (region_shared.h describes their dependencies). What the
-//          executor reads afterwards is in RegionStatistics (region_statistics.h); what optimized paths need, in
-//          RegionShortcuts (region_shortcuts.h).
+//          consists of targets, stages, source and loop (region_shared.h describes their dependencies). The
+//          executor reads its results from RegionStatistics (region_statistics.h); optimized paths use RegionShortcuts
+//          (region_shortcuts.h).
 // Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
@@ -83,7 +83,7 @@ class Region {
     [[nodiscard]] bool any(Count count, Idle idle) { return loop_.any(count, idle); }
     void begin_iteration() { loop_.begin_iteration(); }
     // Begins a further loop: promises made so far apply to the loops before it, and later ones only to the new loop. If
-    // a limit counts passes across the loops, a tile that left a loop early is told how many the frame has made.
+    // a limit counts passes across the loops, a tile that left a loop early gets the number that the frame has made.
     void begin_loop() { loop_.begin_loop(); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1) { return loop_.limit_reached(passes); }

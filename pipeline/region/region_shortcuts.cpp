@@ -53,7 +53,7 @@ std::vector<CapturedFragment> RegionShortcuts::capture(Counting counting) {
     return all;
 }
 
-// Each part has twice as many triangles as the previous one. A program that needs little is asked early, and few
+// Each part has twice as many triangles as the previous one. A program that needs little can stop early, and few
 // batches end early.
 void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
                                      const bool& goes_on) {

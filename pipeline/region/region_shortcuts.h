@@ -51,7 +51,7 @@ class RegionShortcuts {
     // Words per pixel of the region's targets so far, including all samples.
     [[nodiscard]] std::uint64_t target_words() const;
     void count_passes(const PassCount& passes);  // passes that another computation replaced
-    // Records whether a whole loop was computed from the record: null, or the reason why not, as an error sentence.
+    // Records whether a whole loop was computed from the record: null, or the reason why not, as text.
     void note_resolved(const char* why_not) noexcept {
         region_.shared_.statistics.taken.is_resolved = why_not == nullptr;
         region_.shared_.statistics.taken.why_unresolved = why_not;

@@ -75,7 +75,7 @@ FoundPixels non_finite_pixels(const TargetStorage& storage, ChannelType type) {
 // The opaque targets have indices 0 and 1 in every region. Priming them is the emulator's own work and is not counted.
 Targets::Targets(const RegionShared& shared) : shared_{shared} {
     opaque_depth_ = make_depth();
-    opaque_color_ = make(shared_.frame.behind_format());  // the background of what is blended from behind
+    opaque_color_ = make(shared_.frame.behind_format());  // the background of layers that are blended from behind
     const UncountedWork priming{shared_.statistics};
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = shared_.frame.background});

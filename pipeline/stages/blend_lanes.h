@@ -185,7 +185,7 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
     } else if (profile.unorm_rounding == UnormRounding::half_up) {
         blend_unorm8<UnormRounding::half_up>(job, profile.blend_rounding);
     } else if (profile.blend_rounding == BlendRounding::unrounded_source) {
-        blend_unrounded(job, profile.unorm_rounding);  // also stores codes
+        blend_unrounded(job, profile.unorm_rounding);  // the rounding also determines the values of codes
     } else {
         blend_unorm8<UnormRounding::product_even>(job, profile.blend_rounding);
     }

@@ -62,7 +62,7 @@ class SoupVertices {
     std::size_t count_ = 0;
 };
 
-constexpr std::size_t chunk = 1024;  // vertices or indices per task of a thread
+constexpr std::size_t chunk = 1024;  // vertices or indices written per task
 
 // Whether a soup copies its meshes' indices or borrows them.
 enum class Indices : std::uint8_t { copied, lent };
@@ -163,7 +163,7 @@ DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& pri
         const auto z = geometry.depths(i);
         const auto [least, most] = std::minmax({z[0] / units, z[1] / units, z[2] / units});
         const double bound = depth_bound(geometry, std::span{geometry.all_triangles}.subspan(i, 1));
-        // A fragment may lie outside the range of its corners on the near side by as much as the bound allows on the
+        // A fragment may be outside the range of its corners on the near side by as much as the bound allows on the
         // far side.
         part.near = std::min(part.near, least - (bound - most));
         part.far = std::max(part.far, bound);
