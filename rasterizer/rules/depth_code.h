@@ -56,7 +56,7 @@ inline namespace strict {
     return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
 }
 
-// The value of depth 1.0 in D24F: the limit that the chip's drivers used (depth.md 1.3).
+// The value of depth 1.0 in D24F: the limit that NV2A's drivers used (depth.md 1.3).
 inline constexpr float max_d24f = 1e30f;
 
 // The code of depth 1.0: 2^n - 1, the bits of 1.0f, or those of 1e30.
@@ -104,7 +104,7 @@ inline constexpr float max_d16f = 511.9375f;
     if (!(value > 0.0)) return 0;
     if (value >= max_d16f) return 0xffffu;
     constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-7);
-    // A code below it has exponent field 0, and the chip stores 0 instead (depth.md 2.3).
+    // A code below it has exponent field 0, and NV2A stores 0 instead (depth.md 2.3).
     constexpr std::uint32_t least_normal = 0x1000;
     const auto bits = std::bit_cast<std::uint64_t>(value);
     // 12 of the 52 mantissa bits of binary64 remain; this truncation is the only rounding.

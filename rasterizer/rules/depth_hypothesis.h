@@ -1,4 +1,5 @@
-// rasterizer/rules/depth_hypothesis.h - parameters of the depth computation whose hardware value is not certain.
+// rasterizer/rules/depth_hypothesis.h - parameters of the depth computation whose hardware value is not certain. The
+// chip is NV2A.
 //
 // Rule     Defaults are measured on hardware ([M]) or assumed ([A]). RasterRules contains one DepthHypothesis, on which
 //          everything computed from depths depends; depth_hypotheses (hypotheses.h) lists the alternatives.

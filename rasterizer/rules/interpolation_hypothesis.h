@@ -1,5 +1,5 @@
 // rasterizer/rules/interpolation_hypothesis.h - parameters of the interpolation of colours and texture coordinates
-// whose hardware value is not certain.
+// whose hardware value is not certain. The chip is NV2A.
 //
 // Rule     As in depth_hypothesis.h, defaults are measured on hardware ([M]) or assumed ([A]). interpolation_hypotheses
 //          (hypotheses.h) lists the alternatives.

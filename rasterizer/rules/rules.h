@@ -60,7 +60,7 @@ enum class EqualColors : std::uint8_t { interpolated, kept };
 enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };
 // The units of vertex z: depth 1 is 1, or the depth buffer's greatest value (coverage.md 3.4).
 enum class WindowZ : std::uint8_t { unit_interval, buffer_units };
-// Vertex colours by the exact perspective plane, or by the chip's 8-bit weights (attributes.md 2.1).
+// Vertex colours by the exact perspective plane, or by NV2A's 8-bit weights (attributes.md 2.1).
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
 // Depths outside the depth range. clamp: they become its ends. wrap: a D32F target keeps them, and fixed-point codes
 // wrap around. zero_to_one: they are clamped to 0 and 1, whatever the depth range (depth.md 2.9).
@@ -70,7 +70,7 @@ enum class DepthLimits : std::uint8_t { clamp, wrap, zero_to_one };
 // format with two codes instead of one. differences: 2^(e - 23) of a depth and of two differences, for D16 1.01 /
 // 65535.
 enum class OffsetUnit : std::uint8_t { format, float_exponent, buffer, two_codes, differences };
-// Polygon offset is added to z of the corners, or by the chip to the value of every fragment (window_z.h).
+// Polygon offset is added to z of the corners, or by NV2A to the value of every fragment (window_z.h).
 enum class OffsetRule : std::uint8_t { corners, fragments };
 
 // How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.

@@ -40,7 +40,7 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
 }
 
 // w with its magnitude limited to 2^-64 .. 2^64, also for zero and infinity: 1 / w and its products stay finite. NaN is
-// returned unchanged. The chip's reciprocal has these limits (chip-float-depth.md 8).
+// returned unchanged. NV2A's reciprocal has these limits (chip-float-depth.md 8).
 [[nodiscard]] constexpr float settled_w(float w) noexcept {
     const bool is_negative = std::bit_cast<std::uint32_t>(w) >> 31 != 0;
     float size = is_negative ? -w : w;

@@ -1,4 +1,4 @@
-// rasterizer/values/chip_fill.cpp - the part of a batch that the kernels of the chip's interpolators fill
+// rasterizer/values/chip_fill.cpp - the part of a batch that the kernels of NV2A's interpolators fill
 // (chip_lanes.h), and the fallback to the definitions (fragment_values.h).
 #include <utility>
 
@@ -52,7 +52,7 @@ using Corners3 = std::array<float, 3>;
 
 }  // namespace
 
-// Fixed point: the chip truncates, whatever the rounding rule, and clamps to the codes of the depth range.
+// Fixed point: NV2A truncates, whatever the rounding rule, and clamps to the codes of the depth range.
 ChipConversion FragmentValues::chip_conversion() const noexcept {
     if (!to_code_.is_fixed()) return {to_code_.kind, value_to_code_.least, value_to_code_.greatest};
     return {CodeKind::fixed, static_cast<double>(depth_code(to_code_.least, to_code_)),

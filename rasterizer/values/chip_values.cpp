@@ -1,4 +1,4 @@
-// rasterizer/values/chip_values.cpp - depths that the chip computes itself, window_z and w_buffer, and the depth range
+// rasterizer/values/chip_values.cpp - depths that NV2A computes itself, window_z and w_buffer, and the depth range
 // test that uses them (fragment_values.h).
 #include <algorithm>
 
@@ -41,7 +41,7 @@ bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcep
     return chip_.may_leave_range(t.z);
 }
 
-// ZClip::per_fragment compares the chip's own value with the range if the chip computes one (depth.md 5.2): the w
+// ZClip::per_fragment compares NV2A's own value with the range if NV2A computes one (depth.md 5.2): the w
 // buffer's, else window z, whichever path is stored. Otherwise shader_z is compared [A]: a value that rounds to n or f
 // is inside.
 void FragmentValues::drop_outside_depth_range(const SetupTriangle& t, const TriangleLanes& lanes, int first,

@@ -180,7 +180,7 @@ void FragmentValues::fill_float_codes(int first, FragmentBatch& batch) const noe
     to_codes(&batch.shader_z[f], padded(batch.count - first), to_code_, &batch.code[f]);
 }
 
-// The exact plane in the buffer's own units, rounded once to binary32 and then truncated: the chip's float formats.
+// The exact plane in the buffer's own units, rounded once to binary32 and then truncated: NV2A's float formats.
 int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLanes& lanes,
                                        std::uint32_t* out) const noexcept {
     const bool in_units = z_units_ == code_units_;

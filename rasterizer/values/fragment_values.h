@@ -63,7 +63,7 @@ class FragmentValues {
 
     // The conversion of shader_z to a code for DepthPath::float32.
     [[nodiscard]] const DepthConversion<float>& to_code() const noexcept { return to_code_; }
-    // The conversion of the chip's window z to codes.
+    // The conversion of NV2A's window z to codes.
     [[nodiscard]] const ChipDepth& chip_depth() const noexcept { return chip_; }
 
   private:
@@ -73,7 +73,7 @@ class FragmentValues {
     [[nodiscard]] bool fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                   WeightLanes& weights) const noexcept;
     [[nodiscard]] ChipConversion chip_conversion() const noexcept;
-    // The same for window_z by the chip's kernel, which writes only codes.
+    // The same for window_z by NV2A's kernel, which writes only codes.
     [[nodiscard]] bool fill_chip_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                        WeightLanes& weights, int& fallbacks) const noexcept;
     // The compared depth of DepthPath::perspective_rq or depth_replace, in the buffer's own units. Returns the number
@@ -99,7 +99,7 @@ class FragmentValues {
     // The depth as a value in the buffer's own units, not clamped.
     [[nodiscard]] int fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                         const TriangleLanes& lanes, const float* shader_z, double* out) const;
-    // True for window_z by the chip's rule, and for w_buffer.
+    // True for window_z by NV2A's rule, and for w_buffer.
     [[nodiscard]] bool is_chip(DepthPath path) const noexcept;
     // The values of those paths in the buffer's own units, including the per-fragment offset, not clamped.
     void fill_chip_values(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
@@ -160,7 +160,7 @@ class FragmentValues {
     // is_plain_: the pass requests at most shader_z and its code by DepthPath::float32, so one kernel computes both.
     // is_float_plain_: the same by planes stepped in binary32, with colours and coordinates.
     bool is_plain_, is_float_plain_;
-    // is_chip_path_: the stored depth is the chip's window z and has a kernel. is_chip_plain_: also, no exact code and
+    // is_chip_path_: the stored depth is NV2A's window z and has a kernel. is_chip_plain_: also, no exact code and
     // at most a reference by quotient is requested. needs_plane_weights_: some attribute is interpolated by planes.
     bool is_chip_path_, is_chip_plain_, needs_plane_weights_;
     // The compared depth is the stored one, in binary64, so it is computed only once (depth.md 6.1).

@@ -132,7 +132,7 @@ inline void append(FragmentBatch& batch, int held, int count, std::uint32_t pixe
 template <class SpanOf, class Append>
 [[gnu::always_inline]] inline bool emit_rows(RowRun& run, PixelClaims& claims, FragmentBatch& batch,
                                              const SpanOf& span_of, const Append& append_row) noexcept {
-    const RowRun rows = run;  // a copy, because stores to the lanes could change the original
+    const RowRun rows = run;  // a copy: the compiler must assume that stores to the lanes change `run`
     int held = batch.count, row = rows.row, taken = rows.taken;
     bool has_room = true;
     while (row < rows.rows) {

@@ -25,7 +25,7 @@ inline constexpr std::size_t row_walk_lanes = 4;
 // True if rows can replace the batches of `geometry` in `region` with the selected instruction set.
 [[nodiscard]] bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
 
-// The same for a depth-only pass: draw_depth_rows also implements the chip's window z.
+// The same for a depth-only pass: draw_depth_rows also implements NV2A's window z.
 [[nodiscard]] bool depth_rows_suit(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
 
 // Every fragment of `triangles` (see TileRasterizer::draw) whose code is LESS than the stored one replaces it, in
@@ -34,7 +34,7 @@ inline constexpr std::size_t row_walk_lanes = 4;
 DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
 
-// The two implementations: DepthPath::float32, and DepthPath::window_z by the chip's rule.
+// The two implementations: DepthPath::float32, and DepthPath::window_z by NV2A's rule.
 DepthDrawn draw_float_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
 DepthDrawn draw_window_z_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,

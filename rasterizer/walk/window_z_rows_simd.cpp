@@ -1,4 +1,4 @@
-// rasterizer/walk/window_z_rows_simd.cpp - draw_window_z_rows of rows.h, where the chip interpolates window z, compiled
+// rasterizer/walk/window_z_rows_simd.cpp - draw_window_z_rows of rows.h, where NV2A interpolates window z, compiled
 // once per instruction set.
 //
 // Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops fragments outside the depth range, for
