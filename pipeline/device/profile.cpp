@@ -11,8 +11,8 @@ namespace {
 
 using namespace rasterizer;
 
-// The chip whose captures support most rules. Fields that are not set here have the defaults of RasterRules
-// (rasterizer/rules/rules.h).
+// Most rules are supported by captures of NV2A, a chip of this class. Fields that are not set here have the defaults of
+// RasterRules (rasterizer/rules/rules.h).
 DeviceProfile geforce3() {
     DeviceProfile p;
     p.name = "geforce3";

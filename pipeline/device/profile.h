@@ -63,7 +63,7 @@ struct DeviceProfile {
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;
-    // 4 bits of exponent and 12 of mantissa, as stored by the chip (depth.md 1.2).
+    // 4 bits of exponent and 12 of mantissa, as stored by NV2A (depth.md 1.2).
     bool has_d16f = false;
     // 8 bits of exponent and 16 of mantissa (depth.md 1.3).
     bool has_d24f = false;

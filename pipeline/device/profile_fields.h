@@ -40,7 +40,7 @@ struct FieldConflict {
     std::string expected, found;
 };
 // The first conflict between a profile's values, if there is one (devices.md 3.1): spans in binary32 may cover centres
-// that exact edges exclude, where the edge values from which the chip's weights are computed are negative.
+// that exact edges exclude, where the edge values from which NV2A's weights are computed are negative.
 [[nodiscard]] std::optional<FieldConflict> conflict_of(const DeviceProfile& profile);
 
 }  // namespace strata::pipeline

@@ -17,8 +17,7 @@ enum class Fault : std::uint8_t {
     merged_ties,  // equal depths in one layer: colours mixed or fragments lost
     depth_quantized,      // a program had to quantize its z like the buffer before comparing
     non_finite_vertices,  // triangles dropped for NaN or infinite coordinates
-    count_limit,          // a count in the stencil buffer reached the limit of its pass: more iterations, image
-                          // unaffected
+    count_limit,          // a stencil count reached the limit of its pass: more iterations, same image
     equal_at_bound,       // fragments of equal depth at the bound of a peel
     buffer_overflow,      // more fragments at a pixel than its k entries can store or sort
     as_published,         // a listing as printed lost, repeated or misplaced fragments

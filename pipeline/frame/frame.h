@@ -43,8 +43,7 @@ struct Frame {
     Effects effects = Effects::needed;
     bool alike_where_blank =
         false;  // a promise: where nothing is drawn, the body's result depends on a tile's size but not on its position
-    bool needs_frame = false;             // texture lookups may reach any pixel: literal, whatever execution was
-                                          // requested
+    bool needs_frame = false;             // texture lookups may reach any pixel: always runs literally
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;

@@ -68,8 +68,7 @@ struct PassLog {
 };
 
 struct RegionStatistics {
-    Answers script;  // the frame's answers that are known already; further ones are guessed from the region's own
-                     // counts
+    Answers script;  // the frame's known answers; further ones are guessed from the region's counts
     std::vector<LoopStatistics> loops = std::vector<LoopStatistics>(1);  // one, unless the body begins further ones
     // The frame's geometry passes before each loop, if a limit counts them; otherwise those of the region.
     std::vector<int> passes_before;

@@ -21,13 +21,11 @@ namespace strata::pipeline {
 // The fragments of its interval that decide the result of a pass at a pixel.
 enum class Keeps : std::uint8_t {
     everything,  // no selection: every fragment is visited
-    nearest,   // the first submitted of those with the least key: for a depth test LESS with a write, without blending
-               // and stencil
-    interval,  // all of the interval, in submission order, for any tests
-    ends,      // those with the first and the last key including ties, and the nearest and farthest between: for MAX of
-               // (-z, z)
-    submitted  // from index `first_submitted` of the interval on, in submission order, one per sample: for a stencil
-               // test that all fragments of the interval count down and that no others reach
+    nearest,     // the first submitted with the least key: for a depth test LESS with a write, no blending, no stencil
+    interval,    // all of the interval, in submission order, for any tests
+    ends,        // the first and last key with ties, and the nearest and farthest between: for MAX of (-z, z)
+    submitted    // from index `first_submitted` of the interval on, in submission order, one per sample: for a stencil
+                 // test that all fragments of the interval count down and that no others reach
 };
 
 // The effect of a fragment outside the interval.

@@ -74,7 +74,7 @@ enum class CombinerSum : std::uint8_t {
     add,
     // C D if alpha of spare0 is at least 128/255, else A B.
     mux,
-    // C D if bit 0 of that alpha is set, else A B: a mode of the chip that OpenGL does not have.
+    // C D if bit 0 of that alpha is set, else A B: a mode of NV2A that OpenGL does not have.
     mux_low_bit
 };
 // The factor after the bias; by_half rounds a half up (combiners.md 2.2).
@@ -104,7 +104,7 @@ struct CombinerStage {
 struct FinalCombiner {
     CombinerInput a{}, b{}, c{}, d{}, e{}, f{}, g{};  // unsigned mappings only
     bool clamps_color_sum = false;
-    // If set, the operand of the colour sum is 1 - x; flags of the chip that OpenGL does not have.
+    // If set, the operand of the colour sum is 1 - x; flags of NV2A that OpenGL does not have.
     bool inverts_spare0 = false, inverts_secondary_color = false;
     std::array<Rgba, 2> constant{};
     friend bool operator==(const FinalCombiner&, const FinalCombiner&) = default;

@@ -16,7 +16,7 @@
 
 namespace strata::pipeline {
 
-// The chip's half is 128, not 127.5 (chip-fragment.md 9).
+// NV2A's half is 128, not 127.5 (chip-fragment.md 9).
 inline constexpr std::int32_t combiner_one = 255, combiner_half = 128;
 
 // A mapping of an input: scale clamp(e, least, greatest) + offset.

@@ -96,7 +96,7 @@ void projective_lookup(const StageRun& run) {
     look_up(run, s, t);
 }
 
-// Converts [0, 1] to 8 bits like the chip: 12 bits, times 255/256 by a shift, everything truncated. 1 becomes 255.
+// Converts [0, 1] to 8 bits like NV2A: 12 bits, times 255/256 by a shift, everything truncated. 1 becomes 255.
 [[nodiscard]] constexpr std::uint8_t pass_through_code(float x) noexcept {
     // x has 24 bits and 4096 is a power of two, so only the truncation is inexact.
     const auto fixed = static_cast<std::uint32_t>(x * 4096.0f);

@@ -3,7 +3,7 @@
 //
 // Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q
 //          clamped to [0,1]; if the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own
-//          fit, equal at all 65,536 pixels of the chip's capture Passthru; floor(255 x) differs at 9,656].
+//          fit, equal at all 65,536 pixels of NV2A's capture Passthru; floor(255 x) differs at 9,656].
 //          CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input,
 //          not divided by q; _TEXTURE_2D, _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot);
 //          _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one division, floored or rounded
@@ -50,7 +50,7 @@ enum class CullMode : std::uint8_t {
 enum class DotMapping : std::uint8_t { unsigned_identity, expand_normal };
 
 // The reference R of a depth comparison. GL drivers select the three-dimensional projective stage, which compares r /
-// q; the chip's two-dimensional stage compares 0 (texture-shader.md 2).
+// q; NV2A's two-dimensional stage compares 0 (texture-shader.md 2).
 enum class CompareReference : std::uint8_t { r_over_q, zero };
 
 // Two 16-bit components per texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Only

@@ -1,4 +1,4 @@
-// pipeline/region/fragment_path.cpp - the chip's two units as one fragment program: the texture shader outputs four
+// pipeline/region/fragment_path.cpp - GeForce3's two units as one fragment program: the texture shader outputs four
 // colours, may kill fragments and may replace their depth; the combiners compute the fragment's colour from its
 // outputs.
 #include "pipeline/region/fragment_path.h"

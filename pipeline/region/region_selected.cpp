@@ -202,7 +202,7 @@ void Source::finish_submitted(const PassState& state) {
 }
 
 // Computes the window positions of a batch's pixels from their indices. A tile has at most 2^14 pixels in rows of up to
-// 2^7, so the reciprocal's error, below 2^-21 per pixel, is less than one part of a row.
+// 2^7, so the reciprocal's error, below 2^-21 per pixel, adds up to less than one pixel's share of a row.
 void Source::find_positions(FragmentBatch& batch) const {
     const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
                x0 = static_cast<std::uint32_t>(shared_.rect().x0);

@@ -84,7 +84,7 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     return list;
 }
 
-// Stores the codes of a batch that is the same everywhere in every pixel of `target`.
+// Stores the same codes in every pixel of `target`; all lanes of `codes` are equal.
 template <class Target>
 void store_everywhere(Region& region, Target target, std::size_t pixels, const ColorCodes& codes) {
     for (std::size_t first = 0; first < pixels; first += batch_capacity)

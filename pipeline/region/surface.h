@@ -39,8 +39,7 @@ struct DrawState {
     bool range_culls_triangles = false;  // drops triangles if all corners' z are outside the range on the same side
     rasterizer::PolygonOffset polygon_offset{};
     std::optional<rasterizer::DepthPath> depth_path{};  // empty: the profile's
-    const Texture* texture = nullptr;                   // multiplies the vertex colour; rectangle textures take texel
-                                                        // coordinates
+    const Texture* texture = nullptr;                   // multiplies the vertex colour; rectangle: texel units
     // Replaces the texture by texture shader and combiners; the soup's extras provide the units' coordinates. Depth
     // textures are images.
     const FragmentPath* path = nullptr;

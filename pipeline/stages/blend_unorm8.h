@@ -8,8 +8,8 @@
 //          with the values of codes (blend_lanes.h).
 // Source   fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 captures (chip-fragment.md 1).
 // Numbers  Products <= 65025, sums within +-130050. The kernels store these integers as binary32 values, which
-//          represent all of them and every operation on them exactly: vector units multiply floats faster than 32-bit
-//          integers.
+//          represent all of them and every operation on them exactly: vector units multiply four floats at once, but
+//          not four 32-bit integers.
 // Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 hardware
 //          captures
 #pragma once

@@ -79,8 +79,7 @@ class TargetStorage {
     std::size_t pixels_;
     Texels layout_;  // without the address
     mutable TargetWords words_;
-    mutable bool has_words_ = false;  // false: the contents are zeros that have not been read yet, because most targets
-                                      // are cleared first
+    mutable bool has_words_ = false;  // false: zeros that have not been written, because most targets are cleared first
 };
 
 // The codes that a colour target of this format stores for a colour, per channel; 0 for depth and stencil.
