@@ -10,8 +10,8 @@ namespace strata::rasterizer {
 
 // A vertex in window space, shared by all triangles that use it.
 struct WindowCorner {
-    // Snapped, y down, and moved where a sample is not the centre (window.h): coverage, area and facing start from it,
-    // and planes unless PlaneOrigin::unsnapped says otherwise.
+    // Snapped, y down, and moved if a sample is not at the centre (window.h): used for coverage, area and facing, and
+    // for planes unless PlaneOrigin::unsnapped.
     SubpixelPoint p;
     // The position before snapping, in pixels.
     std::array<float, 2> unsnapped{};

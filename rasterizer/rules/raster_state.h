@@ -49,11 +49,11 @@ struct ClipPlane {
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
-// A point of a pixel in sixteenths of it, from its left side and, in memory's rows, from its upper one: 0 to 15, and 8
-// is the middle.
+// A point within a pixel in units of 1/16 pixel, from its left side and, in memory rows, from its upper side: 0 to 15;
+// 8 is the middle.
 struct SamplePoint {
     int x = 8, y = 8;
-    // From the pixel's centre, in pixels.
+    // Offset from the pixel's centre, in pixels.
     [[nodiscard]] constexpr float right() const noexcept { return static_cast<float>(x - 8) * 0.0625f; }
     [[nodiscard]] constexpr float down() const noexcept { return static_cast<float>(y - 8) * 0.0625f; }
     friend bool operator==(const SamplePoint&, const SamplePoint&) = default;
@@ -68,10 +68,10 @@ struct RasterState {
     DepthOrder depth_order = DepthOrder::less;
     YDirection y_direction = YDirection::up;
     std::optional<Rect> scissor;
-    // The point of every pixel at which coverage, depth, colours and coordinates are taken: a sample of several. None:
-    // one sample a pixel, at its centre (coverage.md 12).
+    // The point of every pixel at which coverage, depth, colours and coordinates are evaluated, for one sample of
+    // several. Empty: one sample per pixel, at its centre (coverage.md 12).
     std::optional<SamplePoint> sample;
-    // ARB_depth_clamp: nothing is clipped at near and far; depth is clamped just before the test.
+    // ARB_depth_clamp: no clipping at near and far; depth is clamped just before the test.
     bool depth_clamp = false;
     // NV2A's NEARFAR: drops a triangle if all three z are in front of the depth range or all behind it, also with depth
     // clamp.

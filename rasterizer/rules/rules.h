@@ -50,10 +50,10 @@ enum class AreaSign : std::uint8_t { exact, single };
 // A perspective attribute is its plane divided by that of 1 / w, or multiplied by the reciprocal of that (attributes.md
 // 1.8).
 enum class PerspectiveDivide : std::uint8_t { quotient, reciprocal };
-// What a perspective attribute at a sample is divided by: 1 / w there, or at its pixel's centre; of planes of
-// reciprocal_area from unsnapped corners alone (attributes.md 1.10).
+// The divisor of a perspective attribute at a sample: 1 / w there, or at its pixel's centre. Only for reciprocal_area
+// planes from unsnapped corners (attributes.md 1.10).
 enum class SampleDivisor : std::uint8_t { sample, centre };
-// A colour that is the same at all corners: interpolated like any other, or kept to the bit, as a program's uniform is.
+// A colour that is equal at all corners: interpolated like any other, or kept bit for bit, like a program's uniform.
 // Exact planes keep it either way (attributes.md 1.9).
 enum class EqualColors : std::uint8_t { interpolated, kept };
 // Planes of depth and attributes pass through the snapped corners, or through the binary32 positions (depth.md 3.7).

@@ -84,9 +84,9 @@ inline constexpr int tiny_size = 4;
 // A TriangleRecord with the values of its corners gathered from the arrays of Geometry.
 struct SetupTriangle {
     std::array<SubpixelPoint, 3> p;
-    std::array<std::array<float, 2>, 3> unsnapped;  // moved as p is
-    std::array<double, 3> z;                        // polygon offset added
-    std::array<double, 3> given_z;                  // without it
+    std::array<std::array<float, 2>, 3> unsnapped;  // moved like p
+    std::array<double, 3> z;                        // including polygon offset
+    std::array<double, 3> given_z;                  // without polygon offset
     std::array<float, 3> w;                         // as given, in clip units
     std::array<float, 3> inverse_w;
     std::array<std::array<float, attribute_count>, 3> attribute;  // as given, before the product with 1 / w

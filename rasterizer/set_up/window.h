@@ -101,7 +101,8 @@ class WindowTransform {
         return {within_guard(map(x_, divided(v.x), fuses)), within_guard(map(y_, divided(v.y), fuses)),
                 map(z_, divided(v.z), fuses), inverse_w};
     }
-    // Moved against the sample's way from the centre, so that the centre stands for the sample (coverage.md 12.1).
+    // The snapped position minus the sample's offset from the centre, so that evaluation at the centre gives the value
+    // at the sample (coverage.md 12.1).
     [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
         const std::int32_t x = snap(v.x, rules_.subpixel_bits, rules_.snap) + half_;
         const std::int32_t y = snap(v.y, rules_.subpixel_bits, rules_.snap) + half_;
@@ -111,7 +112,7 @@ class WindowTransform {
         return {p.x - sample_.x, p.y - sample_.y};
     }
     [[nodiscard]] constexpr bool is_moved() const noexcept { return sample_.x != 0 || sample_.y != 0; }
-    // The window position as memory has it, in pixels.
+    // The window position in memory orientation, in pixels.
     [[nodiscard]] constexpr std::array<float, 2> position(const WindowVertex& v) const noexcept {
         if (half_ == 0 && !is_turned_) return {v.x, v.y};
         const float less = half_ != 0 ? 0.5f : 0.0f, y = v.y + less;
@@ -185,9 +186,9 @@ class WindowTransform {
     RasterRules rules_;
     float guard_;
     bool is_done_, is_turned_ = false;
-    int rows_ = 0;            // of the viewport's lower side
-    std::int32_t half_ = 0;   // subpixels that the offsets lack
-    SubpixelPoint sample_{};  // the sample as its centre sees it, in subpixels
+    int rows_ = 0;            // the row of the viewport's lower side
+    std::int32_t half_ = 0;   // subpixels to add back to snapped positions
+    SubpixelPoint sample_{};  // offset of the sample from the pixel's centre, in subpixels
     Axis x_{}, y_{}, z_{};
 };
 

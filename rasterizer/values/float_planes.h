@@ -39,12 +39,13 @@ struct Flushed {
     friend constexpr Flushed operator-(Flushed a) noexcept { return Flushed{-a.v}; }
 };
 
-// The value at the centre of pixel (0, 0), and its change to the next pixel right and down.
+// The value at the centre of pixel (0, 0), with a sample at its corner, and its change to the next pixel right and
+// down.
 struct FloatPlane {
     float origin = 0.0f, dx = 0.0f, dy = 0.0f;
     // For greatest_w: the position of the origin, and how row y of memory is counted: row_base + row_step y.
     float x0 = 0.0f, y0 = 0.0f, row_base = 0.0f, row_step = 1.0f;
-    // What the numbers of pixels are raised by: where the sample lies, from where the origin is (coverage.md 12.2).
+    // Added to pixel coordinates: the position of the sample relative to the origin (coverage.md 12.2).
     float right = 0.0f, down = 0.0f;
 
     [[nodiscard]] constexpr float at(PlaneRule rule, int x, int y) const noexcept {
@@ -78,7 +79,8 @@ struct FloatPlane {
 // Common to all planes of one triangle: the order of its corners, and differences of their positions.
 class FloatPlanes {
   public:
-    // With a sample the planes' origin is the corner of pixel (0, 0), and their points are those of the samples.
+    // With a sample the origin of the planes is the corner of pixel (0, 0), and they are evaluated at the sample
+    // positions.
     constexpr FloatPlanes(PlaneRule rule, const std::array<WindowPosition, 3>& p, bool is_clockwise,
                           const std::optional<SamplePoint>& sample = {}) noexcept
         : rule_{rule} {
@@ -95,7 +97,7 @@ class FloatPlanes {
 
     [[nodiscard]] constexpr bool is_sampled() const noexcept { return is_sampled_; }
 
-    // The plane through the values of corners 0, 1 and 2 as they were submitted.
+    // The plane through the values of corners 0, 1 and 2 in submission order.
     [[nodiscard]] constexpr FloatPlane plane(const std::array<float, 3>& value) const noexcept {
         const float a0 = value[order_[0]], a1 = value[order_[1]], a2 = value[order_[2]];
         FloatPlane plane;
@@ -147,11 +149,11 @@ class FloatPlanes {
 
     PlaneRule rule_;
     std::array<std::size_t, 3> order_{0, 1, 2};
-    // The first corner, less half a pixel if there is no sample.
+    // The first corner, minus half a pixel if there is no sample.
     float x_ = 0.0f, y_ = 0.0f;
-    float right_ = 0.0f, down_ = 0.0f;  // of the sample from its pixel's corner
+    float right_ = 0.0f, down_ = 0.0f;  // position of the sample relative to its pixel's corner
     bool is_sampled_ = false;
-    // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal; least_corner: from corner 0 to
+    // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal. least_corner: from corner 0 to
     // corners 1 and 2.
     Difference first_{}, second_{};
     float reciprocal_ = 0.0f;
@@ -167,7 +169,8 @@ class FloatPlanes {
     const auto& sample = geometry.state.sample;
     if (rules.plane_origin == PlaneOrigin::unsnapped && rules.plane_rule != PlaneRule::least_corner)
         return {rules.plane_rule, position, is_clockwise, sample};
-    // Positions that have moved themselves: snapped ones, and those of planes that step from pixel to pixel.
+    // Otherwise the positions are moved by the sample: snapped ones already are, those of planes stepped from pixel to
+    // pixel are moved here.
     for (std::size_t i = 0; i < 3; ++i)
         if (rules.plane_origin == PlaneOrigin::snapped)
             position[i] = {static_cast<float>(p[i].x) * pixel, static_cast<float>(p[i].y) * pixel};

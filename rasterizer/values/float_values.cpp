@@ -87,7 +87,7 @@ void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int fi
     fill_attribute_planes(planes, w, under, triangle.record.vertex, triangle, first, batch);
 }
 
-// Values are multiplied by `w` first; `under` is its plane.
+// Values are first multiplied by `w`; `under` is the plane of `w`.
 template <class Planes>
 void FragmentValues::fill_attribute_planes(const Planes& planes, const std::array<float, 3>& w, const FloatPlane& under,
                                            const std::array<std::uint32_t, 3>& vertex, const DrawnTriangle& triangle,

@@ -149,7 +149,7 @@ bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t*
 using Wide = hn::CappedTag<float, 16>;
 using WideVec = hn::Vec<Wide>;
 
-// Numbers  below 2^-126 become zeros of the same sign.
+// Numbers below 2^-126 become zeros of the same sign.
 HWY_INLINE WideVec flushed(WideVec v) {
     const Wide d;
     return hn::IfThenElse(hn::Lt(hn::Abs(v), hn::Set(d, 0x1p-126f)), hn::And(v, hn::SignBit(d)), v);
@@ -190,7 +190,7 @@ struct WidePlane {
     }
 
   private:
-    // The sample's way from column or row 0: exact.
+    // Pixel coordinate plus the sample's offset: exact.
     HWY_INLINE static WideVec across(hn::Vec<hn::RebindToSigned<Wide>> pixel, WideVec sample) {
         return hn::Add(hn::ConvertTo(Wide{}, pixel), sample);
     }

@@ -143,9 +143,9 @@ class OrderedPlanes {
     std::array<SubpixelPoint, 3> p_{};
     std::array<std::size_t, 3> order_{2, 0, 1};
     float row_base_ = 0.0f, row_step_ = 1.0f;
-    float right_ = 0.0f, down_ = 0.0f;  // of the sample from its pixel's centre
+    float right_ = 0.0f, down_ = 0.0f;  // position of the sample relative to its pixel's centre
     Flushed scale_, least_;             // of the depth range
-    bool is_done_ = false;              // positions and depths are those of the window
+    bool is_done_ = false;              // positions and depths are already in window coordinates
 };
 
 // The planes of triangle `index`.
