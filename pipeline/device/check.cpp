@@ -200,7 +200,7 @@ Verdict check_samples(const DeviceProfile& profile, int samples) {
 }
 
 Verdict check_multisampling(const DeviceProfile& profile, int samples) {
-    // Spans in binary32 have no exact place to move to.
+    // Not for float spans, whose binary32 positions cannot be moved exactly.
     const auto has = [samples](const DeviceProfile& p) {
         return samples >= p.min_samples && samples <= p.max_samples &&
                p.raster.coverage == rasterizer::CoverageRule::snapped_edges;

@@ -89,8 +89,8 @@ using Verdict = std::optional<Refusal>;
 [[nodiscard]] Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value);
 // Limits (devices.md 7): the larger side of the viewport, samples per pixel, texture units of a pass.
 [[nodiscard]] Verdict check_size(const DeviceProfile& profile, int width_px, int height_px);
-// Targets whose samples a pass fills itself, and pictures whose samples have positions: of 2, 4 or 8 a device may have
-// some alone.
+// check_samples: targets whose samples a pass fills itself. check_multisampling: images whose samples have positions; a
+// device may support only some of 2, 4 and 8.
 [[nodiscard]] Verdict check_samples(const DeviceProfile& profile, int samples);
 [[nodiscard]] Verdict check_multisampling(const DeviceProfile& profile, int samples);
 [[nodiscard]] Verdict check_texture_units(const DeviceProfile& profile, int units);

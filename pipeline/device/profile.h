@@ -37,12 +37,12 @@ enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, s
 // 3.8); output images have the upper row first.
 enum class Origin : std::uint8_t { upper_left, lower_left };
 
-// Where the samples of a pixel lie: as Direct3D has them; or as NV20's modes are called, a corner and the centre, or a
+// The sample positions within a pixel: as in Direct3D; or as NV20's modes are named, a corner and the centre, or a
 // square (fragment-stages.md 13.1).
 enum class SamplePositions : std::uint8_t { standard, nv20 };
 
-// A device. Everything that differs between devices is a field here, and no code asks for the name (devices.md 1);
-// profile.cpp writes the built-in ones.
+// A device. Everything that differs between devices is a field, and no code depends on the name (devices.md 1);
+// profile.cpp defines the built-in ones.
 struct DeviceProfile {
     // In JSON the name has at most 64 bytes, the description at most 1000 (devices.md 1).
     std::string name;
@@ -95,8 +95,8 @@ struct DeviceProfile {
     bool has_signed_blend = false;
     SamplePositions sample_positions = SamplePositions::standard;
     ResolveRule resolve = ResolveRule::codes_half_up;
-    // Limits (devices.md 7): colour targets of a pass, texture units,
-    // the viewport's larger side in pixels, samples of a pixel; and the fewest that there are beside one.
+    // Limits (devices.md 7): colour targets per pass, texture units, the viewport's larger side in pixels, samples per
+    // pixel, and the smallest supported number of samples above 1.
     int max_render_targets = 1;
     int max_texture_units = 4;
     int max_viewport_px = 4096;

@@ -1,6 +1,7 @@
-// pipeline/device/sample_points.h - where the samples of a pixel lie.
+// pipeline/device/sample_points.h - the sample positions within a pixel.
 //
-// Source   fragment-stages.md 13.1. Tests    tests/pipeline/device/sample_points_test.cpp
+// Source   fragment-stages.md 13.1.
+// Tests    tests/pipeline/device/sample_points_test.cpp
 #pragma once
 #include <array>
 #include <span>
@@ -18,7 +19,7 @@ inline constexpr std::array<Point, 4> four{{{6, 2}, {14, 6}, {2, 10}, {10, 14}}}
 inline constexpr std::array<Point, 8> eight{{{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}}};
 }  // namespace sample_patterns
 
-// By the number of the sample; empty for other numbers than 2, 4 and 8, and for 8 of NV20.
+// The positions in order of the sample index; empty if `samples` is not 2, 4 or 8, and for 8 samples of NV20.
 [[nodiscard]] constexpr std::span<const rasterizer::SamplePoint> sample_points(SamplePositions positions,
                                                                                int samples) noexcept {
     using namespace sample_patterns;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t codes_at_once = 1024;
 
-// Calls visit(first, count) for all of `size` codes.
+// Calls visit(first, count) for consecutive blocks of `size` codes.
 template <class Visit>
 void for_blocks_of_codes(std::size_t size, const Visit& visit) {
     for (std::size_t first = 0; first < size; first += codes_at_once)

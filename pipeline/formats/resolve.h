@@ -1,11 +1,11 @@
-// pipeline/formats/resolve.h - the samples of every pixel as one: pictures are added sample by sample, and none is
-// kept.
+// pipeline/formats/resolve.h - resolves several samples per pixel to one. Images are added one sample at a time, and
+// none is stored.
 //
 // Rule     ResolveRule::codes_half_up: the mean of 8-bit codes, rounded half up, stored as the format stores codes.
-// single, and float
-//          formats by either rule: the sum in binary32 in the order of the samples, times 1/n, stored as a program's
-//          colour is. Depth: the nearest of the samples.
-// Source   fragment-stages.md 13.3. Tests    tests/pipeline/formats/resolve_test.cpp
+//          ResolveRule::single, and float formats with either rule: the sum in binary32 in sample order, times 1/n,
+//          stored like a program's colour. Depth: the nearest of the samples.
+// Source   fragment-stages.md 13.3.
+// Tests    tests/pipeline/formats/resolve_test.cpp
 #pragma once
 #include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/image.h"
@@ -14,11 +14,12 @@ namespace strata::pipeline {
 
 class ColorResolve {
   public:
-    // `samples` is the number of pictures to come: 1, 2, 4 or 8.
+    // `samples` is the number of images that will be added: 1, 2, 4 or 8.
     ColorResolve(int samples, ResolveRule rule, ColorRounding rounding) noexcept
         : samples_{samples}, rule_{rule}, rounding_{rounding} {}
 
-    // All of one format and size. What a sample does not have, it has as codes of 0: it is not added.
+    // All images must have the same format and size. A part that a sample does not cover has codes of 0 and adds
+    // nothing.
     void add(const Image& sample);
     [[nodiscard]] Image picture() &&;
 
@@ -30,11 +31,11 @@ class ColorResolve {
     int samples_;
     ResolveRule rule_;
     ColorRounding rounding_;
-    Image sum_;  // of codes, or the bits of binary32
+    Image sum_;  // sums of codes, or bits of binary32 sums
 };
 
-// Keeps the nearer of two depths at every pixel; an empty `nearest` becomes `sample`. Greater codes are nearer under
-// reversed depth.
+// Keeps the nearer of two depths at every pixel; an empty `nearest` becomes `sample`. Under reversed depth greater
+// codes are nearer.
 void add_nearest(const Image& sample, bool greater_is_nearer, Image& nearest);
 
 }  // namespace strata::pipeline
