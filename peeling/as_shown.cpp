@@ -18,7 +18,7 @@ void turn_keys(Image& image) {
     for (std::uint32_t& code : image.codes) code = rasterizer::depth_key(code);
 }
 
-// The first row changes places with the last one, and so on.
+// Swaps the first row with the last, and so on.
 template <class Values>
 void exchange_rows(Values& values, int height) {
     if (height <= 0) return;

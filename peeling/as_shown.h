@@ -1,9 +1,9 @@
-// peeling/as_shown.h - from what a device holds in memory to what a caller sees: depths for keys, and the upper row
-// first.
+// peeling/as_shown.h - converts results from the device's memory layout to what a caller sees: depths instead of keys,
+// top row first.
 //
-// Rule     Under reversed depth memory holds keys (rasterizer/rules/depth_key.h): depth targets leave as depths. With
-//          the origin lower_left memory begins at the lowest row: images, and pixels that are named, leave with y
-//          counted from the top. Of several pixels the first is the first in memory.
+// Rule     Under reversed depth memory holds keys (rasterizer/rules/depth_key.h); depth targets are returned as depths.
+//          With the origin lower_left memory begins at the lowest row; images and pixel coordinates are returned with y
+//          counted from the top. The first of several pixels is the first in memory.
 // Tests    tests/peeling/origin_test.cpp, reversed_depth_test.cpp
 #pragma once
 #include <cstdint>
@@ -33,10 +33,10 @@ class AsShown {
     void turn(AuditResult& result) const noexcept;
     void turn(FrameFragments& fragments) const;
     void turn(std::vector<RegionTrace>& traces) const;
-    // Numbers of a whole frame, row by row.
+    // Values of a whole frame, row by row.
     void turn_rows(std::vector<double>& numbers) const;
 
-    // Row y of the picture in memory, or the other way round; and a pixel's number in the frame.
+    // Converts row y between the picture and memory, in either direction; likewise a pixel's index in the frame.
     [[nodiscard]] int row(int y) const noexcept { return turns_rows_ ? height_ - 1 - y : y; }
     [[nodiscard]] std::uint32_t pixel(std::uint32_t pixel) const noexcept {
         const auto width = static_cast<std::uint32_t>(width_);

@@ -1,5 +1,5 @@
-// peeling/check_options.h - what a frame asks for, looked at before anything is prepared: nonsense throws, what the
-// device lacks is refused by name.
+// peeling/check_options.h - checks a frame's options before anything is prepared: invalid values throw, features that
+// the device lacks give a Verdict that names them.
 //
 // Tests    tests/peeling/refusals_test.cpp
 #pragma once
@@ -9,14 +9,14 @@
 
 namespace strata::peeling {
 
-// InputError that names the field, for what no device could mean.
+// Throws InputError, which names the field, for values that are invalid on every device.
 void check_options(const RenderOptions& options);
 
-// window_z and w_buffer are the chip's rules, for vertex depths in buffer units.
+// window_z and w_buffer follow the rules of the NV2A chip and need vertex depths in buffer units.
 [[nodiscard]] pipeline::Verdict check_depth(const pipeline::DeviceProfile& profile,
                                             const rasterizer::DepthRequest& depth);
 
-// A w buffer holds w, every other path a depth of another scale.
+// True if a w buffer, which stores w, is compared with another path's depth, which has another scale, or the reverse.
 [[nodiscard]] bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept;
 
 }  // namespace strata::peeling

@@ -18,8 +18,8 @@ namespace {
 
 using rasterizer::DepthPath;
 
-// The scene and the device of an experiment; every capture makes a renderer of its own, for options differ from
-// capture to capture.
+// The scene and the device of an experiment. Every capture makes its own renderer, because options differ between
+// captures.
 struct Machine {
     const DrawList& list;
     const View& view;
@@ -31,9 +31,8 @@ struct Machine {
     }
 };
 
-// Only what is drawn, by one depth path.
-// The remedies are taken away: the truth, and the distance between the paths, must not depend on the remedy
-// under test.
+// The options without the remedies, with one depth path for all passes: the truth, and the difference between the
+// paths, must not depend on the remedy under test.
 RenderOptions bare(RenderOptions options, DepthPath path) {
     options.depth_path = path;
     options.raster.polygon_offset = {};
@@ -46,11 +45,10 @@ bool draws_twice(const RenderOptions& options) {
     return options.second_list != nullptr || options.second_depth_clamp || options.vertex_paths.second;
 }
 
-// The oracle's picture: what a device can store does not limit it.
+// The image of the oracle, which the device's formats do not limit.
 Image true_picture(const Machine& machine, RenderOptions options) {
     DeviceProfile profile = machine.profile;
-    // Binary32 colours and every fragment of a pixel: neither rounding nor a limit of the device stands between
-    // the fragments and their picture.
+    // Binary32 colours and every fragment of a pixel, so that neither rounding nor a device limit affects the image.
     profile.has_float_targets = true;
     options.color_format = Format::rgba32f;
     options.audit = options.keep_layers = options.nearest_depth = false;
@@ -58,7 +56,7 @@ Image true_picture(const Machine& machine, RenderOptions options) {
     return renderer.render(*find_algorithm("a_buffer")).frame.color;
 }
 
-// The fragments of the first pass and of further ones. Their codes are in the algorithm's key.
+// The fragments of the first pass and of later ones. Their codes are in the algorithm's key.
 struct Passes {
     const Machine& machine;
     const Experiment& e;
@@ -66,7 +64,7 @@ struct Passes {
     [[nodiscard]] FrameFragments first(const RenderOptions& options, const Algorithm& algorithm) const {
         return keyed(machine.fragments(options, algorithm), algorithm.key);
     }
-    // The fragments that further passes draw, as a frame without another first pass has them.
+    // The fragments that later passes draw, captured in a frame whose first pass draws them.
     [[nodiscard]] FrameFragments further(RenderOptions options, const Algorithm& algorithm) const {
         const DrawList& list = options.second_list != nullptr ? *options.second_list : machine.list;
         if (options.vertex_paths.second) options.vertex_paths.first = options.vertex_paths.second;
@@ -79,8 +77,8 @@ struct Passes {
     }
 
   private:
-    // An algorithm that peels by the float of the shader names its layers by that float's ordered bits;
-    // captures bring the stored code.
+    // An algorithm that peels by the shader's float depth names its layers by the ordered bits of that float, but
+    // captures contain the stored code.
     [[nodiscard]] static FrameFragments keyed(FrameFragments fragments, DepthKey key) {
         if (key == DepthKey::stored_code) return fragments;
         for (CapturedFragment& f : fragments.all) f.code = ordered_code(f.shader_z);
@@ -91,9 +89,9 @@ struct Passes {
 
 const Algorithm& unsorted_algorithm() {
     return *find_algorithm("unsorted");
-}  // by the stored code; every profile runs it
+}  // keyed by the stored code; every profile runs it
 
-// `truth` says which layer a fragment is, `drawn` what the peel's trace calls it.
+// `truth` gives each fragment's layer, `drawn` its key in the peel's trace.
 void add_layer_fragments(std::vector<LayerFragment>& all, const FrameFragments& truth, const FrameFragments& drawn,
                          Match match) {
     for (const PathPair& pair : pair_up(truth.all, drawn.all, match).pairs)
@@ -101,7 +99,8 @@ void add_layer_fragments(std::vector<LayerFragment>& all, const FrameFragments& 
             all.push_back({pair.pixel, pair.primitive, pair.stored, pair.reference});
 }
 
-// The layers, each fragment with the depth that the peel gives it; two of them where further passes draw another one.
+// The layers; each fragment with the depth that the peel gives it, or with two where later passes draw it at another
+// depth.
 std::vector<LayerFragment> layer_fragments(const Passes& passes) {
     const Experiment& e = passes.e;
     const FrameFragments truth = passes.first(bare(e.render, e.write), *e.algorithm);
@@ -117,21 +116,20 @@ std::vector<LayerFragment> layer_fragments(const Passes& passes) {
     return all;
 }
 
-// The default limit is twice a right peel's passes, one a layer and one that finds nothing: enough to see a
-// layer come again.
+// The default limit is twice the passes of a correct peel (one per layer and one that finds nothing), enough to see a
+// layer repeated.
 RenderOptions peel_options(const Experiment& e, int layers) {
     RenderOptions options = e.render;
     options.depth_path = e.write;
     options.reference_path = e.compare;
     options.max_passes = e.max_passes > 0 ? e.max_passes : 2 * (layers + 1);
     options.execution = Execution::replay;
-    options.fragment_memory = 0;  // every pass is rasterized, so that seconds are the passes'
+    options.fragment_memory = 0;  // every pass is rasterized, so that the measured time covers all passes
     options.audit = options.keep_layers = options.nearest_depth = false;
     return options;
 }
 
-// The trace is kept whole, as are all fragments: this is a laboratory's use of memory, for frames of
-// modest size.
+// The trace and all fragments are kept in memory, so frames should be of modest size.
 void run_peel(Measurement& m, const Passes& passes) {
     const Experiment& e = passes.e;
     const std::vector<LayerFragment> fragments = layer_fragments(passes);
@@ -148,12 +146,12 @@ void run_peel(Measurement& m, const Passes& passes) {
     m.picture = std::move(result.frame.color);
 }
 
-// The paths that divide in the fragment program and replace the depth: polygon offset does not reach what they
-// compare.
+// The paths that divide in the fragment program and replace the depth: polygon offset does not affect their compared
+// depth.
 bool is_quotient(DepthPath path) { return path == DepthPath::perspective_rq || path == DepthPath::depth_replace; }
 
-// The proof in safe_range.h is for two depths of the same fragments and a quantised reference; elsewhere no
-// advice is better than a wrong one.
+// The proof in safe_range.h requires two depths of the same fragments and a quantised reference. Otherwise no advice is
+// given.
 Advice advice_for(const Experiment& e, rasterizer::OffsetUnit unit, const std::vector<PathPair>& pairs,
                   const std::vector<std::uint32_t>& opaque) {
     Advice advice;
@@ -176,13 +174,13 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
     Measurement m;
     try {
         const FrameFragments written = passes.first(bare(e.render, e.write), unsorted_algorithm());
-        DeviceProfile writes_anything = profile;  // whatever depth is compared, here it is stored to be looked at
+        DeviceProfile writes_anything = profile;  // the depths of both paths are stored so that they can be captured
         writes_anything.has_fragment_programs = true;
         const Machine meter{list, view, writes_anything};
         const FrameFragments compared = Passes{meter, e}.further(bare(e.render, e.compare), unsorted_algorithm());
         const PairedFragments pairs = pair_up(written.all, compared.all, e.match);
         m.paths = compare(pairs);
-        // Passes into different viewports share no depth buffer: their codes are compared, and no peel is run.
+        // Passes with different viewports share no depth buffer: their codes are compared, and no peel is run.
         m.peeled = e.moved_window == std::array{0, 0};
         if (!m.peeled) return m;
         m.advice = advice_for(e, profile.raster.offset_unit, pairs.pairs, written.opaque);
@@ -190,7 +188,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         m.truth = true_picture(machine, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);
     } catch (const Refused& refused) {
-        // Figures measured before the refusal are dropped, so that half an experiment is never shown.
+        // Values measured before the refusal are dropped, so that no incomplete experiment is reported.
         m = {};
         m.refusal = refused.refusal;
     }

@@ -17,21 +17,22 @@ using namespace pipeline;
 
 namespace {
 
-constexpr int side_px = 64;  // of the rehearsal: a tile's default
-constexpr int block_px = 8;  // of the parts of it whose density is told
+constexpr int side_px = 64;  // of the rehearsal frame: the default tile size
+constexpr int block_px = 8;  // of the blocks whose density is measured
 constexpr std::uint64_t word_bytes = 4;
-// A transformed vertex with what set-up takes of it, a triangle set up, and its place in the bins of a few tiles.
+// vertex_bytes: a transformed vertex with its share of set-up. triangle_bytes: a set-up triangle, and its entries in
+// the bins of a few tiles.
 constexpr std::uint64_t vertex_bytes = 32, triangle_bytes = 64;
-// A recorded fragment with its depth, its colour and its sorted words; one in a pixel's list; and what the audit holds
-// of one: its step of the trace, and itself in a list.
+// captured_bytes: a recorded fragment with its depth, its colour and its sorted words. listed_bytes: a fragment in a
+// pixel's list. audited_bytes: a fragment's trace entry and its list entry in the audit.
 constexpr std::uint64_t captured_bytes = 80, listed_bytes = 32, audited_bytes = 64;
 
-// Fragments a pixel: of the region, and of its densest block.
+// Fragments per pixel: the mean of the region, and the mean of its densest block.
 struct Density {
     double mean = 0, most = 0;
 };
 
-// Of the rehearsal's pixels; its tile may run in parts, and a part more than once.
+// Coverage of the rehearsal frame's pixels; its tile may run in parts, and a part more than once.
 class Coverage {
   public:
     void put(Region& region) {
@@ -61,13 +62,14 @@ class Coverage {
 
 struct Rehearsal {
     bool is_refused = false, is_tiled = false, is_replayed = false;
-    std::uint64_t target_words = 0;  // a pixel
+    std::uint64_t target_words = 0;  // per pixel
     std::uint64_t layers = 0;
     Density density;
     int channels = 4;
 };
 
-// The same frame as small as a tile. Its own execution, for a whole frame's targets are others than a tile's.
+// Renders the frame at the size of one tile. Whether it is tiled follows from the full frame's execution, because a
+// whole frame needs other targets than a tile.
 Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options,
                    const Algorithm& algorithm) {
     Rehearsal found;
@@ -98,10 +100,10 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     return found;
 }
 
-// What fragments take where `pixels` are looked at together, and no more than `limit`.
+// The memory of the fragments of `pixels` pixels that are processed together, at most `limit`.
 std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::uint64_t bytes_each,
                              std::uint64_t limit) {
-    // A tile may be the densest; a frame is as the view is.
+    // A tile may be the densest part of the view; a whole frame has the mean density.
     const double density = found.is_tiled ? found.density.most : found.density.mean;
     const double bytes = density * static_cast<double>(pixels) * static_cast<double>(bytes_each);
     return bytes < static_cast<double>(limit) ? static_cast<std::uint64_t>(bytes) : limit;
@@ -126,7 +128,7 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
                                                  (pixels + region - 1) / region)
                        : 1;
     need.targets = at_once * region * word_bytes * (found.target_words + (options.nearest_depth ? 1 : 0));
-    // A region's own, and those of the frame that are put together from them.
+    // The layers of the regions, and those of the frame that are assembled from them.
     need.layers = 2 * found.layers * pixels * word_bytes * (channels + 1);
 
     const std::uint64_t list_limit = std::max(options.fragment_memory, least_audit_memory);

@@ -1,5 +1,5 @@
-// peeling/prepared_lists.cpp - which lists a frame needs, in which order their triangles are submitted, and
-// when they are prepared.
+// peeling/prepared_lists.cpp - decides which lists a frame needs, the submission order of their triangles, and when
+// they are prepared.
 #include "peeling/prepared_lists.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using namespace pipeline;
 
 namespace {
 
-// Whether a path takes r and q of the vertices.
+// True if a path needs r and q of the vertices.
 bool has_quotient(std::optional<rasterizer::DepthPath> path) {
     return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
 }
@@ -27,8 +27,8 @@ bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
 }
 
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
-    // What cannot be prepared is refused now. Transparent lists wait until an algorithm draws them, in its own order
-    // and with what it compares.
+    // Lists that cannot be prepared are rejected now. Transparent lists are prepared when an algorithm draws them, in
+    // its order and with its compared depth.
     check(s_.profile);
     rasterizer::check(s_.raster);
     check(s_.list);
@@ -46,7 +46,7 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
     if (!prepared) {
         PrepareOptions ordered = prepare_options(transparent_selection());
         ordered.order = ordering(order);
-        ordered.is_checked = true;  // at construction
+        ordered.is_checked = true;  // checked at construction
         prepared = prepare(s_.list, s_.view, s_.raster, ordered);
     }
     return *prepared;
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> PreparedLists::submission(ListOrder order) const {
     return in_order ? in_order(transparent_soup()).triangles : std::vector<std::uint32_t>{};
 }
 
-// Binning is apart from preparing: a list that is kept may be binned again for another tile size.
+// Binning is separate from preparation: a list may be binned again for another tile size.
 void PreparedLists::bin(int tile_size_px) {
     const Stopwatch watch{seconds_};
     const auto bin_one = [&](std::optional<PreparedDraw>& list) {
@@ -77,7 +77,7 @@ void PreparedLists::bin(int tile_size_px) {
     bin_one(second_);
 }
 
-// Tile size 0: lists are binned later, when the algorithm and with it the tile size is known.
+// Tile size 0: lists are binned later, when the algorithm, and so the tile size, is known.
 PrepareOptions PreparedLists::prepare_options(Selection selection) const {
     PrepareOptions options{.selection = selection,
                            .alpha_scale = s_.options.alpha.value_or(1.0f),
@@ -100,7 +100,7 @@ PreparedDraw PreparedLists::prepare(const DrawList& list, const View& view, cons
                                     const PrepareOptions& options) {
     const Stopwatch watch{seconds_};
     PreparedDraw prepared = pipeline::prepare(list, view, raster, s_.profile, options);
-    // After set-up: the same triangles, moved by whole pixels.
+    // After set-up: the same triangles, translated by whole pixels.
     const auto& [x, y] = s_.options.window_origin;
     if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
     return prepared;
@@ -108,8 +108,8 @@ PreparedDraw PreparedLists::prepare(const DrawList& list, const View& view, cons
 
 void PreparedLists::prepare_second() {
     const RenderOptions& o = s_.options;
-    // The second list differs from the first in its transform, its clamp or its triangles. Where it differs in
-    // none, further passes draw the first list again.
+    // The second list differs from the first in its transform, its clamp or its triangles. If none differs, later
+    // passes draw the first list again.
     View other = s_.view;
     other.vertex_path = o.vertex_paths.second.value_or(s_.view.vertex_path);
     rasterizer::RasterState clamped = s_.raster;
@@ -123,14 +123,14 @@ void PreparedLists::prepare_second() {
 }
 
 bool PreparedLists::arrives_sorted(const Instance& instance) const {
-    // The user may name meshes or materials that are known to come in order.
+    // The user may name meshes or materials whose triangles are known to be in order.
     const auto names = [&](const std::string& name) {
         return name == s_.list.meshes[instance.mesh].name || name == s_.list.materials[instance.material].name;
     };
     return instance.arrives_sorted || std::any_of(s_.options.sorted.begin(), s_.options.sorted.end(), names);
 }
 
-// The part of each run of a soup: ordered set 0, the rest 1; or one an object.
+// The part of each run of a soup: 0 for the ordered set, 1 for the rest; or one part per object.
 PartSort PreparedLists::parts_of(const rasterizer::TriangleSoup& soup, ListOrder order) const {
     PartSort parts;
     const bool in_sets = order == ListOrder::sets;
@@ -144,12 +144,12 @@ PartSort PreparedLists::parts_of(const rasterizer::TriangleSoup& soup, ListOrder
 
 Ordering PreparedLists::ordering(ListOrder order) const {
     const Sort& sort = s_.options.sort;
-    // A reversed depth range turns z round a second time.
+    // A reversed depth range reverses z a second time.
     const bool is_reversed = s_.raster.depth_order == rasterizer::DepthOrder::greater;
     const NearerZ nearer =
         is_reversed != (s_.raster.depth_near > s_.raster.depth_far) ? NearerZ::greater : NearerZ::less;
     switch (order) {
-        // No ordering at all keeps the list as the scene has it, which spares the walk over the centroids.
+        // Without ordering the list keeps the scene's order, and the centroids need not be computed.
         case ListOrder::given:
             if (sort.rule == SortRule::none) return {};
             return [&sort, nearer](const auto& soup) {

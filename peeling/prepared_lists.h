@@ -1,8 +1,8 @@
-// peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed and set up once.
+// peeling/prepared_lists.h - the draw lists of the frames of one command, each transformed and set up once.
 //
-// Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is what
-//          all passes but the first draw, where another vertex path, another split of the surfaces or another depth
-//          clamp was asked for.
+// Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is
+//          drawn by all passes except the first, if another vertex path, another split of the surfaces or another depth
+//          clamp is requested.
 // Tests    tests/peeling/comparison_test.cpp, partial_order_test.cpp, sort_test.cpp
 #pragma once
 #include <array>
@@ -15,12 +15,12 @@
 
 namespace strata::peeling {
 
-// Whether a depth takes r and q of the vertices.
+// True if a depth path needs r and q of the vertices.
 [[nodiscard]] bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept;
 
 class PreparedLists {
   public:
-    // The part that does not change from draw list to draw list.
+    // The settings that all draw lists share.
     struct Settings {
         const pipeline::DrawList& list;
         pipeline::View view;
@@ -28,17 +28,16 @@ class PreparedLists {
         RenderOptions options;
         rasterizer::RasterState raster{};
         rasterizer::DepthRequest depth{};
-        const LightMap* light = nullptr;  // outlives the lists
+        const LightMap* light = nullptr;  // must outlive the lists
     };
     explicit PreparedLists(Settings settings);
 
     [[nodiscard]] const pipeline::PreparedDraw& transparent(ListOrder order);
-    // Sorts all lists that there are into tiles of this size, if they are not yet.
+    // Sorts all existing lists into tiles of this size, unless they already are.
     void bin(int tile_size_px);
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
-    // What they are set up from, for callers that want the vertices; and the numbers of the transparent soup's
-    // triangles in the order in which they are submitted, empty if as listed.
+    // The input of set-up, for callers that need the vertices.
     [[nodiscard]] rasterizer::TriangleSoup opaque_soup() const;
     [[nodiscard]] rasterizer::TriangleSoup transparent_soup() const;
     [[nodiscard]] std::vector<std::uint32_t> submission(ListOrder order) const;
@@ -57,7 +56,7 @@ class PreparedLists {
     [[nodiscard]] pipeline::Ordering ordering(ListOrder order) const;
 
     Settings s_;
-    std::array<std::optional<pipeline::PreparedDraw>, 4> transparent_{};  // by ListOrder
+    std::array<std::optional<pipeline::PreparedDraw>, 4> transparent_{};  // indexed by ListOrder
     std::optional<pipeline::PreparedDraw> opaque_{}, second_{};
     double seconds_ = 0;
 };

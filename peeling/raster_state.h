@@ -1,4 +1,5 @@
-// peeling/raster_state.h - how a device rasterizes a frame: the options' conventions as its memory has them.
+// peeling/raster_state.h - converts the options' conventions, which are those of the image, to the rasterization state
+// of the device's memory.
 //
 // Tests    tests/peeling/origin_test.cpp
 #pragma once
@@ -7,8 +8,8 @@
 
 namespace strata::peeling {
 
-// The state of a frame's rasterization: viewport, depth format, and in memory's rows where clip-space +y points and
-// what the scissor leaves.
+// The rasterization state of a frame: viewport and depth format, and, in rows of memory, the direction of clip-space +y
+// and the scissor.
 [[nodiscard]] inline rasterizer::RasterState raster_state(const RenderOptions& options,
                                                           const pipeline::DeviceProfile& profile) noexcept {
     using enum rasterizer::YDirection;

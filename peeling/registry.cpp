@@ -1,7 +1,7 @@
-// peeling/registry.cpp - the algorithms, gathered from their files.
+// peeling/registry.cpp - the list of all algorithms, collected from their files.
 //
-// Rule     Algorithm::listed says in which order every list and table prints them; those of one number stay as their
-//          file names them.
+// Rule     Algorithm::listed determines the order in every list and table; algorithms with one number stay in the order
+//          of their file.
 // Tests    tests/peeling/refusals_test.cpp, passes_test.cpp; tests/lint/specification_covers.py: each name has a
 //          section in the specification
 #include "peeling/registry.h"
@@ -12,7 +12,7 @@
 namespace strata::peeling {
 
 namespace listing {
-std::vector<Algorithm> all_entries();  // listings.cpp, made by the build
+std::vector<Algorithm> all_entries();  // in listings.cpp, which the build generates
 }
 
 const std::vector<Algorithm>& algorithms() {
@@ -30,7 +30,7 @@ const Algorithm* find_algorithm(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
-// Targets count by their number alone here: their blends are checked by each pass (pipeline/frame/check_pass.h).
+// Only the number of targets is checked here: each pass checks their blend states (pipeline/frame/check_pass.h).
 pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile) {
     if (auto lacking = check(profile, std::span{algorithm.features})) return lacking;
     const std::vector<pipeline::Blend> targets(static_cast<std::size_t>(algorithm.render_targets));

@@ -7,11 +7,11 @@
 
 namespace strata::peeling {
 
-// Everitt's and Bavoil's, then Carr's and what they compare themselves with, at last the oracle.
+// In the order of Everitt's and Bavoil's algorithms, Carr's and those he compares them with, then the oracle.
 [[nodiscard]] const std::vector<Algorithm>& algorithms();
 [[nodiscard]] const Algorithm* find_algorithm(std::string_view name);  // null if there is none
 
-// The first feature that the profile lacks for it.
+// The first feature required by the algorithm that the profile lacks.
 [[nodiscard]] pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile);
 
 }  // namespace strata::peeling

@@ -1,4 +1,4 @@
-// peeling/render.cpp - from options to a frame: check what was asked for, prepare lists, refuse by name, run, audit.
+// peeling/render.cpp - renders a frame from options: check the options, prepare lists, check features, run, audit.
 #include "peeling/render.h"
 
 #include <algorithm>
@@ -27,10 +27,10 @@ using namespace pipeline;
 
 namespace {
 
-// What sorting takes of a recorded fragment beside its word (sorted_lists.h).
+// Memory that sorting takes per recorded fragment in addition to its word (sorted_lists.h).
 constexpr std::uint64_t sorted_bytes = 4;
 
-// A resolve where the algorithm offers one, its passes elsewhere.
+// The algorithm's resolve if it has one, else its passes.
 Body body_of(const Algorithm& algorithm) {
     if (algorithm.body) return algorithm.body;
     return [&](Region& region) {
@@ -48,7 +48,7 @@ int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexc
     constexpr std::int64_t large = 128, many = 32;
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
     if (!algorithm.draws_again()) return options.tile_size.value_or(has_many ? large : 64);
-    // Passes that run come back to the same fragments: a small tile's stay in a cache. A resolve looks at them once.
+    // Passes read the same fragments repeatedly: those of a small tile stay in the cache. A resolve reads them once.
     return options.tile_size.value_or(is_closed(options, algorithm) ? 64 : 32);
 }
 
@@ -57,28 +57,28 @@ struct Renderer::State {
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
-    bool is_perspective;  // of the view: w differs
+    bool is_perspective;  // of the view: w is not constant
     std::unique_ptr<const LightMap> light{};
     PreparedLists lists;
     std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
-    std::optional<int> deepest{};                   // fragments of the deepest pixel, once requested
-    bool was_invariant = true;                      // the last frame that ran
+    std::optional<int> deepest{};                   // fragments of the deepest pixel, once computed
+    bool was_invariant = true;                      // of the last frame that ran
 
-    // Whether the user's options end a frame by its number of passes.
+    // True if the user's options limit the number of passes.
     [[nodiscard]] bool limits_passes() const {
         return options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
     }
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm, const Instruments& instruments) const {
-        // A tile that stops early does not know how many passes the others made in the loops that it left early, unless
-        // every answer is its own count's; and a log of passes names them all.
+        // A tile that stops early does not know how many passes the others make in the loops that it left, unless every
+        // answer depends on its own count; and a log of passes lists them all.
         const bool is_open =
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
         return algorithm.whole_frame || counts_across || options.counters ? Execution::literal : options.execution;
     }
 
-    // What the executor does not know. An algorithm of one pass has nothing to gain from a record.
+    // Adds reasons that the executor does not know. An algorithm of one pass gains nothing from a record.
     void note_path(const Algorithm& algorithm, const Instruments& instruments, Work& work) const {
         if (work.path == Path::tiled && !algorithm.draws_again()) work.why.clear();
         if (work.path != Path::literal) return;
@@ -114,7 +114,7 @@ struct Renderer::State {
         return *quotient_lists;
     }
 
-    // To simulate every effect is to rasterize in every pass.
+    // Simulating every effect requires rasterizing in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
         const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
         if (!replays || !algorithm.draws_again()) return {};
@@ -125,9 +125,9 @@ struct Renderer::State {
                 .bytes_a_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
     }
 
-    // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored,
-    // or by other vertices, it may find the same fragments for ever: twice as many passes show that. A replaced depth
-    // is the quotient that is compared: that peel ends by itself, and the number of triangles bounds it.
+    // A correct peel needs one pass per fragment of the deepest pixel, and one more. If the compared depth is not the
+    // stored one, or other vertices are drawn, it may never end; twice as many passes show that. A replaced depth is
+    // the quotient that is compared: that peel ends, and the number of triangles bounds its passes.
     [[nodiscard]] int pass_limit(const Frame& f) {
         if (limits_passes() || f.is_invariant()) return options.max_passes;
         constexpr std::size_t most = 1u << 30;
@@ -139,8 +139,8 @@ struct Renderer::State {
         return 2 * *deepest + 2;
     }
 
-    // A peel that keeps depths in float targets may never end where blending flushes them. A right one takes six passes
-    // an iteration at most, and an iteration a fragment of the deepest pixel.
+    // A peel that keeps depths in float targets may not terminate if blending flushes them. A correct one takes at most
+    // six passes per iteration, and one iteration per fragment of the deepest pixel.
     [[nodiscard]] int own_pass_limit(const Algorithm& algorithm, const Frame& f) {
         const bool may_stall = needs(algorithm, Feature::float_targets) && flushes_depths(profile, options.raster);
         if (options.max_passes > 0 || !may_stall) return options.max_passes;
@@ -170,14 +170,14 @@ struct Renderer::State {
         f.formulation = options.formulation;
         f.effects = options.effects;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
-        f.alike_where_blank = true;  // no program here looks at x or y
+        f.alike_where_blank = true;  // no program here reads x or y
         f.keep_layers = options.keep_layers;
         const AuditMemory memory{audit_memory(),
                                  execution(algorithm, {}) == Execution::literal ? 1 : thread_count(options.threads)};
         f.trace = options.audit && algorithm.ties != TiePolicy::none;
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
-        f.checks_targets = static_cast<bool>(algorithm.body);  // those of a user's own
+        f.checks_targets = static_cast<bool>(algorithm.body);  // for a user's body
         f.nearest_depth = options.nearest_depth;
         f.max_passes = algorithm.compares_own_codes ? own_pass_limit(algorithm, f) : pass_limit(f);
         f.average_count = options.average_count;
@@ -216,12 +216,12 @@ struct Renderer::State {
         return peeling::refusal(algorithm, profile);
     }
 
-    // Whether a compared depth is rounded like a stored one.
+    // True if a compared depth is rounded like a stored one.
     [[nodiscard]] bool quantizes() const {
         return options.quantize_reference && profile.raster.hypothesis.quantize_reference;
     }
 
-    // Keys of reversed depth (rasterizer/rules/depth_key.h) are of float codes; a light's map would need both orders.
+    // Reversed depth needs float codes (rasterizer/rules/depth_key.h); a light's shadow map would need both orders.
     [[nodiscard]] Verdict check_order() const {
         if (!is_reversed()) {
             if (options.raster.depth_near > options.raster.depth_far)
@@ -246,13 +246,13 @@ struct Renderer::State {
 
     [[nodiscard]] AsShown shown() const noexcept { return {options, profile}; }
 
-    // By the options alone: every pass of a peel sees the same fragments and compares what it stores.
+    // The options imply that every pass of a peel sees the same fragments and compares the depth that it stores.
     [[nodiscard]] bool is_invariant() const {
         return lists.second() == nullptr && quantizes() && options.compare_epsilon == CompareEpsilon{} &&
                depth.reference.value_or(depth.path) == depth.path;
     }
 
-    // The frame; its audit, if there is to be one, looks at regions as they end. `traces`: instead of an audit.
+    // Runs the frame; the audit examines regions as they end. If `traces` is set, it receives traces and no audit runs.
     void run_frame(const Algorithm& algorithm, const std::function<void(double)>& progress,
                    const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
         Frame f = frame(algorithm);
@@ -293,7 +293,7 @@ struct Renderer::State {
             result.outcome = Outcome::refused;
             return result;
         }
-        // By the numbers of the list as given, which is prepared for them alone where it was not drawn.
+        // Triangles are reported by their index in the list as given, which is prepared here if it was not drawn.
         if (lists_for(algorithm).transparent(algorithm.order).geometry.counters.non_finite > 0)
             note_set_up(lists.transparent(ListOrder::given).geometry.counters, result.frame.diagnostics);
         note_machine(algorithm, depth.format, quantizes(), result.frame.diagnostics);

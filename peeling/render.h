@@ -1,8 +1,9 @@
-// peeling/render.h - one call from a draw list to a finished frame with its statistics: what tools and tests use.
+// peeling/render.h - renders a draw list into a finished frame with its statistics, in one call. Used by tools and
+// tests.
 //
-// Rule     Options that no profile could mean throw InputError. A combination that this profile lacks is refused by
-//          name, in the order of devices.md 9.2. Defaults are those of devices.md 11. Kernels run on the instruction
-//          set that the options name, in the calling thread and in its workers.
+// Rule     Options that are invalid on every profile throw InputError. A combination that this profile lacks gives a
+//          refusal that names the feature, checked in the order of devices.md 9.2. Defaults are those of devices.md 11.
+//          Kernels run on the instruction set that the options name, in the calling thread and in the workers.
 // Tests    tests/peeling/refusals_test.cpp, comparison_test.cpp
 #pragma once
 #include <functional>
@@ -33,10 +34,10 @@ enum class Outcome : std::uint8_t { done, refused };
 
 struct Seconds {
     double geometry = 0, passes = 0;
-    double audit = 0;  // of what the audit looked at while regions ran: its share of the wall clock
+    double audit = 0;  // time of the audit while regions ran, as its share of the wall clock
 };
 
-// Where `refusal` is set nothing was drawn, and frame and audit are empty.
+// If `refusal` is set nothing was drawn, and frame and audit are empty.
 struct RenderResult {
     Outcome outcome = Outcome::done;
     std::optional<pipeline::Refusal> refusal;
@@ -47,35 +48,36 @@ struct RenderResult {
 
 struct FrameFragments {
     std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
-    std::vector<std::uint32_t> opaque;            // of each pixel: the opaque surface's depth in the algorithm's key
-    static constexpr std::uint64_t bytes_a_fragment = 64;  // itself, and beside it what a file's writer makes of it
+    std::vector<std::uint32_t> opaque;            // per pixel: the opaque surface's depth in the algorithm's key
+    static constexpr std::uint64_t bytes_a_fragment =
+        64;  // the fragment itself, and the copy that a file's writer makes of it
 };
 
-// Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
+// Holds the work that is done once for all algorithms of a command: transform, clipping, set-up and binning.
 class Renderer {
   public:
-    // Throws InputError, which names the field, for options that no profile could mean and for a list whose parts do
-    // not fit together. `list` must outlive the renderer.
+    // Throws InputError, which names the field, for options that are invalid on every profile and for a list whose
+    // parts are inconsistent. `list` must outlive the renderer.
     Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options);
     Renderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options) = delete;  // a temporary list would dangle
     ~Renderer();
 
-    // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the
-    // fragments of one pixel are more than the audit's memory holds.
+    // If the profile cannot run a combination the result has a refusal; no exception is thrown. Throws InputError if
+    // the fragments of one pixel do not fit into the audit's memory.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       const pipeline::Instruments& instruments = {});
 
-    // Renders without an audit; `traces` gets the trace of every region.
+    // Renders without an audit; `traces` receives the trace of every region.
     [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
 
-    // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in
-    // frame.depth.
+    // One depth pass of the same triangles drawn as opaque (LESS, no colour), as a baseline for the cost of peeling.
+    // The depths are in frame.depth.
     [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {},
                                           const pipeline::Instruments& instruments = {});
 
-    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused, and
+    // Every fragment of the frame, with key and colour, as written by `strata layers --deep`. Throws Refused, and
     // InputError if the fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 

@@ -1,4 +1,4 @@
-// peeling/render_diagnostics.cpp - the order in which causes are asked, and the sentences that name them.
+// peeling/render_diagnostics.cpp - the order in which causes are checked, and their messages.
 #include "peeling/render_diagnostics.h"
 
 #include <algorithm>

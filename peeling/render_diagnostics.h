@@ -1,5 +1,5 @@
-// peeling/render_diagnostics.h - what a frame says beside its picture: the causes of order errors, peels that found no
-// end, and what no device had.
+// peeling/render_diagnostics.h - the diagnostics of a frame: causes of order errors, peels that did not terminate, and
+// features that no device had.
 //
 // Source   keys-and-counts.md 3.4 and 7.3.
 // Tests    tests/peeling/comparison_test.cpp, published_test.cpp, algorithms/shadow_map_test.cpp
@@ -18,9 +18,9 @@ struct SetupCounters;
 
 namespace strata::peeling {
 
-// What may keep passes from seeing the depths that earlier ones stored.
+// Reasons why passes may not see the depths that earlier ones stored.
 struct PassDepths {
-    bool is_invariant = true;  // every pass saw the same fragments and compared the depth that it stores
+    bool is_invariant = true;  // every pass saw the same fragments and compared the depth that it stored
     bool are_flushed = false;  // the whole depth range is denormal, and blending into float targets flushes it to zero
 };
 
@@ -28,17 +28,17 @@ struct PassDepths {
 [[nodiscard]] bool flushes_depths(const pipeline::DeviceProfile& profile,
                                   const rasterizer::RasterState& raster) noexcept;
 
-// Names the cause of order errors: the first that holds, in the order of keys-and-counts.md 7.3.
+// Reports the cause of order errors: the first that applies, in the order of keys-and-counts.md 7.3.
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const PassDepths& depths,
                            const AuditResult& audit, std::vector<pipeline::Diagnostic>& all);
 
-// A limit that the user set is no fault, even if the peel reaches it (keys-and-counts.md 3.4).
+// A limit set by the user is no fault, even if the peel reaches it (keys-and-counts.md 3.4).
 void note_endless(const pipeline::Frame& frame, const RenderOptions& options, pipeline::FrameResult& result);
 
-// Triangles that set-up dropped.
+// Reports triangles that set-up dropped.
 void note_set_up(const rasterizer::SetupCounters& counters, std::vector<pipeline::Diagnostic>& all);
 
-// What the algorithm asks of a device that none had. `quantizes`: a compared depth is rounded like a stored one.
+// Reports features of the algorithm that no device had. `quantizes`: a compared depth is rounded like a stored one.
 void note_machine(const Algorithm& algorithm, pipeline::DepthFormat format, bool quantizes,
                   std::vector<pipeline::Diagnostic>& all);
 

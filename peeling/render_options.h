@@ -1,5 +1,4 @@
-// peeling/render_options.h - what a caller may choose for a frame: its size and formats, depths and orders, and how it
-// is run.
+// peeling/render_options.h - the options of a frame: size, formats, depths, orders and execution.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -27,62 +26,65 @@ struct Algorithm;
 inline constexpr int tile_sizes[] = {8, 16, 32, 64, 128};
 inline constexpr std::uint64_t least_audit_memory = std::uint64_t{16} << 20;
 
-// How the first pass of a peel computes its positions (default: as the view says), and how further ones do (default:
-// alike).
+// How the first pass of a peel computes its positions (default: as the view says), and how later passes do (default: as
+// the first).
 struct VertexPaths {
     std::optional<pipeline::VertexPath> first{}, second{};
     friend bool operator==(const VertexPaths&, const VertexPaths&) = default;
 };
 
-// The result bits depend on all fields but execution, fragment_memory, tile_size, threads, simd and effects. audit,
-// keep_layers and nearest_depth add results without changing the picture.
+// The result's bits depend on all fields except execution, fragment_memory, tile_size, threads, simd and effects.
+// audit, keep_layers and nearest_depth add results without changing the image.
 struct RenderOptions {
     int width = 1024, height = 1024;
-    std::optional<pipeline::DepthFormat> depth{};       // default: d32f where the profile has it, else d24
-    std::optional<rasterizer::DepthPath> depth_path{};  // default: the profile's
-    std::optional<rasterizer::DepthPath>
-        reference_path{};                        // the depth that passes compare; default: the one that they store
-    pipeline::CompareEpsilon compare_epsilon{};  // added to a stored depth before it is compared
+    std::optional<pipeline::DepthFormat> depth{};           // default: d32f where the profile has it, else d24
+    std::optional<rasterizer::DepthPath> depth_path{};      // default: the profile's
+    std::optional<rasterizer::DepthPath> reference_path{};  // the depth that passes compare; default: the stored one
+    pipeline::CompareEpsilon compare_epsilon{};             // added to a stored depth before the comparison
     bool quantize_reference =
-        true;  // false: compare a depth that is not rounded like the stored one; true: as the profile
+        true;  // false: the compared depth is not rounded like the stored one; true: as the profile
     VertexPaths vertex_paths{};
-    const pipeline::DrawList* second_list = nullptr;  // the same surfaces split otherwise, for all passes but the first
-    std::optional<bool> second_depth_clamp{};         // and their depth clamp
+    const pipeline::DrawList* second_list =
+        nullptr;  // the same surfaces split differently, drawn by all passes except the first
+    std::optional<bool> second_depth_clamp{};         // the depth clamp of those passes
     std::optional<pipeline::Format> color_format{};   // default: rgba8; rgba32f on a profile with exact depth ("ideal")
-    std::optional<pipeline::Format> result_format{};  // of the picture; default: color_format
-    std::optional<pipeline::Format> back_format{};    // of dual's back and its layers; default: color_format
-    std::optional<float> alpha{};                     // draws everything as transparent, its own alpha times this
-    pipeline::Rgba background{0, 0, 0, 1};  // premultiplied, as every picture is whose background lets light through
+    std::optional<pipeline::Format> result_format{};  // of the final image; default: color_format
+    std::optional<pipeline::Format> back_format{};    // of dual's back and of its layers; default: color_format
+    std::optional<float> alpha{};  // draws all materials as transparent, with their own alpha times this
+    pipeline::Rgba background{0, 0, 0,
+                              1};  // premultiplied; an image over a background with alpha below 1 is premultiplied, too
     pipeline::Termination termination{};
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
-    Sort sort{};  // the order in which triangles are submitted
-    std::vector<std::string>
-        sorted{};  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
+    Sort sort{};                        // the order in which triangles are submitted
+    std::vector<std::string> sorted{};  // meshes or materials that are submitted front to back, for hybrid, in addition
+                                        // to those that the scene names
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
-    // Bytes that replay may hold in captured fragments; and the audit as many, but no fewer than least_audit_memory.
+    // Memory limit of replay for recorded fragments, in bytes. The audit has the same limit, but at least
+    // least_audit_memory.
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
     std::optional<int> tile_size{};  // pixels; default: tile_size_of
     int threads = 0;
     Simd simd = Simd::best;  // of all kernels of this renderer
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Format average_count = pipeline::Format::r16f;
-    bool counters = false;  // count fragments by their fates, and bytes: the frame then runs literally
+    bool counters = false;  // count fragments by outcome, and bytes: the frame then runs literally
     bool keep_layers = false;
-    bool audit = true;          // order_errors and the other comparisons with the a_buffer
-    bool nearest_depth = true;  // make the Z image
-    // The viewport's corner on its surface, in pixels; positions move with it exactly.
+    bool audit = true;          // order_errors and the other comparisons with a_buffer
+    bool nearest_depth = true;  // also render the depth image
+    // The viewport's corner on its surface, in pixels; positions are translated by it exactly.
     std::array<int, 2> window_origin{0, 0};
-    // Conventions, as the picture shows them: raster_state.h makes them those of memory. The viewport is set from
+    // Conventions as the image shows them; raster_state.h converts them to those of memory. The viewport is set from
     // width, height and window_origin.
     rasterizer::RasterState raster{};
-    const pipeline::VertexAlteration* vertex_alteration = nullptr;  // outlives the renderer; null: none
+    const pipeline::VertexAlteration* vertex_alteration = nullptr;  // must outlive the renderer; may be null
 };
 
-// The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all
-// and the frame has many tiles: triangles are divided among fewer. (More passes keep more a pixel, and want it in the
-// caches.) Whether fragments are visited once, by the algorithm's resolve, and what is kept of them lasts for a tile.
+// True if fragments are read once, by the algorithm's resolve, and the memory for them is needed only during a tile.
 [[nodiscard]] bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 [[nodiscard]] int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept;
+// The tile size of the algorithm's frame in pixels: the requested one, else 64, or 128 for an algorithm of one pass in
+// a frame with many tiles, where triangles are divided among fewer tiles. (More passes keep more data per pixel, which
+// should fit into the caches.)
 
 }  // namespace strata::peeling

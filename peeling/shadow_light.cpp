@@ -1,5 +1,4 @@
-// peeling/shadow_light.cpp - the light's pass: the machine's own depth pass, from another view into a square
-// target.
+// peeling/shadow_light.cpp - the light's pass: the device's own depth pass, from another view into a square target.
 #include "peeling/shadow_light.h"
 
 #include "peeling/check_options.h"
@@ -10,7 +9,7 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-// The opaque depths are the start. LESS keeps the nearest; colours are neither computed nor stored.
+// Starts from the opaque depths. LESS keeps the nearest; colours are neither computed nor stored.
 void draw_depth(Region& region) {
     const Target depth = region.make_depth();
     region.copy(region.opaque_depth(), depth);
@@ -28,15 +27,15 @@ namespace {
 LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const rasterizer::RasterState& eye,
                    const rasterizer::DepthRequest& depth, int threads) {
     const ShadowLight& light = *list.light;
-    // Viewport, scissor and clip planes are the eye's own business; clip depth range and the direction of y are
-    // the device's, and stay.
+    // Viewport, scissor and clip planes belong to the eye's view and are reset; the clip depth range and the direction
+    // of y belong to the device and are kept.
     rasterizer::RasterState state = eye;
     state.viewport = {0, 0, light.size_px, light.size_px};
     state.scissor.reset();
     state.sample.reset();
     state.clip_plane_count = 0;
-    // The offset is put into the map and not into the lookup; by its factor, surfaces that the light grazes are
-    // moved by more.
+    // The offset is applied to the map and not to the lookup; its factor moves surfaces at grazing angles to the light
+    // by more.
     state.polygon_offset = {.enabled = true, .factor = light.offset_factor, .units = light.offset_units};
     state.depth_format = depth.format;
     const View from{.view = light.view, .projection = light.projection};
@@ -50,8 +49,8 @@ LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const ras
     // The whole map is one region: a pixel of the eye may look at any texel.
     frame.needs_frame = true;
     LightMap map{run(frame, draw_depth, Execution::literal, threads).color, state, {}};
-    // After `depth` has found its place in the map: the stage keeps a pointer to its codes, which a move of the
-    // vector does not change.
+    // Set after `depth` has been moved into the map: the stage keeps a pointer to its codes, which moving the vector
+    // does not change.
     map.stage = shadow_stage(light, map.depth, state);
     return map;
 }
@@ -60,7 +59,7 @@ LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const ras
 
 std::unique_ptr<const LightMap> light_map(const DrawList& list, const DeviceProfile& profile,
                                           const rasterizer::RasterState& eye, int threads) {
-    // The map is compared with z, so that it never holds w.
+    // The map is compared with z, so it must not contain w.
     const bool writes_w = profile.raster.depth_path == rasterizer::DepthPath::w_buffer;
     const rasterizer::DepthRequest depth{writes_w ? rasterizer::DepthPath::window_z : profile.raster.depth_path,
                                          eye.depth_format};

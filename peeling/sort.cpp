@@ -1,5 +1,5 @@
-// peeling/sort.cpp - keys, then one stable sort a rule: equal keys keep the order of the list, so an order has
-// one result on every machine.
+// peeling/sort.cpp - computes keys, then one stable sort per rule: equal keys keep the order of the list, so the result
+// is the same on every machine.
 #include "peeling/sort.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace {
 
 using rasterizer::TriangleSoup;
 using Numbers = std::vector<std::uint32_t>;
-using Keys = std::vector<double>;  // by the triangle's number
+using Keys = std::vector<double>;  // by triangle index
 
-// The sum in place of the mean: a division by 3 would only round. Corner by corner in the order of the list, in
+// The sum instead of the mean: a division by 3 would only round. Corners are added in the order of the list, in
 // binary64.
 Keys centroid_keys(const TriangleSoup& soup, NearerZ nearer) {
     const double sign = nearer == NearerZ::less ? 1.0 : -1.0;
@@ -27,7 +27,7 @@ Keys centroid_keys(const TriangleSoup& soup, NearerZ nearer) {
         const auto z = [&](std::size_t corner) { return double{soup.vertices[soup.indices[i + corner]].z}; };
         const double sum = (z(0) + z(1)) + z(2);
         keys.push_back(sum == sum ? sign * sum
-                                  : 0);  // a NaN is dropped at set-up; here it must only not upset the order
+                                  : 0);  // a triangle with NaN is dropped at set-up, but must not break the sort here
     }
     return keys;
 }
@@ -42,7 +42,7 @@ void sort_reversed(Numbers& numbers, const Keys& keys) {
                      [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
 }
 
-// Infinite keys do not stretch the range; they fall into the first or the last bucket.
+// Infinite keys do not extend the range; they go into the first or the last bucket.
 void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (const std::uint32_t n : numbers) {
@@ -67,18 +67,18 @@ std::uint64_t next_random(std::uint64_t& state) {
     return z ^ (z >> 31);
 }
 
-// `fraction` of the entries, rounded, change positions in one cycle through all of them.
+// Permutes `fraction` of the entries, rounded, in one cycle.
 void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
-    // Rounded half up. One entry alone has nowhere to go.
+    // Rounded half up. A single entry cannot be permuted.
     const std::size_t moved = static_cast<std::size_t>(fraction * static_cast<double>(numbers.size()) + 0.5);
     if (moved < 2) return;
     Numbers positions(numbers.size());
     std::iota(positions.begin(), positions.end(), 0u);
-    // A partial shuffle (Fisher and Yates): the first `moved` positions are drawn without repetition. The
-    // remainder's bias is below 2^-32.
+    // A partial Fisher-Yates shuffle: the first `moved` positions are drawn without repetition. The bias of the
+    // remainder is below 2^-32.
     for (std::size_t i = 0; i < moved; ++i)
         std::swap(positions[i], positions[i + next_random(seed) % (positions.size() - i)]);
-    // One cycle moves every drawn entry; swaps in pairs would leave one of an odd number where it is.
+    // One cycle moves every drawn entry; pairwise swaps would leave one of an odd number unmoved.
     const std::uint32_t first = numbers[positions[0]];
     for (std::size_t i = 0; i + 1 < moved; ++i) numbers[positions[i]] = numbers[positions[i + 1]];
     numbers[positions[moved - 1]] = first;
@@ -107,13 +107,13 @@ pipeline::SubmissionOrder submission_order(const TriangleSoup& soup, const Sort&
                                            NearerZ nearer) {
     const Keys keys = centroid_keys(soup, nearer);
     std::vector<Numbers> members(parts.sorts.size());
-    // A run holds whole triangles of one object: first_index and index_count are multiples of 3.
+    // A run consists of whole triangles of one object: first_index and index_count are multiples of 3.
     for (std::size_t run = 0; run < soup.runs.size(); ++run) {
         const std::uint32_t first = soup.runs[run].first_index / 3, triangles = soup.runs[run].index_count / 3;
         for (std::uint32_t n = first; n < first + triangles; ++n) members[parts.part_of_run[run]].push_back(n);
     }
     pipeline::SubmissionOrder order;
-    // Parts may be empty; they still take their place, for callers name parts by number.
+    // Empty parts are kept, because callers refer to parts by index.
     for (std::size_t part = 0; part < members.size(); ++part) {
         if (parts.sorts[part]) sort_numbers(members[part], keys, sort);
         const auto begin = static_cast<std::uint32_t>(order.triangles.size());

@@ -1,10 +1,10 @@
 // peeling/algorithms/a_buffer.cpp - the oracle: every visible fragment of a pixel, sorted by exact depth, composited in
 // binary64. algorithms.md 17 (Carpenter 1984, the A-buffer).
 //
-// Needs      nothing: no device ran it.
-// Passes     1. Equal depths: the first submitted in front, none lost.
-// Invariant  a pixel's fragments are in submission order until they are sorted by the code of DepthPath::exact, first
-//            arrivals first.
+// Needs      nothing: no device ran this algorithm.
+// Passes     1. Of equal depths the first submitted is in front; none is lost.
+// Invariant  a pixel's fragments are in submission order until they are sorted by the code of DepthPath::exact; equal
+//            codes stay in submission order.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"
@@ -17,8 +17,8 @@ using namespace pipeline;
 
 namespace {
 
-// Pixels without a fragment keep the copy of the opaque colour. The trace names every fragment, by the key and not by
-// the exact code.
+// Pixels without a fragment keep the copy of the opaque colour. The trace records every fragment with its key, not with
+// its exact code.
 void resolve(Region& region, const FragmentLists& fragment_lists, Target result) {
     FragmentOrder order;
     for (std::uint32_t pixel = fragment_lists.pixels.first; pixel < fragment_lists.pixels.last; ++pixel) {
@@ -37,7 +37,7 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
     }
 }
 
-// The pass as statistics count it, where the fragment lists are looked up part by part.
+// Counts one geometry pass in the statistics where the fragment lists are built and read part by part.
 void count_pass(Region& region) {
     PassState state;
     state.needs = {.shader_z = false, .code = false, .color = true};

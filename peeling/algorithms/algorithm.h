@@ -1,4 +1,5 @@
-// peeling/algorithms/algorithm.h - an algorithm as a value: its paper, its needs, its tie policy and its pass formula.
+// peeling/algorithms/algorithm.h - the description of an algorithm: its paper, requirements, tie policy and pass
+// formula.
 #pragma once
 #include <functional>
 #include <optional>
@@ -16,54 +17,58 @@ class Region;
 
 namespace strata::peeling {
 
-// In which order, and in which parts, an algorithm wants its triangles.
+// The order, and the parts, in which an algorithm's triangles are submitted.
 enum class ListOrder : std::uint8_t {
-    given,          // as --sort says
+    given,          // the order of --sort
     back_to_front,  // sorted by centroid, far first
-    sets,           // two parts: the ordered set, front to back as it comes, then the rest as --sort says
-    objects,        // a part for each instance; --sort sorts within them
+    sets,           // two parts: the ordered set, front to back as listed, then the rest in the order of --sort
+    objects,        // one part per instance; --sort sorts within a part
 };
 
 struct Algorithm {
     std::string name;
-    int listed = 0;            // where lists show it: ten times its section of algorithms.md, or between two
+    int listed =
+        0;  // position in lists: ten times its section number in algorithms.md, or a number between two sections
     std::string paper;         // author and year
-    std::string section;       // where in it
+    std::string section;       // section of the paper
     std::string summary;       // one sentence
     std::string pass_formula;  // geometry passes for N layers, under --termination exact
     TiePolicy ties = TiePolicy::none;
     pipeline::DepthKey key = pipeline::DepthKey::stored_code;
-    bool exact = false;  // order_errors must be 0
+    bool exact = false;  // order_errors is always 0
     bool makes_layers = false;
-    bool takes_both_ends = false;       // its layers come from the near end and from the far one
-    bool premultiplied_layers = false;  // their colours are times alpha
+    bool takes_both_ends = false;       // a pass takes one layer from the near end and one from the far end
+    bool premultiplied_layers = false;  // layer colours are premultiplied by alpha
     ListOrder order = ListOrder::given;
-    bool kills_alpha_zero = false;    // an alpha test keeps fragments that store alpha 0 from being layers
-    bool is_oracle = false;           // not a device's algorithm: never refused
-    bool whole_frame = false;         // its queries nest: runs literally, whatever --execution says
-    bool runs_loops = false;          // one loop after another: in tiles wherever its queries are its own
-    bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
-    bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
-    int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
+    bool kills_alpha_zero = false;  // an alpha test discards fragments that store alpha 0, so they are no layers
+    bool is_oracle = false;         // not an algorithm of a device: no profile rejects it
+    bool whole_frame = false;       // its queries are nested: the frame runs literally, whatever --execution says
+    bool runs_loops = false;  // its loops run one after another: runs in tiles if each query depends on the tile alone
+    bool compares_own_codes =
+        false;  // compares only the code that it stores: rejected where options choose another depth
+    bool has_published_form = false;  // the listing has errata: --formulation published runs it as printed
+    int (*geometry_passes)(int layers) =
+        nullptr;  // the pass formula; null if the number of layers does not determine it
     void (*run)(pipeline::Region&) = nullptr;
-    // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some
-    // of them twice.
+    // Used instead of `run` by an algorithm that carries state of its own. Regions run on several threads at once, and
+    // some regions run twice.
     std::function<void(pipeline::Region&)> body{};
-    bool (*resolve_loop)(pipeline::Region&) = nullptr;  // its whole loop from the record, or false; null if it has none
-    std::vector<pipeline::Feature> features{};          // what a profile must have
+    bool (*resolve_loop)(pipeline::Region&) =
+        nullptr;  // the whole loop computed from the record; returns false where it does not apply; may be null
+    std::vector<pipeline::Feature> features{};  // features that the profile must have
     int render_targets = 1;
     int samples = 1;
-    std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say
-    std::optional<rasterizer::DepthPath> compares{};  // the one that it compares, unless the options say otherwise
+    std::optional<rasterizer::DepthPath>
+        stores{};  // the depth path that it writes, whatever the options say; empty: the options' path
+    std::optional<rasterizer::DepthPath> compares{};  // the depth path that it compares, unless the options choose one
 
-    // Whether a tile's fragments are recorded for it: of an algorithm that draws them once that would be work for
-    // nothing.
+    // True if a tile's fragments are worth recording: an algorithm that draws them once would not read them again.
     [[nodiscard]] bool draws_again() const {
         const bool draws_once = geometry_passes != nullptr && geometry_passes(9) == 1;
-        const bool is_known = run != nullptr || geometry_passes != nullptr;  // unlike a body of a user's own
+        const bool is_known = run != nullptr || geometry_passes != nullptr;  // false for a user's body
         return is_known && !is_oracle && !whole_frame && !draws_once;
     }
-    // What is recorded: colours, and the depths that it has its key from.
+    // The recorded values: the colour, and the depth from which the key is made.
     [[nodiscard]] rasterizer::FragmentNeeds recorded() const noexcept {
         const bool is_code = key == pipeline::DepthKey::stored_code;
         return {.shader_z = !is_code, .code = is_code, .color = true};

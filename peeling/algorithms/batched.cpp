@@ -1,9 +1,10 @@
-// peeling/algorithms/batched.cpp - objects heaped by depth, taken in batches, and each batch's interval of depth peeled
-// by itself. Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 15.
+// peeling/algorithms/batched.cpp - objects are sorted by depth and divided into batches, and each batch's depth
+// interval is peeled by itself. Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md
+// 15.
 //
 // Needs      a fragment program with discard (clip planes), separate alpha blending, a depth buffer that it can read.
-// Passes     the sum over intervals of L + 1, L the layers in an interval. Equal depths: the first in submission order
-//            stays.
+// Passes     the sum over intervals of L + 1, where L is the number of layers in an interval. Of equal depths only the
+//            first submitted is kept.
 // Invariant  before interval j everything before its lower bound is composited. Intervals are half-open, so that a
 //            fragment at a bound belongs to one of them.
 #include <algorithm>
@@ -22,33 +23,33 @@ namespace {
 
 constexpr std::size_t objects_in_a_batch = 4;
 
-// Codes [low, high), and the objects that may have fragments there.
+// Codes [low, high), and the objects that may have fragments in it.
 struct Interval {
     std::uint32_t low = 0, high = 0;
     std::vector<PrimitiveRange> objects;
 };
 
 struct ObjectDepths {
-    std::uint32_t low = 0, high = 0;  // codes, both included
+    std::uint32_t low = 0, high = 0;  // codes, inclusive
     PrimitiveRange primitives;
 };
 
-// One code more on either side than conversion to a code can need.
+// The bounds are widened by one code on either side, more than the rounding of the conversion can need.
 std::vector<ObjectDepths> objects_of(const Frame& frame) {
     const DepthFormat format = frame.key_request().format;
-    // The list knows its bounds in z: of a w buffer nothing is known.
+    // The bounds of the list are in z; w_buffer has no bounds.
     const bool is_bounded = frame.key_request().path != rasterizer::DepthPath::w_buffer;
     const auto code = [&](double z) { return to_depth_code(static_cast<float>(z), format, DepthRounding::nearest); };
     std::vector<ObjectDepths> objects;
     for (const DrawPart& part : frame.transparent->parts) {
-        if (part.near > part.far) continue;  // nothing of it is drawn
+        if (part.near > part.far) continue;  // the part draws nothing
         const std::uint32_t low = is_bounded ? code(part.near) : 0, high = is_bounded ? code(part.far) : ~0u - 1;
         objects.push_back({low - (low > 0 ? 1 : 0), high + 1, part.primitives});
     }
     return objects;
 }
 
-// Where batches begin: at the nearest depth of every fourth object, nearest objects first.
+// Start of each batch: the nearest depth of every fourth object, with objects sorted nearest first.
 std::vector<std::uint32_t> bounds_of(const std::vector<ObjectDepths>& objects) {
     std::vector<std::uint32_t> nearest, bounds{0};
     for (const ObjectDepths& o : objects) nearest.push_back(o.low);
@@ -60,7 +61,7 @@ std::vector<std::uint32_t> bounds_of(const std::vector<ObjectDepths>& objects) {
 }
 
 // Intervals cover all codes and do not overlap, so each fragment is peeled once. An object is drawn in every interval
-// that its bound touches; an interval without objects has nothing to peel.
+// that its depth bounds overlap; an interval without objects has nothing to peel.
 std::vector<Interval> intervals_of(const Frame& frame) {
     const auto objects = objects_of(frame);
     const auto bounds = bounds_of(objects);

@@ -1,12 +1,13 @@
-// peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: blending shifts each nearest depth so far into the
-// colour when a nearer one comes. Carr, Mech and Miller 2008, section 6; algorithms.md 11, erratum E16.
+// peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: when a nearer fragment is drawn, blending copies
+// the nearest depth so far into the colour channels. Carr, Mech and Miller 2008, section 6; algorithms.md 11, erratum
+// E16.
 //
 // Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs
 //            can read.
-// Passes     5 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2).
-//            Equal depths: all, the first submitted in front.
-// Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test
-//            stores.
+// Passes     5 per iteration, and 1 that finds nothing left; ascending ceil(n/128) iterations, descending ceil(n/2). Of
+//            equal depths all are composited, the first submitted in front.
+// Invariant  the same as coherent_stencil, without its limit of 255 prefix minima. Alpha is the depth that the depth
+//            test stores.
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 #include "peeling/programs/depth_float.h"
@@ -17,8 +18,9 @@ using namespace pipeline;
 
 namespace {
 
-// rgb = source 1 x destination alpha: the depth before; alpha = the new one. As printed, (ZERO, DST_ALPHA), rgb becomes
-// the product of all depths before: too small from the third update on, and the pixel stalls (E16).
+// rgb = source 1 x destination alpha, the depth before this one; alpha = the new depth. With the printed factors (ZERO,
+// DST_ALPHA) rgb becomes the product of all previous depths: it is too small from the third update on, and the pixel
+// makes no more progress (E16).
 Blend shift(bool published) {
     using enum BlendFactor;
     const BlendTerm as_printed{BlendEquation::add, zero, dst_alpha}, resolved{BlendEquation::add, dst_alpha, zero};
@@ -44,7 +46,7 @@ Drawn find_nearest(CoherentPeel& peel) {
     });
 }
 
-// The red channel as a depth, so that the passes after it are the stencil formulation's.
+// Writes the red channel as a depth, so that the later passes are those of coherent_stencil.
 void find_previous(CoherentPeel& peel) {
     PassState state = find_state(peel.previous, CompareFunc::always);
     state.reads[0] = peel.shifted;

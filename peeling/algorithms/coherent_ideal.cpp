@@ -1,12 +1,12 @@
-// peeling/algorithms/coherent_ideal.cpp - coherent layer peeling in two passes, on hardware that was never built: the
-// rasterizer reads and writes several depths and a flag at every sample. Carr, Mech and Miller 2008, Algorithm 2;
-// algorithms.md 12, errata E23, E25.
+// peeling/algorithms/coherent_ideal.cpp - coherent layer peeling in two passes, on hypothetical hardware that reads and
+// writes several depths and a flag per sample. Carr, Mech and Miller 2008, Algorithm 2; algorithms.md 12, errata E23,
+// E25.
 //
-// Needs      STRATA_ordered_rmw: targets that a program reads and writes, fragment after fragment.
-// Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, the
-//            first in front.
-// Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; what lies
-//            exactly there is composited by that pass.
+// Needs      STRATA_ordered_rmw: targets that the fragment program reads and writes in submission order.
+// Passes     2 per iteration, 1 in the last; 3 for any n in ascending order, 2 n + 1 in descending order. Of equal
+//            depths all are composited, the first submitted in front.
+// Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; fragments
+//            exactly at `peel` are composited by that pass.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
@@ -31,7 +31,8 @@ class IdealPeel {
         region_.call(registers_, "registers");
         region_.call(peel_, "peel");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
-        const float start = published_ ? 0.0f : below_every_depth;  // zNear loses depth 0 to a strict comparison (E23)
+        const float start =
+            published_ ? 0.0f : below_every_depth;  // a strict comparison with zNear loses fragments of depth 0 (E23)
         region_.clear(registers_, {.color = {0, 0, start, 0}});
     }
 
@@ -45,20 +46,21 @@ class IdealPeel {
             has_run = true;
             if (!(more = region_.any(found.tallied, idle()))) break;
         }
-        if (more && has_run && !region_.limit_reached()) composite_run();  // a limit ended it, and leaves room
+        if (more && has_run && !region_.limit_reached())
+            composite_run();  // stopped by a limit that still allows this pass
         ties_.report(region_);
         publish_over_background(region_, accumulated_, region_.opaque_color());
     }
 
   private:
-    // As published, finished pixels change while others are peeled (E25); under a limit the last run waits for its
-    // composite.
+    // As published, finished pixels change while others are peeled (E25). Under a pass limit the last run still has to
+    // be composited.
     [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
 
     [[nodiscard]] float as_float(std::uint32_t code) const noexcept { return depth_as_float(code, format_); }
 
-    // The quad between iterations: the end of the last run becomes `peel`, and the registers start at the opaque
-    // surface.
+    // A full-screen quad between iterations: the end of the last run becomes `peel`, and the registers start at the
+    // opaque surface.
     void start_iteration() {
         PassState state;
         state.color = {registers_, peel_};
@@ -69,14 +71,14 @@ class IdealPeel {
                 const float opaque = as_float(own.depth(1)[i]), end = own.color(0)[z3][i];
                 out.color[0][z1][i] = out.color[0][z2][i] = opaque;
                 out.color[0][z3][i] =
-                    published_ ? end : opaque;  // not reset as published: finished pixels start again (E25)
+                    published_ ? end : opaque;  // as published z3 is not reset: finished pixels start again (E25)
                 out.color[0][out_of_order][i] = 0.0f;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = end;
             }
         }));
     }
 
-    // The registers of one pixel when a fragment of depth z arrives that lies behind `peel` and before z2.
+    // Updates the registers of one pixel for a fragment of depth z with peel < z < z2.
     static void arrive(std::array<float, 4>& r, float z) noexcept {
         if (z < r[z1]) {
             r = {z, r[z1], z, 0.0f};
@@ -88,17 +90,18 @@ class IdealPeel {
         }
     }
 
-    // Pass 1 composites what lies at `peel`, the end of the run before, and lets every fragment between `peel` and z2
-    // change the registers. Its tally is the query: registers changed.
+    // Pass 1 composites the fragments at `peel`, the end of the previous run, and updates the registers with every
+    // fragment between `peel` and z2. Its tally, the number of register changes, is the query.
     Drawn find_run() {
         PassState state = composite_state(accumulated_);
         state.color[1] = registers_;
         state.reads = {registers_, peel_, region_.opaque_depth()};
         state.ordered_rmw = true;
-        state.selection = {.keeps = Keeps::interval,
-                           .outside = Outside::writes_alike,
-                           .near = {peel_, true, 0},
-                           .far = {KeyBound{region_.opaque_depth(), published_}}};  // published, a run ends there, too
+        state.selection = {
+            .keeps = Keeps::interval,
+            .outside = Outside::writes_alike,
+            .near = {peel_, true, 0},
+            .far = {KeyBound{region_.opaque_depth(), published_}}};  // as published a run may end at the opaque depth
         ties_.start();
         return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             composite_under(in, out);
@@ -119,13 +122,14 @@ class IdealPeel {
         });
     }
 
-    // (0, 0, 0, 0) is neutral under UNDER. The fragment stays alive, for its registers are written by the same pass.
+    // Writes (0, 0, 0, 0), which UNDER ignores. The fragment is not discarded, because the same pass writes its
+    // registers.
     static void leave_alone(Outputs& out, std::size_t i) noexcept {
         for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = 0.0f;
         out.side[i] = Side::none;
     }
 
-    // Pass 2 composites the run without its end, which the next pass 1 does.
+    // Pass 2 composites the run except its end, which the next pass 1 composites.
     void composite_run() {
         PassState state = composite_state(accumulated_);
         state.reads = {registers_, peel_};

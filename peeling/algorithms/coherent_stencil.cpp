@@ -1,11 +1,11 @@
 // peeling/algorithms/coherent_stencil.cpp - coherent layer peeling A: runs of fragments in order, found by counting in
 // the stencil buffer. Carr, Mech and Miller 2008, section 5; algorithms.md 10.
 //
-// Needs      8-bit stencil beside a depth buffer that programs can read, separate alpha blending.
-// Passes     6 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2) for
-//            n <= 255. Equal depths: all, the first submitted in front.
-// Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost time
-//            (E19).
+// Needs      an 8-bit stencil buffer, a depth buffer that programs can read, separate alpha blending.
+// Passes     6 per iteration, and 1 that finds nothing left; ascending ceil(n/128) iterations, descending ceil(n/2) for
+//            n <= 255. Of equal depths all are composited, the first submitted in front.
+// Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost
+//            additional passes (E19).
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 
@@ -24,7 +24,7 @@ PassState find_in_what_is_left(const CoherentPeel& peel, Target target, const St
     return state;
 }
 
-// Pass 1: the nearest fragment; the stencil counts how often the depth was updated, it included.
+// Pass 1 finds the nearest fragment; the stencil counts the updates of the depth, including the last.
 Drawn find_nearest(CoherentPeel& peel) {
     peel.region.clear(peel.nearest, {.depth = 1.0f});
     peel.region.clear(peel.stencil, {.stencil = 0});
@@ -34,7 +34,8 @@ Drawn find_nearest(CoherentPeel& peel) {
         [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); });
 }
 
-// Pass 2: the same updates again, counted down to 1: stops one before the nearest.
+// Pass 2 makes the same updates again and counts the stencil down to 1, so it stops one update before the nearest
+// fragment.
 void find_previous(CoherentPeel& peel) {
     peel.region.clear(peel.previous, {.depth = 1.0f});  // the stencil is not cleared (E26)
     const StencilFace face{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};

@@ -1,11 +1,10 @@
-// peeling/algorithms/depth_units.cpp - one layer a pass by two sequential depth units. Everitt 2001, Listing 1;
+// peeling/algorithms/depth_units.cpp - one layer per pass with two sequential depth units. Everitt 2001, Listing 1;
 // algorithms.md 2.
 //
 // Needs      STRATA_depth_units, an emulator extension: no device had sequential depth units.
-// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order
-//            stays.
-// Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has
-//            none.
+// Passes     N + 1 for N distinct depths: the last one finds nothing. Of equal depths only the first submitted is kept.
+// Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved; alpha is 0 where a pixel has
+//            no such layer.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/layer_quads.h"
 #include "peeling/programs/region_programs.h"
@@ -16,8 +15,8 @@ using namespace pipeline;
 
 namespace {
 
-// Draws the nearest fragment behind `peeled`. A comparison of more than codes is done in the program, before the depth
-// units.
+// Draws the nearest fragment behind `peeled`. Comparisons other than of stored codes run in the fragment program,
+// before the depth units.
 Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
     const DepthCompare compare = region.frame().depth_compare();
     const bool in_program = !first && !compare.is_plain();

@@ -1,15 +1,15 @@
-// peeling/algorithms/dual.cpp - two layers a pass, the nearest and the farthest, blended on the fly under one shared
-// MAX equation. Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
+// peeling/algorithms/dual.cpp - two layers per pass, the nearest and the farthest, blended during the peel with one
+// shared MAX equation. Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
 //
 // Needs      RG32F and float MAX blending, three render targets.
-// Passes     1 + max(1, ceil(N/2)) with the min-max exit; the paper's exit: floor(N/2) + 2. Ties at a peeled depth
-//            merge.
-// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 -
-//            transmittance), back = what lies behind far, over the background.
+// Passes     1 + max(1, ceil(N/2)) with the min-max exit, floor(N/2) + 2 with the paper's exit. Fragments of one depth
+//            are merged into one layer.
+// Invariant  before a peel, min_max = (-near, far) of the depths that remain, front = the layers nearer than `near`
+//            (alpha = 1 - transmittance), back = the layers beyond `far` over the background.
 // By default these passes are the definition and do not run: in replay execution, on rgba8 and float targets,
-//            peeling/loops/dual_resolve.cpp finds what they leave from each pixel's sorted fragments.
-//            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and
-//            trace. Where the resolve declines (its head says when), they run.
+//            peeling/loops/dual_resolve.cpp computes their result from each pixel's sorted fragments.
+//            tests/peeling/execution_test.cpp and sequences_test.cpp show that bits, counters, queries and trace are
+//            equal. The passes run where the resolve declines (conditions: dual_resolve.cpp).
 #include <algorithm>
 #include <utility>
 
@@ -24,12 +24,13 @@ using namespace pipeline;
 namespace {
 
 struct DualTargets {
-    Target min_max, next_min_max;  // RT0 and the one it is read from
+    Target min_max, next_min_max;  // RT0, and the target that its program reads
     Target front, next_front;      // RT1
-    Target back_dump, back;        // RT2 and what it is blended onto
+    Target back_dump, back;        // RT2, and the target that it is blended onto
 };
 
-// Nothing is discarded: RT1 is cleared every pass and survives by passing through under MAX (E13).
+// Nothing is discarded: RT1 is cleared every pass, and its content survives because every fragment writes the old value
+// under MAX (E13).
 Drawn peel(Region& region, const DualTargets& t) {
     region.clear(t.next_min_max, empty_min_max);
     region.clear(t.next_front, {.color = {0, 0, 0, 0}});
@@ -51,7 +52,7 @@ Drawn peel(Region& region, const DualTargets& t) {
                        });
 }
 
-// OVER of the peeled back layer; counts the pixels that have something left to peel.
+// Blends the peeled back layer OVER; counts the pixels that have layers left to peel.
 Drawn blend_back(Region& region, const DualTargets& t) {
     PassState state;
     state.color[0] = t.back;
@@ -68,7 +69,7 @@ Drawn blend_back(Region& region, const DualTargets& t) {
     });
 }
 
-// For the audit: which depths this pass has composited, at which end. Not a pass of the machine.
+// Records the depths that this pass composited at each end, for the audit. Not a pass of the emulated device.
 void trace_peel(Region& region, const DualTargets& t) {
     for (const Side side : {Side::front, Side::back})
         region.trace_pixels(t.min_max, [side](const FragmentBatch& in, const Loads& own, Outputs& out) {
@@ -110,7 +111,8 @@ void run(Region& region) {
         layers.keep(t.min_max);
         std::swap(t.min_max, t.next_min_max);
         std::swap(t.front, t.next_front);
-        // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
+        // The paper's query counts whether any back layer was blended (E14); the exact exit asks whether any depth is
+        // left.
         if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::yes))) break;
     }
     layers.end();

@@ -1,10 +1,12 @@
-// peeling/algorithms/dual_independent.cpp - dual peeling with a blend equation a target: UNDER in front, OVER behind,
-// during the peel. Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1); algorithms.md 6.
+// peeling/algorithms/dual_independent.cpp - dual peeling with one blend equation per target: layers are blended UNDER
+// in front and OVER behind during the peel. Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1); algorithms.md
+// 6.
 //
 // Needs      ARB_draw_buffers_blend (independent blending), RG32F and float MAX blending, three render targets.
 // Passes     ceil(N/2) + 2: the last peel finds nothing. No layer is lost on ties.
-// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha =
-//            transmittance), back = what lies behind far, over the background. Neither is cleared between passes.
+// Invariant  before a peel, min_max = (-near, far) of the depths that remain, front = the layers nearer than `near`
+//            (alpha = transmittance), back = the layers beyond `far` over the background. Neither is cleared between
+//            passes.
 #include <algorithm>
 #include <utility>
 
@@ -17,14 +19,14 @@ using namespace pipeline;
 
 namespace {
 
-// (0, 0, 0, 0), which is neutral in both blends, where a lane is none of `chosen`.
+// Sets the lanes outside `chosen` to (0, 0, 0, 0), which is neutral in both blends.
 void choose(const Lanes<std::uint32_t>& chosen, ColorLanes& colors, std::size_t count) noexcept {
     for (auto& channel : colors)
         for (std::size_t i = 0; i < count; ++i) channel[i] = select(chosen[i], channel[i], 0.0f);
 }
 
-// Fragments outside the range are discarded; the others write all three targets, a neutral value where they do not
-// count.
+// Fragments outside the range are discarded. The others write all three targets, with a neutral value where they are
+// neither nearest nor farthest.
 Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Target back) {
     region.clear(next_min_max, empty_min_max);
     PassState state;

@@ -1,9 +1,8 @@
-// peeling/algorithms/entry.h - what the entry of an algorithm is written with: each file of this folder ends with its
-// own.
+// peeling/algorithms/entry.h - functions for an algorithm's registry entry, with which each file of this folder ends.
 //
-// Rule     peeling/algorithms/NAME.cpp is one listing: its head says paper, needs, passes and invariant; namespace
-//          listing::NAME holds its passes and `std::vector<Algorithm> entries()`. The build finds the files; nothing
-//          else lists them (listings.cpp.in).
+// Rule     peeling/algorithms/NAME.cpp is one listing: its head states paper, needs, passes and invariant; namespace
+//          listing::NAME holds its passes and `std::vector<Algorithm> entries()`. The build finds the files by itself
+//          (listings.cpp.in); no list has to be edited.
 // Tests    tests/peeling/refusals_test.cpp, passes_test.cpp
 #pragma once
 #include <vector>
@@ -17,8 +16,7 @@ using pipeline::DepthKey;
 using enum pipeline::Feature;
 using rasterizer::DepthPath;
 
-// Geometry passes of a frame of N layers under exact termination: a single one; a pass a layer and one that finds
-// nothing.
+// Geometry passes for N layers under exact termination: one, or one per layer and one that finds nothing.
 inline int one_pass(int) { return 1; }
 inline int every_layer_and_one(int layers) { return layers + 1; }
 

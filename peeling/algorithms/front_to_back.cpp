@@ -1,10 +1,9 @@
-// peeling/algorithms/front_to_back.cpp - one layer a pass, nearest first, blended under what is already there.
+// peeling/algorithms/front_to_back.cpp - one layer per pass, nearest first, blended UNDER the layers before it.
 // Everitt 2001 (the peel), Bavoil and Myers 2008 section "Under Blending"; algorithms.md 4.
 //
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
-// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order
-//            stays.
-// Invariant  before pass i, `accumulated` = layers 0 .. i-1 composited, alpha = what they let through,
+// Passes     N + 1 for N distinct depths: the last one finds nothing. Of equal depths only the first submitted is kept.
+// Invariant  before pass i, `accumulated` = layers 0 .. i-1 composited, alpha = their transmittance,
 //            and `peeled` = the depth of layer i-1.
 #include <utility>
 
@@ -18,8 +17,8 @@ using namespace pipeline;
 
 namespace {
 
-// Draws the nearest fragment behind `peeled`. The first pass peels nothing: a flag, because below-zero depths do not
-// exist in D24 (E23).
+// Draws the nearest fragment behind `peeled`. The first pass peels nothing and needs a flag, because D24 has no depth
+// below zero (E23).
 Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool first) {
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};

@@ -1,9 +1,9 @@
 // peeling/algorithms/hybrid.cpp - unordered meshes peeled, ordered ones composited between the peels. Carr, Mech and
 // Miller 2008, Algorithm 1; algorithms.md 9.
 //
-// Needs      a fragment program with discard, separate alpha blending; an ordered set that arrives front to back at
-//            every pixel.
-// Passes     3 N + 2 in N + 1 iterations for N layers of the unordered set alone. Equal depths: the ordered set in
+// Needs      a fragment program with discard, separate alpha blending; an ordered set whose submission order is front
+//            to back at every pixel.
+// Passes     3 N + 2 in N + 1 iterations for N layers of the unordered set alone. At equal depth the ordered set is in
 //            front.
 // Invariant  before iteration i everything up to the unordered layer i-2 is composited, and so are the ordered
 //            fragments up to i-1.

@@ -1,11 +1,11 @@
-// peeling/algorithms/k_buffer.cpp - the four nearest fragments so far at every pixel, sorted as they come; the fifth
-// pushes the nearest out. Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 14.
+// peeling/algorithms/k_buffer.cpp - keeps four fragments per pixel sorted by depth during one pass; a fifth causes the
+// nearest to be composited. Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 14.
 //
 // Needs      STRATA_ordered_rmw (real devices had read-modify-write hazards here), six float render targets.
-// Passes     1. Right where no fragment has more than four deeper visible ones before it. Equal depths: first submitted
-//            in front.
-// Invariant  a pixel's entries are sorted by depth, ties as they came, and behind all that is composited unless a fault
-//            says so.
+// Passes     1. Correct if no fragment is preceded by more than four deeper visible ones. Of equal depths the first
+//            submitted is in front.
+// Invariant  a pixel's entries are sorted by depth, ties in submission order, and behind everything composited unless a
+//            fault is reported.
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -19,12 +19,12 @@ using namespace pipeline;
 
 namespace {
 
-constexpr std::size_t k = 4;      // entries: a colour target each, and one for their depths
-constexpr float no_entry = 2.0f;  // behind every depth
+constexpr std::size_t k = 4;      // entries: a colour target each, and one target for their depths
+constexpr float no_entry = 2.0f;  // beyond every depth
 
 struct Entry {
     float depth = no_entry;
-    Rgba color{};  // straight
+    Rgba color{};  // not premultiplied
 };
 
 class KBuffer {
@@ -50,7 +50,7 @@ class KBuffer {
     }
 
   private:
-    // The one geometry pass: a program reads and writes four entries of its pixel, fragment after fragment.
+    // The geometry pass: the program reads and writes the four entries of its pixel in submission order.
     void insert_all() {
         PassState state = composite_state(accumulated_);
         state.reads = {region_.opaque_depth(), depths_};
@@ -64,8 +64,8 @@ class KBuffer {
         }));
     }
 
-    // Sorts the fragment behind all entries up to its depth, and composites the first of the k + 1 if there are so
-    // many.
+    // Inserts the fragment behind all entries of less or equal depth, and composites the nearest entry if there are now
+    // k + 1.
     void insert(const FragmentBatch& in, const Loads& own, Outputs& out, std::size_t i) {
         std::array<Entry, k + 1> entries;
         for (std::size_t e = 0; e < k; ++e) {
@@ -87,8 +87,8 @@ class KBuffer {
         }
     }
 
-    // An empty entry has colour and alpha 0, which is neutral under UNDER. pushed_out_ keeps the deepest depth that has
-    // gone: a nearer fragment that comes later is composited too late, and reported.
+    // An empty entry has colour and alpha 0, which UNDER ignores. pushed_out_ is the greatest depth composited so far:
+    // a nearer fragment that is drawn later is composited too late, which is reported.
     void push_out(std::uint32_t pixel, const Entry& entry, Outputs& out, std::size_t i) {
         for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = entry.color[c] * entry.color[3];
         out.color[0][3][i] = entry.color[3];
@@ -97,7 +97,7 @@ class KBuffer {
         if (region_.frame().trace) region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
     }
 
-    // One quad an entry, near to far; pixels whose entry is empty are discarded.
+    // One full-screen quad per entry, near to far; pixels whose entry is empty are discarded.
     void composite_entry(std::size_t e) {
         PassState state = composite_state(accumulated_);
         state.reads = {depths_, colors_[e]};
@@ -116,7 +116,7 @@ class KBuffer {
 
     Region& region_;
     PixelSet overflow_;
-    std::vector<float> pushed_out_;  // the deepest depth that a pixel has composited before the end
+    std::vector<float> pushed_out_;  // per pixel, the greatest depth composited before the end of the pass
     DepthFormat format_ = region_.frame().key_request().format;
     Target accumulated_ = region_.make_color(), depths_ = region_.make(Format::rgba32f);
     std::array<Target, k> colors_;

@@ -1,10 +1,11 @@
-// peeling/algorithms/layer_peel.cpp - the baseline that Carr, Mech and Miller measure themselves against: a layer is
-// found, then composited. Everitt 2001; Carr, Mech and Miller 2008, Table 1 (two geometry passes an iteration);
-// algorithms.md 9 with nothing ordered.
+// peeling/algorithms/layer_peel.cpp - the baseline of Carr, Mech and Miller: one pass finds a layer, a second one
+// composites it. Everitt 2001; Carr, Mech and Miller 2008, Table 1 (two geometry passes per iteration); algorithms.md 9
+// without an ordered set.
 //
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
-// Passes     2 N + 1 in N + 1 iterations: the last one finds nothing. Equal depths: all, the first submitted in front.
-// Invariant  before iteration i the layers 0 .. i-1 are composited or, the last of them, found.
+// Passes     2 N + 1 in N + 1 iterations: the last one finds nothing. Of equal depths all are composited, the first
+//            submitted in front.
+// Invariant  before iteration i the layers 0 .. i-2 are composited and layer i-1 is found.
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/peel_sets.h"
 

@@ -1,11 +1,12 @@
-// peeling/algorithms/object_sorted.cpp - objects ordered front to back by occlusion queries, then composited as they
-// come. Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 16.
+// peeling/algorithms/object_sorted.cpp - objects are ordered front to back by occlusion queries, then each is
+// composited in submission order. Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2;
+// algorithms.md 16.
 //
 // Needs      occlusion queries, separate alpha blending.
-// Passes     1 for each of n objects and 2 for every question: 3 n - 2 where they arrive front to back, n^2 + 2 n - 2
-//            at most. An object's own fragments stay as they come, and cycles of objects are not cut: diagnosed, not
-//            repaired.
-// Invariant  what is composited lies, at every pixel, in front of all objects that remain, unless a fault says so.
+// Passes     1 per object and 2 per query, for n objects: 3 n - 2 if submitted front to back, n^2 + 2 n - 2 at most.
+//            Fragments of one object stay in submission order, and cycles of objects are not split: both are diagnosed,
+//            not repaired.
+// Invariant  at every pixel everything composited is in front of all remaining objects, unless a fault is reported.
 #include <vector>
 
 #include "peeling/algorithms/entry.h"
@@ -20,8 +21,8 @@ namespace {
 
 using Objects = std::vector<PrimitiveRange>;
 
-// Whether object `which` lies behind any of the others somewhere: its fragments behind the nearest of theirs are
-// counted.
+// True if object `which` is behind any of the others at some pixel: counts its fragments that are behind the nearest
+// fragment of the others.
 bool is_occluded(Region& region, const Objects& remaining, std::size_t which, Target nearest) {
     Objects others = remaining;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
@@ -40,7 +41,7 @@ bool is_occluded(Region& region, const Objects& remaining, std::size_t which, Ta
     return region.any(behind.passed, Idle::no);
 }
 
-// The object's own fragments are blended UNDER as they come: nothing orders them.
+// The object's own fragments are blended UNDER in submission order; they are not sorted.
 void composite(Region& region, const PrimitiveRange& object, Target accumulated) {
     PassState state = composite_state(accumulated);
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
@@ -50,7 +51,7 @@ void composite(Region& region, const PrimitiveRange& object, Target accumulated)
         region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { composite_under(in, out); }));
 }
 
-// The first object that nothing occludes; the first of all, if each is occluded: a cycle.
+// Returns the first object that no other one occludes, or index 0 if each is occluded (a cycle).
 std::size_t front_object(Region& region, const Objects& remaining, Target nearest) {
     if (remaining.size() == 1) return 0;
     for (std::size_t i = 0; i < remaining.size(); ++i) {

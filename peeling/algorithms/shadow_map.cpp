@@ -1,12 +1,12 @@
-// peeling/algorithms/shadow_map.cpp - one layer a pass by a shadow map as seen from the eye. Everitt 2001, "Shadow
+// peeling/algorithms/shadow_map.cpp - one layer per pass with a shadow map rendered from the eye. Everitt 2001, "Shadow
 // Mapping as Depth Test"; algorithms.md 3.
 //
-// Needs      depth textures and an alpha test; shadow_map_depth_replace: NV_texture_shader, too.
+// Needs      depth textures and an alpha test; shadow_map_depth_replace also NV_texture_shader.
 // Passes     N + 1 for N distinct depths if the compared depth R is the stored one (depth_replace writes,
-//            perspective_rq compares). Where R is another path's, a fragment may lie behind itself, and its layer never
-//            goes.
-// Invariant  before pass i, `map` = the copied depth buffer of pass i-1, and layers 0 .. i-1 are saved, alpha 0 where a
-//            pixel has none.
+//            perspective_rq compares). If R is computed by another path, a fragment may compare as behind its own
+//            stored depth, and its layer is never removed.
+// Invariant  before pass i, `map` = the copied depth buffer of pass i-1, and layers 0 .. i-1 are saved; alpha is 0
+//            where a pixel has no such layer.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/layer_quads.h"
 #include "peeling/programs/region_programs.h"
@@ -18,13 +18,14 @@ using namespace pipeline;
 namespace {
 
 struct Buffers {
-    Target color, depth;  // of the frame
-    Target map;           // the depth texture of the pass before; none before the first
+    Target color, depth;  // targets of the frame
+    Target map;           // the depth texture of the previous pass; none in the first
 };
 
-// A fragment whose R is not behind the map is in shadow; alpha times (1 - shadow), and the alpha test kills what is 0.
-// The map's texel is the fragment's own: s/q and t/q of a screen-aligned lookup are off by less than a subpixel
-// (texturing.md 2.4). Fragments that store alpha 0 die in pass 0 as well: a layer they would win would be of no use.
+// A fragment whose R is not behind the map is in shadow: its alpha is multiplied by (1 - shadow), and the alpha test
+// discards alpha 0. The map's texel is the one at the fragment's own pixel: s/q and t/q of a screen-aligned lookup are
+// off by less than a subpixel (texturing.md 2.4). Fragments that store alpha 0 are also discarded in pass 0: a layer of
+// theirs would be invisible.
 Drawn peel(Region& region, const Buffers& to) {
     const bool first = !to.map.exists();
     const DepthCompare compare = region.frame().depth_compare();
@@ -51,7 +52,7 @@ Drawn peel(Region& region, const Buffers& to) {
     });
 }
 
-// glCopyTexSubImage2D of the whole buffer.
+// The copy of glCopyTexSubImage2D, of the whole buffer.
 [[nodiscard]] Target copied(Region& region, Target from, Target to) {
     region.copy(from, to);
     return to;

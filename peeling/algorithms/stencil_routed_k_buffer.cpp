@@ -1,12 +1,12 @@
-// peeling/algorithms/stencil_routed_k_buffer.cpp - eight fragments a pass, each routed by the stencil test into a
-// sample of its own, sorted afterwards. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2;
+// peeling/algorithms/stencil_routed_k_buffer.cpp - eight fragments per pass, each routed by the stencil test to a
+// sample of its own, sorted after the passes. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2;
 // algorithms.md 13.
 //
-// Needs      8-sample colour, depth and stencil targets, sample masks, a fragment covering all samples.
-// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first submitted in
-//            front.
+// Needs      8-sample colour, depth and stencil targets, sample masks; every fragment covers all samples.
+// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Of equal depths all are composited, the
+//            first submitted in front.
 // Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in submission order; the last sample's stencil
-//            is 0 where more have come.
+//            is 0 where further fragments followed.
 #include <vector>
 
 #include "peeling/algorithms/entry.h"
@@ -20,20 +20,20 @@ using namespace pipeline;
 
 namespace {
 
-constexpr int pass_samples = 8;  // each takes a fragment
-constexpr int most_passes = 31;  // the stencil of the last sample starts at 8 - 1 + 2 + 8 p <= 255
+constexpr int pass_samples = 8;  // one fragment per sample
+constexpr int most_passes = 31;  // the stencil of the last sample starts at 8 - 1 + 2 + 8 p, which must be <= 255
 
 struct Capture {
     Target color, depth;
 };
 
-// Every arriving fragment decrements all stencils, down to 0 and no further; the sample that stands at 2 takes it.
+// Every fragment decrements all stencils, saturating at 0; the sample whose stencil is 2 stores it.
 Capture capture(Region& region, Target stencil, int pass) {
     const Capture into{region.make(region.frame().color_format, pass_samples),
                        region.make(target_format(region.frame().key_request().format), pass_samples)};
     region.call(into.color, "samples_color");
     region.call(into.depth, "samples_depth");
-    region.clear(into.depth, {.depth = 1.0f});  // a sample that stays empty: nothing visible lies there
+    region.clear(into.depth, {.depth = 1.0f});  // the depth of a sample that stays empty: no visible fragment has it
     for (int s = 0; s < pass_samples; ++s)
         region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + pass_samples * pass)},
                      static_cast<std::uint8_t>(1u << s));
@@ -55,13 +55,13 @@ Capture capture(Region& region, Target stencil, int pass) {
                        .far = {KeyBound::beyond(region.opaque_depth())},
                        .first_submitted = static_cast<std::uint32_t>(pass_samples * pass)};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_before(in, own.depth(0), out);  // before the stencil test: what is hidden takes no sample
+        keep_before(in, own.depth(0), out);  // before the stencil test: a hidden fragment takes no sample
         out.color[0] = in.color;
     }));
     return into;
 }
 
-// Pixels that had more than eight fragments left for the last pass.
+// Pixels that have more than eight fragments left in the last pass.
 Count overflowing(Region& region, Target stencil) {
     PassState state;
     state.stencil = {.enabled = true, .front = {.func = CompareFunc::equal, .ref = 0}, .back = {}};
@@ -70,7 +70,7 @@ Count overflowing(Region& region, Target stencil) {
     return region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}).passed;
 }
 
-// The words of every sample that the passes have filled, in submission order.
+// The planes of every sample that the passes have filled, in submission order.
 std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Capture>& captures) {
     std::vector<SamplePlanes> samples;
     for (const Capture& c : captures)
@@ -79,8 +79,8 @@ std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Cap
     return samples;
 }
 
-// One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's
-// statistics.
+// A full-screen pass that loads every sample. It has more reads than a pass can name, so it runs here instead, and is
+// counted in the statistics.
 Target resolve(Region& region, const std::vector<Capture>& captures) {
     RegionShortcuts shortcuts{region};
     const Target result = region.make(region.frame().picture_format());

@@ -1,10 +1,10 @@
-// peeling/algorithms/unsorted.cpp - OVER in submission order: the baseline, and with triangles sorted by centroid the
+// peeling/algorithms/unsorted.cpp - OVER in submission order: the baseline; with triangles sorted by centroid, the
 // painter's algorithm. algorithms.md 1.
 //
 // Needs      nothing.
 // Passes     1.
-// Invariant  the target holds OVER of what has arrived; right exactly where every pixel's fragments arrive back to
-//            front.
+// Invariant  the target holds the fragments drawn so far, blended OVER; correct exactly where every pixel's fragments
+//            are submitted back to front.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/region_programs.h"

@@ -1,14 +1,14 @@
-// peeling/algorithms/weighted_average.cpp - one pass, every colour of a pixel replaced by their average weighted by
+// peeling/algorithms/weighted_average.cpp - one pass; every colour of a pixel is replaced by the average weighted by
 // alpha. Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8.
 //
 // Needs      fp16 additive blending, two render targets.
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets'
 //            precision.
-// Outside literal execution, and where nothing is textured, the rasterizer's rows add straight into fp16 and binary32
+// Outside literal execution and without textures, the rasterizer's rows are added directly into fp16 and binary32
 // targets
-//            (pipeline/stages/sum_rows.h; Region::draw_sums chooses). They need AVX2 and half conversion, and are
-//            proved equal to the pass by tests/peeling/execution_test.cpp.
+//            (pipeline/stages/sum_rows.h; Region::draw_sums chooses). This needs AVX2 and half conversion;
+//            tests/peeling/execution_test.cpp shows that the bits equal the pass's.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
 

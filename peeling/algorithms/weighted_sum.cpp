@@ -1,9 +1,9 @@
-// peeling/algorithms/weighted_sum.cpp - one pass, the order-dependent terms of OVER ignored.
+// peeling/algorithms/weighted_sum.cpp - one pass; the order-dependent terms of OVER are ignored.
 // Bavoil and Myers 2008, "Weighted Sum" (after Meshkin 2007); algorithms.md 8.
 //
 // Needs      fp16 additive blending.
 // Passes     1. An approximation: the background's weight 1 - sum a goes negative where alphas add up to more than 1,
-//            and the picture darkens; it is clamped by nothing but the final store.
+//            and the image darkens; only the final store clamps it.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, in submission order and in the target's precision.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/programs.h"

@@ -1,4 +1,4 @@
-// peeling/audit/audit.cpp - which parts of a frame are looked at when, with how much memory; audit.h states the rule.
+// peeling/audit/audit.cpp - schedules which parts of a frame are audited when, and with how much memory (audit.h).
 #include "peeling/audit/audit.h"
 
 #include <algorithm>
@@ -26,10 +26,10 @@ using rasterizer::Rect;
 
 namespace in_parts {
 
-// A region, or some rows of it, or a part of one row.
+// A region, or some rows of it, or part of a row.
 using Part = RegionArea;
 
-// The findings in some parts of the frame, and the parts that did not fit into the memory.
+// The results for some parts of the frame, and the parts that did not fit into the memory.
 struct Looked {
     AuditResult found;
     std::vector<Part> left;
@@ -45,17 +45,17 @@ using namespace in_parts;
 
 namespace {
 
-// A count without pixels has no place to move.
+// A count of 0 has no first pixel to move.
 void move(PixelCount& count, int dx, int dy) {
     if (count.pixels == 0) return;
     count.first_x += dx;
     count.first_y += dy;
 }
 
-// The sum that it asks for is what the fragment lists of this pixel need, twice for the half that the trace has.
+// The requested sum is what this pixel's fragment lists need, doubled because the trace has the other half.
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
     const std::uint64_t list_bytes = fragments * AuditMemory::bytes_a_fragment * 2;
-    const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the trace's length is not known
+    const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the length of the trace is not known
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
                          std::to_string(pixel.rect.x0) + ", " + std::to_string(pixel.rect.y0) + "), which has " +
@@ -69,14 +69,14 @@ struct Audit::Impl {
     const Frame& frame;
     const Body& body;
     const Algorithm& algorithm;
-    AuditMemory shared, alone;  // for a worker among all, and for one by itself
+    AuditMemory shared, alone;  // for one of all workers, and for a worker that runs alone
     int threads;
-    Frame still;               // the frame for looks at its fragments: no pass, no trace
-    RegionScratchPool pool{};  // for those looks, as are the fragment lists
+    Frame still;               // the frame without passes and trace, for reading its fragments
+    RegionScratchPool pool{};  // scratch memory for `still`; the fragment lists below as well
     std::mutex free_lists_mutex{};
     std::vector<FragmentLists> free_fragment_lists{};
-    std::vector<RegionArea> places{};  // of regions; of a frame that is one region, its tiles
-    std::vector<Looked> found_at{};    // by place
+    std::vector<RegionArea> places{};  // the regions; the tiles of a frame that is one region
+    std::vector<Looked> found_at{};    // indexed as `places`
 
     Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
         : frame{f}, body{b}, algorithm{a}, shared{bytes, thread_count(t)}, alone{bytes, 1}, threads{t}, still{f} {
@@ -84,7 +84,7 @@ struct Audit::Impl {
         still.trace = false;
     }
 
-    // A frame that is run again as a whole begins again.
+    // A frame that is run again as a whole starts over.
     void begin(std::span<const RegionArea> regions) {
         places.assign(regions.begin(), regions.end());
         if (places[0].extent == Extent::frame) places = tile_parts(still, threads);
@@ -105,7 +105,7 @@ struct Audit::Impl {
         return at;
     }
 
-    // Looks at all pixels of a part whose fragments fit, range by range.
+    // Audits all pixels of a part whose fragments fit, range by range.
     [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const Image& color,
                                  const AuditMemory& memory) {
         RegionStatistics statistics;
@@ -132,7 +132,8 @@ struct Audit::Impl {
         return looked;
     }
 
-    // As many as ever were in use at once, kept, so that memory is asked for seldom.
+    // Returns a free list or a new one. Lists are kept, as many as were in use at once, so that memory is seldom
+    // allocated.
     [[nodiscard]] FragmentLists take_fragment_lists() {
         const std::scoped_lock lock{free_lists_mutex};
         if (free_fragment_lists.empty()) return {};
@@ -141,10 +142,10 @@ struct Audit::Impl {
         return fragment_lists;
     }
 
-    // A region of the frame has ended: a tile, or the whole frame, which is looked at tile by tile.
+    // Called when a region has ended: a tile, or the whole frame, which is audited tile by tile.
     void look_at(Region& region, std::size_t number, const Image& color) {
-        // An algorithm without an order has no trace and needs none; with one, an incomplete trace tells
-        // nothing, and the tile is left for finish().
+        // An algorithm without an order has no trace and needs none. An incomplete trace of one with an order is
+        // useless, and finish() runs the tile again.
         const bool is_traced = !has_order() || RegionShortcuts{region}.trace().is_complete();
         std::optional<PixelTraces> traces;
         if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect());
@@ -153,12 +154,12 @@ struct Audit::Impl {
             found_at[place] =
                 is_traced ? look_at(part, traces ? &*traces : nullptr, color, shared) : Looked{{}, {part}};
         };
-        // Each place has its own entry of `found_at`: workers need no lock for it.
+        // Each region has its own element of `found_at`, so workers need no lock.
         if (region.rect() == places[number].rect) return look_at_place(number);
         parallel_for(places.size(), threads, look_at_place);
     }
 
-    // A tile that the executor found equal to another has that one's figures, moved to its place.
+    // A tile that the executor found equal to another one gets that one's results, moved to its position.
     void copy(std::size_t like, std::size_t number) {
         const RegionArea &from = places[like], &to = places[number];
         const int dx = to.rect.x0 - from.rect.x0, dy = to.rect.y0 - from.rect.y0;
@@ -170,15 +171,14 @@ struct Audit::Impl {
             part = {{part.rect.x0 + dx, part.rect.y0 + dy, part.rect.x1 + dx, part.rect.y1 + dy}, to.tile, to.extent};
     }
 
-    // Runs a part again, in as many parts as the memory makes of it. Single pixels that do not fit are left.
-    // Parts are taken from the end of `open`, so that no more than the halves of one way down are waiting at a
-    // time.
+    // Runs a part again, split into as many parts as the memory requires. Single pixels that do not fit are returned.
+    // Parts are taken from the end of `open`, so that at most the halves of one descent are waiting at a time.
     [[nodiscard]] Looked run_again(const Part& part, const FrameResult& result, const AuditMemory& memory,
                                    RegionScratchPool& scratch) {
         Frame again = frame;
         again.trace = has_order();
         again.trace_bytes = memory.trace_bytes();
-        // Only the trace is wanted of this run; what the frame keeps for the user is already there.
+        // Only the trace is needed; the frame has already stored the user's other results.
         again.keep_layers = again.nearest_depth = false;
         Looked looked;
         std::vector<Part> open{part};
@@ -186,8 +186,7 @@ struct Audit::Impl {
             const Part next = open.back();
             open.pop_back();
             RegionStatistics statistics;
-            // The frame's answers to the body's questions, as a part alone might answer them otherwise and end
-            // earlier.
+            // The queries return the frame's answers: a part by itself might get other answers and end earlier.
             statistics.script = result.answers;
             Region region{again, next, statistics, {}, &scratch};
             const bool fits = run_traced(region);
@@ -204,13 +203,12 @@ struct Audit::Impl {
         return looked;
     }
 
-    // False if the trace does not fit; where coverage says so beforehand, nothing is run.
+    // False if the trace does not fit; if the coverage already shows that, nothing is run.
     [[nodiscard]] bool run_traced(Region& region) {
         if (!has_order()) return true;
         std::uint64_t fragments = 0;
         for (const std::uint32_t of_pixel : coverage_of(region)) fragments += of_pixel;
-        // The trace is taken to have an entry for each fragment; a single pixel is run whatever this estimate
-        // says.
+        // The trace is estimated as one entry per fragment; a single pixel is run whatever the estimate.
         if (region.rect().area() > 1 && fragments * sizeof(TraceEntry) > region.frame().trace_bytes) return false;
         body(region);
         return RegionShortcuts{region}.trace().is_complete();
@@ -231,8 +229,8 @@ struct Audit::Impl {
         Looked all;
         for (Looked& looked : found_at) all.add(std::move(looked));
         try {
-            // First all workers with their shares, then one after the other with all of the memory, for what
-            // was left.
+            // First all workers with their shares, then one worker after another with all of the memory for the
+            // remaining parts.
             for (const AuditMemory& memory : {shared, alone})
                 all.add(run_all_again(std::exchange(all.left, {}), result, memory));
         } catch (const NeedsFrame&) {
@@ -245,7 +243,7 @@ struct Audit::Impl {
             Region region{still, all.left.front(), statistics, {}, &pool};
             throw_too_deep(all.left.front(), coverage_of(region).front(), alone.bytes);
         }
-        // A frame without a pixel has made no order error, which is 0 and not "no order".
+        // A frame without pixels has 0 order errors rather than "no order".
         if (has_order() && !all.found.order_errors) all.found.order_errors = 0;
         return all.found;
     }

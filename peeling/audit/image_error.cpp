@@ -1,4 +1,4 @@
-// peeling/audit/image_error.cpp - sums over a picture in a fixed order, and the logarithm that PSNR needs.
+// peeling/audit/image_error.cpp - sums over an image in a fixed order, and the logarithm of PSNR.
 #include "peeling/audit/image_error.h"
 
 #include <algorithm>
@@ -15,11 +15,11 @@ using namespace pipeline;
 
 namespace {
 
-// The C library's logarithm differs between libraries, and reports are compared byte by byte, so PSNR has its own.
+// The C library's logarithm differs between libraries, and reports are compared byte by byte, so PSNR uses this one.
 // ln(x) of a positive normal number: ln(m) + e ln 2 with m in [2/3, 4/3), ln(m) = 2 atanh((m - 1) / (m + 1)).
 double natural_log(double x) noexcept {
     int exponent = 0;
-    double m = std::frexp(x, &exponent);  // exact
+    double m = std::frexp(x, &exponent);  // exact in binary64
     if (m < 2.0 / 3.0) {
         m *= 2;
         --exponent;
@@ -30,7 +30,7 @@ double natural_log(double x) noexcept {
     return 2 * t * sum + exponent * 0x1.62e42fefa39efp-1;
 }
 
-// Row by row, red, green, blue: the order of the sums. Alpha is 1 in every picture and not compared.
+// Calls body row by row, red, green, blue: the order of the sums. Alpha is not compared.
 template <class Body>
 void for_each_difference(const Image& image, const Image& truth, Body&& body) {
     for (int y = 0; y < image.height; ++y)
@@ -40,7 +40,7 @@ void for_each_difference(const Image& image, const Image& truth, Body&& body) {
 
 }  // namespace
 
-// The value that a code stands for (formats.md 2.2 and 3.1); depth and stencil are no colours.
+// The value of a code (formats.md 2.2 and 3.1). Depth and stencil images are not colours.
 double channel_value(const Image& image, int x, int y, int channel) {
     const std::uint32_t code = image.codes[image.index(x, y, channel)];
     switch (info(image.format).type) {

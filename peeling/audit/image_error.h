@@ -1,8 +1,8 @@
-// peeling/audit/image_error.h - how far a picture is from the true one: largest difference, root mean square, signal to
-// noise.
+// peeling/audit/image_error.h - the error of an image against the truth: largest difference, root mean square, peak
+// signal-to-noise ratio.
 //
 // Rule     Over red, green and blue, in units of 1/255 of the frame's colour values. Sums run in row-major order in
-//          binary64. PSNR = 20 log10(255 / rmse) decibels: none where nothing differs.
+//          binary64. PSNR = 20 log10(255 / rmse) decibels: absent if nothing differs.
 // Numbers  The logarithm is a sum of 24 terms of the series of atanh in a fixed order, so its bits are the same
 //          everywhere; its relative error is below 2^-48.
 // Tests    tests/peeling/audit/image_error_test.cpp
@@ -20,10 +20,10 @@ struct ImageError {
     friend bool operator==(const ImageError&, const ImageError&) = default;
 };
 
-// PSNR of an error above 0, in 1/255.
+// PSNR of a root mean square error above 0, in 1/255.
 [[nodiscard]] double signal_to_noise(double rmse);
 
-// Colour images of one size, of any colour format each.
+// Colour images of equal size; their colour formats may differ.
 [[nodiscard]] ImageError image_error(const pipeline::Image& image, const pipeline::Image& truth);
 
 // image - truth, as rgba32f with alpha 1.

@@ -15,18 +15,18 @@ using pipeline::CapturedFragment;
 
 namespace {
 
-// The identity of a fragment, by which both captures are matched; primitives rise in submission order.
+// Identifies a fragment, to match both captures; primitives ascend in submission order.
 auto place(const CapturedFragment& f) { return std::tuple(f.pixel, f.primitive); }
 
-// A stable sort keeps fragments of one place in the order of the capture.
+// A stable sort keeps fragments of one pixel and primitive in the order of the capture.
 std::vector<CapturedFragment> by_place(std::span<const CapturedFragment> fragments) {
     std::vector<CapturedFragment> sorted(fragments.begin(), fragments.end());
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return place(a) < place(b); });
     return sorted;
 }
 
-// Whether the first fragments of both sequences are one. A neighbour counts only if the nearer of the two does not have
-// a triangle of the other's number behind it.
+// True if the first fragments of both sequences are the same. A neighbour matches only if the nearer of the two is not
+// followed by a triangle with the other's index.
 bool are_partners(std::span<const CapturedFragment> a, std::span<const CapturedFragment> b, Match match) {
     if (place(a[0]) == place(b[0])) return true;
     if (match == Match::triangle || a[0].pixel != b[0].pixel) return false;
@@ -36,7 +36,7 @@ bool are_partners(std::span<const CapturedFragment> a, std::span<const CapturedF
     return is_before(a, b[0]) || is_before(b, a[0]);
 }
 
-// 0 is bin 0, 1 is 1, 2 is 2, 3 to 4 is 3, 5 to 8 is 4: as many bits as magnitude - 1 has, and one more.
+// 0 is bin 0, 1 is 1, 2 is 2, 3 to 4 is 3, 5 to 8 is 4: the bit width of magnitude - 1, plus one.
 int bin_of(std::int64_t difference) {
     const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
     if (magnitude == 0) return 0;
@@ -44,7 +44,7 @@ int bin_of(std::int64_t difference) {
     return difference < 0 ? -bin : bin;
 }
 
-// The inverse of bin_of(): bin b > 1 holds 2^(b - 2) + 1 to 2^(b - 1).
+// The inverse of bin_of(): bin b > 1 contains 2^(b - 2) + 1 to 2^(b - 1).
 UlpBin bounds_of(int bin) {
     if (bin == 0) return {0, 0, 0};
     const int steps = bin < 0 ? -bin : bin;
@@ -61,8 +61,7 @@ PairedFragments pair_up(std::span<const CapturedFragment> first, std::span<const
     const std::vector<CapturedFragment> a = by_place(first), b = by_place(second);
     PairedFragments result;
     result.pairs.reserve(std::min(a.size(), b.size()));
-    // Whichever head comes first and has no partner is passed over and counted; the rests of both sequences have
-    // none either.
+    // A first element without a partner is skipped and counted; so are the remainders of both sequences.
     std::size_t i = 0, j = 0;
     while (i < a.size() && j < b.size()) {
         if (are_partners(std::span{a}.subspan(i), std::span{b}.subspan(j), match))
@@ -85,7 +84,7 @@ PathComparison compare(const PairedFragments& fragments) {
     for (const PathPair& pair : fragments.pairs) {
         ++bins[bin_of(pair.difference())];
         if (pair.difference() == 0) continue;
-        // Only a larger magnitude replaces the place: the first of equals stays.
+        // Only a larger magnitude replaces it, so the first of equals is kept.
         if (result.differing++ == 0 || magnitude(pair) > magnitude(result.where)) result.where = pair;
     }
     result.largest = result.where.difference();

@@ -1,4 +1,4 @@
-// peeling/audit/peel_errors.cpp - the layers of each pixel against what its trace names.
+// peeling/audit/peel_errors.cpp - compares the layers of each pixel with its trace.
 #include "peeling/audit/peel_errors.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Composited {
 
     Composited(std::span<const RegionTrace> traces, std::size_t width, std::size_t height)
         : start(width * height + 1, 0) {
-        // Entries count their pixels in the region; here they become places in the frame.
+        // Pixel indices of trace entries are relative to the region; they are converted to the frame.
         const auto for_each = [&](auto&& body) {
             for (const RegionTrace& trace : traces) {
                 const auto columns = static_cast<std::size_t>(trace.rect.width());
@@ -27,7 +27,7 @@ struct Composited {
                 }
             }
         };
-        // A counting sort by pixel: counts, then their sums as starts, then the keys into their places.
+        // A counting sort by pixel: counts, their sums as start offsets, then the keys at their offsets.
         for_each([&](std::size_t pixel, std::uint32_t) { ++start[pixel + 1]; });
         for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
         keys.resize(start.back());
@@ -39,7 +39,7 @@ struct Composited {
     }
 };
 
-// Ascending, so that a layer is found by bisection.
+// Ascending, so that a layer is found by binary search.
 std::vector<std::uint32_t> distinct_layers(std::span<const LayerFragment> pixel) {
     std::vector<std::uint32_t> layers;
     for (const LayerFragment& f : pixel) layers.push_back(f.layer);
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> distinct_layers(std::span<const LayerFragment> pixel)
     return layers;
 }
 
-// One pixel: `pixel` are its fragments, `keys` what was composited there.
+// `pixel` is one pixel's fragments, `keys` the keys composited there.
 void look_at(PeelErrors& errors, std::span<const LayerFragment> pixel, std::span<const std::uint32_t> keys, int width) {
     const std::vector<std::uint32_t> layers = distinct_layers(pixel);
     // How often each layer was composited.
@@ -56,7 +56,7 @@ void look_at(PeelErrors& errors, std::span<const LayerFragment> pixel, std::span
     for (const std::uint32_t key : keys) {
         const auto first =
             std::find_if(pixel.begin(), pixel.end(), [key](const LayerFragment& f) { return f.key == key; });
-        if (first == pixel.end()) continue;  // a depth that only another pass's transform gives this pixel
+        if (first == pixel.end()) continue;  // only another pass's transform gives this pixel the depth
         ++times[static_cast<std::size_t>(std::lower_bound(layers.begin(), layers.end(), first->layer) -
                                          layers.begin())];
     }
@@ -70,7 +70,7 @@ void look_at(PeelErrors& errors, std::span<const LayerFragment> pixel, std::span
     if (duplicated + lost == 0) return;
     const std::uint32_t p = pixel.front().pixel;
     errors.map[p] = static_cast<std::uint8_t>((duplicated > 0 ? layer_duplicated : 0) | (lost > 0 ? layer_lost : 0));
-    // Pixels come in row-major order, so the first that is counted is the first in the frame.
+    // Pixels are visited in row-major order, so the first counted is the first in the frame.
     if (errors.touched.pixels++ > 0) return;
     errors.touched.first_x = static_cast<int>(p) % width;
     errors.touched.first_y = static_cast<int>(p) / width;

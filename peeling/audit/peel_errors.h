@@ -1,9 +1,11 @@
-// peeling/audit/peel_errors.h - which layers a finished peel composited twice, and which never.
+// peeling/audit/peel_errors.h - finds the layers that a finished peel composited more than once, and those it never
+// composited.
 //
 // Rule     A pixel's true layers are the distinct codes, before the opaque surface, that the writing path stores
-//          without any bias: what the exact A-buffer keeps under the tie policy UNIQUE. What was composited is the
-//          run's trace: a depth there means the first fragment of that depth, and so its layer. Twice or more often is
-//          one duplicate; never is one loss. So a peel that never ends does not count without end.
+//          without bias, which the exact A-buffer keeps under the tie policy `unique`. The composited layers are read
+//          from the run's trace: a depth there means the first fragment of that depth, and so its layer. A layer
+//          composited twice or more often is one duplicate, a layer never composited is one loss, so the counts stay
+//          finite for a peel that never ends.
 // Source   audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
 // Tests    tests/peeling/audit/peel_errors_test.cpp
 #pragma once
@@ -17,26 +19,27 @@ namespace strata::peeling {
 
 struct RegionTrace;
 
-// A fragment as the peel met it: `layer` is its code in the truth, `key` what the trace calls it.
+// A fragment of the peel: `layer` is its code in the truth, `key` its key in the trace.
 struct LayerFragment {
     std::uint32_t pixel = 0, primitive = 0;
     std::uint32_t layer = 0, key = 0;
     friend bool operator==(const LayerFragment&, const LayerFragment&) = default;
 };
 
-// Bits of one pixel's byte in the map: both may be set.
+// Bits of a pixel's byte in the map; both may be set.
 enum PeelError : std::uint8_t { layer_duplicated = 1, layer_lost = 2 };
 
 struct PeelErrors {
     std::uint64_t layers = 0;  // true layers of all pixels
-    int layers_max = 0;        // of the deepest pixel
+    int layers_max = 0;        // of the pixel that has the most
     std::uint64_t duplicated = 0, lost = 0;
-    PixelCount touched;             // pixels with either
-    std::vector<std::uint8_t> map;  // of each pixel: PeelError bits
+    PixelCount touched;             // pixels with duplicated or lost layers
+    std::vector<std::uint8_t> map;  // PeelError bits per pixel
     [[nodiscard]] std::uint64_t total() const noexcept { return duplicated + lost; }
 };
 
-// `fragments` are the visible ones, by pixel and in submission order; `traces` a run's, of a frame `width` x `height`.
+// `fragments` are the visible ones, sorted by pixel and then in submission order; `traces` are those of a run of a
+// frame of `width` x `height` pixels.
 [[nodiscard]] PeelErrors peel_errors(std::span<const LayerFragment> fragments, std::span<const RegionTrace> traces,
                                      int width, int height);
 

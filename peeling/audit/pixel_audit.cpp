@@ -1,5 +1,4 @@
-// peeling/audit/pixel_audit.cpp - the counts and comparisons of one pixel; pixel_audit.h says what is held
-// against what.
+// peeling/audit/pixel_audit.cpp - the counts and comparisons of one pixel (pixel_audit.h).
 #include "peeling/audit/pixel_audit.h"
 
 #include <algorithm>
@@ -20,8 +19,8 @@ PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect)
         trace[i].pixel = std::exchange(head_[trace[i].pixel], static_cast<std::uint32_t>(i));
 }
 
-// Walks the pixel's links. Back entries came from the far end, each over the one before, so they are turned
-// round.
+// Follows the pixel's links. Back layers were composited from the far end, each OVER the one before, so their order is
+// reversed.
 void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, std::vector<TraceEntry>& backs) const {
     const std::size_t pixel = static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
                               static_cast<std::size_t>(x - rect_.x0);
@@ -36,7 +35,7 @@ void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, s
 
 namespace {
 
-// The first place in row-major order, in whatever order pixels come: threads must not show in the result.
+// Keeps the first pixel in row-major order, whatever the order of calls, so that results do not depend on threads.
 void add(PixelCount& count, int x, int y) {
     if (count.pixels++ == 0 || std::tie(y, x) < std::tie(count.first_y, count.first_x))
         count.first_x = x, count.first_y = y;
@@ -57,7 +56,7 @@ std::size_t distinct_keys(const FragmentOrder& by_key) {
     return keys;
 }
 
-// Whether two orders name equal fragments at every place.
+// True if two orders have equal fragments at every position.
 bool are_alike(std::span<const KeyedFragment> fragments, const FragmentOrder& a, const FragmentOrder& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](std::uint64_t x, std::uint64_t y) {
         return x == y || fragments[place_of(x)] == fragments[place_of(y)];
@@ -78,7 +77,7 @@ void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTrac
     const auto fragments = algorithm_.kills_alpha_zero ? with_alpha(visible) : visible;
     sort_by(&KeyedFragment::key, fragments, by_key_);
     const std::size_t keys = distinct_keys(by_key_);
-    // Layers count distinct keys, fragments count all: the difference is what ties hide.
+    // Layers count distinct keys, fragments count all: the difference is the number of fragments hidden by ties.
     found_.layers_max = std::max(found_.layers_max, static_cast<int>(keys));
     found_.fragments_max = std::max(found_.fragments_max, static_cast<int>(fragments.size()));
     if (keys < fragments.size()) add(found_.ties, pixel.x, pixel.y);
@@ -102,14 +101,14 @@ std::span<const KeyedFragment> PixelAudit::with_alpha(std::span<const KeyedFragm
     return with_alpha_;
 }
 
-// Entries of the longer sequence beyond the end of the shorter one count as an error each.
+// Each entry of the longer sequence beyond the end of the shorter one counts as an error.
 std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> fragments) const {
     const std::size_t shared = std::min(kept_.size(), sequence_.size());
     std::uint64_t errors = std::max(kept_.size(), sequence_.size()) - shared;
     for (std::size_t i = 0; i < shared; ++i) {
         const KeyedFragment& expected = fragments[place_of(kept_[i])];
         const TraceEntry& found = sequence_[i];
-        // An entry may stand for a layer without saying which fragment it is: then its key alone is compared.
+        // An entry may represent a layer without identifying the fragment; then only its key is compared.
         const bool is_same_fragment = !found.is_fragment || found.primitive == expected.primitive;
         if (found.key != expected.key || !is_same_fragment) ++errors;
     }
@@ -119,7 +118,7 @@ std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> frag
 void PixelAudit::compare(std::span<const KeyedFragment> fragments, const AuditedPixel& pixel,
                          bool ties_change_nothing) {
     sort_almost(&KeyedFragment::exact_code, fragments, by_key_, by_exact_depth_);
-    // By the exact depth and not by the key: what the key's rounding reorders is a loss too.
+    // Sorted by the exact depth instead of the key: a reordering by the key's rounding counts as an error.
     const auto truth = composite(fragments, by_exact_depth_, pixel.background);
     double worst = 0;
     const std::size_t channels = pixel.background[3] == 1.0f ? 3 : 4;

@@ -1,9 +1,8 @@
-// peeling/audit/pixel_audit.h - one pixel after the other against the exact A-buffer: what an algorithm did with its
-// fragments.
+// peeling/audit/pixel_audit.h - compares single pixels with the exact A-buffer of their fragments.
 //
-// Rule     The sequence that a pixel composited (its trace) is compared, place by place, with its visible fragments in
-//          the order of the algorithm's tie policy; its colour with all of them composited in binary64, sorted by the
-//          exact depth.
+// Rule     The sequence that a pixel composited (its trace) is compared, position by position, with its visible
+//          fragments in the order of the algorithm's tie policy. Its colour is compared with all of them composited in
+//          binary64, sorted by the exact depth.
 // Source   audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp
 #pragma once
@@ -19,14 +18,14 @@
 
 namespace strata::peeling {
 
-// Takes a finished trace apart: its entries are then linked by pixel, in the order in which they came.
+// Links the entries of a finished trace by pixel, in trace order; the trace is consumed.
 class PixelTraces {
   public:
-    // `rect` is the traced region's. A pixel takes 4 bytes, an entry none beside its own.
+    // `rect` is the traced region's. Takes 4 bytes per pixel; the entries are linked in place.
     PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect);
 
-    // Fills `sequence` with what a pixel shows from near to far: what was composited UNDER in order, then what was
-    // composited OVER, last first. `backs` is room for the latter.
+    // Fills `sequence` with the composited layers from near to far: those composited UNDER, in order, then those
+    // composited OVER, last first. `backs` is scratch space for the latter.
     void near_to_far(int x, int y, std::vector<pipeline::TraceEntry>& sequence,
                      std::vector<pipeline::TraceEntry>& backs) const;
 
@@ -34,21 +33,22 @@ class PixelTraces {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     const pipeline::Trace& trace_;
     rasterizer::Rect rect_;
-    std::vector<std::uint32_t> head_;  // of each pixel: its first entry; an entry's `pixel` is the next one
+    std::vector<std::uint32_t>
+        head_;  // per pixel, its first entry; the `pixel` of an entry becomes the index of the next one
 };
 
 struct AuditedPixel {
     int x = 0, y = 0;
-    std::array<double, 4> shown{};  // the picture's colour
-    pipeline::Rgba background{};    // the opaque scene's
-    std::uint32_t at_opaque = 0;    // fragments at the very depth of the opaque surface
+    std::array<double, 4> shown{};  // the image's colour
+    pipeline::Rgba background{};    // the opaque scene's colour
+    std::uint32_t at_opaque = 0;    // fragments at exactly the depth of the opaque surface
 };
 
 class PixelAudit {
   public:
     PixelAudit(const pipeline::Frame& frame, const Algorithm& algorithm);
 
-    // `traces` are null for an algorithm without an order.
+    // `traces` is null for an algorithm without an order.
     void look_at(std::span<const KeyedFragment> visible, const PixelTraces* traces, const AuditedPixel& pixel);
 
     [[nodiscard]] const AuditResult& found() const noexcept { return found_; }
@@ -62,12 +62,12 @@ class PixelAudit {
     const Algorithm& algorithm_;
     bool tests_codes_;  // the alpha test compares 8-bit codes
     AuditResult found_;
-    std::vector<KeyedFragment> with_alpha_;  // of the present pixel, like all that follows
+    std::vector<KeyedFragment> with_alpha_;  // of the current pixel, like the members below
     FragmentOrder by_key_, kept_, by_exact_depth_;
     std::vector<pipeline::TraceEntry> sequence_, backs_;
 };
 
-// Adds what another part of the frame found; the order of calls does not matter.
+// Adds the results of another part of the frame; the order of calls does not matter.
 void merge(AuditResult& all, const AuditResult& part);
 
 }  // namespace strata::peeling

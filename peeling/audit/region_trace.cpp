@@ -8,7 +8,7 @@ namespace strata::peeling {
 using namespace pipeline;
 
 Watch keep_traces(std::vector<RegionTrace>& traces) {
-    // One place for each region, before the frame runs: workers then write to different places without a lock.
+    // One element per region is made before the frame runs, so that workers need no lock.
     const auto begin = [&traces](std::span<const RegionArea> regions) {
         traces.clear();
         for (const RegionArea& place : regions) traces.push_back({place.rect, {}});
@@ -19,8 +19,8 @@ Watch keep_traces(std::vector<RegionTrace>& traces) {
         for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)
             kept.entries.push_back(RegionShortcuts{region}.trace()[i]);
     };
-    // A tile that the executor found equal to another was not run: it has the other's entries, whose pixels
-    // count in its own rectangle.
+    // A tile that the executor found equal to another was not run: it gets the other's entries, whose pixel indices are
+    // relative to the tile.
     const auto copy = [&traces](std::size_t like, std::size_t number) {
         traces[number].entries = traces[like].entries;
     };

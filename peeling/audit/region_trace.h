@@ -1,5 +1,5 @@
-// peeling/audit/region_trace.h - the traces of a whole frame, kept: for measurements that hold all of its fragments
-// anyhow.
+// peeling/audit/region_trace.h - keeps the traces of a whole frame, for measurements that hold all of its fragments in
+// memory anyway.
 #pragma once
 #include <vector>
 
@@ -11,10 +11,11 @@ namespace strata::peeling {
 
 struct RegionTrace {
     rasterizer::Rect rect;
-    std::vector<pipeline::TraceEntry> entries;  // pixels count in `rect`
+    std::vector<pipeline::TraceEntry> entries;  // pixel indices are relative to `rect`
 };
 
-// Keeps the traces of a frame's regions in `traces` while it runs; one, if it runs as a whole.
+// Keeps the traces of a frame's regions in `traces` while it runs: one per region, or a single one if the frame runs as
+// a whole.
 [[nodiscard]] pipeline::Watch keep_traces(std::vector<RegionTrace>& traces);
 
 }  // namespace strata::peeling

@@ -1,5 +1,5 @@
-// peeling/audit/safe_range.cpp - the bounds of safe_range.h, pixel by pixel: the largest lower one and the
-// smallest upper one.
+// peeling/audit/safe_range.cpp - computes the range over all pixels as the largest lower and the smallest upper bound
+// (safe_range.h).
 #include "peeling/audit/safe_range.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace strata::peeling {
 
 namespace {
 
-// Of each layer the fragment that is found for the longest: the one with the largest reference, the first of equals.
+// Per layer the fragment that is found for the most passes: the one with the largest reference, the first of equals.
 std::vector<PathPair> layers_of(std::span<const PathPair> pixel, std::uint32_t opaque) {
     std::vector<PathPair> layers;
     for (const PathPair& pair : pixel)
@@ -25,7 +25,7 @@ std::vector<PathPair> layers_of(std::span<const PathPair> pixel, std::uint32_t o
     return layers;
 }
 
-// The first fragment with the strictest bound is named, in the order of the pairs.
+// Keeps the first fragment, in the order of the pairs, with the strictest bound.
 void limit_from_below(SafeRange& range, std::int64_t lowest, const PathPair& pair) {
     if (range.lowest && *range.lowest >= lowest) return;
     range.lowest = lowest;
@@ -41,8 +41,8 @@ void limit_from_above(SafeRange& range, std::int64_t highest, const PathPair& fr
     range.behind_opaque = is_opaque;
 }
 
-// The depth that n is added to: that of the comparison alone, or the stored one. The opaque surface is then compared
-// with the moved depth, too.
+// The depth that n is added to: only the compared one, or the stored one. In the latter case the opaque surface is also
+// compared with the moved depth.
 enum class Moves : std::uint8_t { comparison, stored_depth };
 
 // Calls body(layers, opaque code) for every pixel.
@@ -63,7 +63,7 @@ SafeRange range_of(std::span<const PathPair> pairs, std::span<const std::uint32_
         for (std::size_t i = 0; i < layers.size(); ++i) {
             limit_from_below(range, layers[i].difference(), layers[i]);
             if (i + 1 == layers.size()) continue;
-            // The largest n with reference > stored + n, over whole numbers.
+            // The largest integer n with reference > stored + n.
             const std::int64_t highest = std::int64_t{layers[i + 1].reference} - layers[i].stored - 1;
             limit_from_above(range, highest, layers[i], layers[i + 1], false);
         }
@@ -73,7 +73,7 @@ SafeRange range_of(std::span<const PathPair> pairs, std::span<const std::uint32_
     return range;
 }
 
-// A fragment's reference against a stored code, as a program compares them. The doubles from 0 to 1 order like their
+// Compares a fragment's reference with a stored code, as a program does. The doubles from 0 to 1 are ordered like their
 // bits.
 struct Comparison {
     pipeline::DepthFormat format;
@@ -83,7 +83,7 @@ struct Comparison {
         const pipeline::DepthCompare compare{.format = format, .epsilon = {std::bit_cast<double>(epsilon_bits), 0}};
         return compare.is_behind(reference, compare.value(reference), stored);
     }
-    // The least epsilon in low ... high at which it is not; high if there is none before.
+    // The least epsilon in low ... high with which the reference is not behind; high if no smaller one is found.
     [[nodiscard]] std::uint64_t least_that_hides(std::uint64_t low, std::uint64_t high) const {
         while (low < high) {
             const std::uint64_t middle = low + (high - low) / 2;
@@ -116,12 +116,12 @@ SafeRange safe_bias(std::span<const PathPair> pairs, std::span<const std::uint32
 
 SafeAbsolute safe_absolute(std::span<const PathPair> pairs, std::span<const std::uint32_t> opaque,
                            pipeline::DepthFormat format) {
-    // Bits of doubles from 0 to 1 rise with their values, so both searches bisect over the bits.
+    // The doubles from 0 to 1 are ordered like their bits, so both searches are binary searches over the bits.
     std::uint64_t lowest = 0, lost_from = one_bits + 1;  // safe: lowest <= epsilon < lost_from
     for_each_pixel(pairs, opaque, [&](const std::vector<PathPair>& layers, std::uint32_t) {
         for (std::size_t i = 0; i < layers.size(); ++i) {
             const Comparison own{format, layers[i].reference, layers[i].stored};
-            // Only a fragment that breaks the present bound costs a search.
+            // Only a fragment that violates the current bound needs a search.
             if (own.is_behind(lowest)) lowest = own.least_that_hides(lowest, one_bits + 1);
             if (i + 1 == layers.size()) continue;
             const Comparison next{format, layers[i + 1].reference, layers[i].stored};

@@ -1,14 +1,14 @@
-// peeling/audit/safe_range.h - which bias keeps a peel by two depth paths right: the adviser of the invariance
-// laboratory.
+// peeling/audit/safe_range.h - computes the biases with which a peel by two depth paths is correct, for `strata
+// invariance`.
 //
-// Rule     A pass peels what its reference lies behind the depth peeled last, moved back by n: reference > stored + n.
-//          In a pixel whose layers (distinct stored codes) are L1 < L2 < ..., no layer comes twice iff n >= reference -
-//          stored for every fragment, and none is lost iff for all neighbours some fragment of the second one has
-//          reference - Li > n. So the safe n are an interval, whole numbers of codes; two fragments exclude each other
-//          where it is empty.
+// Rule     A pass peels the fragments whose reference is behind the depth peeled last, moved back by n: reference >
+//          stored + n. In a pixel whose layers (distinct stored codes) are L1 < L2 < ..., no layer is peeled twice iff
+//          n >= reference - stored for every fragment, and none is lost iff for all neighbouring layers Li, Li+1 some
+//          fragment of the second one has reference - Li > n. So the safe n are an interval of whole numbers of codes.
+//          Where it is empty, two fragments require contradictory n.
 // Source   Everitt 2001 (the peel); the proof: a fragment whose reference stays behind its own biased depth is found
-//          again in every later pass, since the least of the depths left never grows past it; and a layer that is
-//          passed over is never found, because what is peeled next lies behind it.
+//          again in every later pass, since the least remaining depth never exceeds it; and a skipped layer is never
+//          found, because the next peeled one is behind it.
 // Numbers  Differences of 32-bit codes, in 64 bits.
 // Tests    tests/peeling/audit/safe_range_test.cpp
 #pragma once
@@ -22,11 +22,13 @@
 namespace strata::peeling {
 
 struct SafeRange {
-    std::optional<std::int64_t> lowest, highest;  // inclusive; no lowest: no fragment; no highest: no layer to lose
-    PathPair repeated;  // sets `lowest`: below it this fragment is peeled twice, or, by a bias, comes before the opaque
-                        // surface
-    PathPair front, behind;      // set `highest`: above it `behind` is lost once `front` is peeled
-    bool behind_opaque = false;  // `highest` is set by the opaque surface or the far end instead: `front` would meet it
+    std::optional<std::int64_t> lowest,
+        highest;        // inclusive; lowest is empty without fragments; highest is empty if no layer can be lost
+    PathPair repeated;  // determines `lowest`: below it this fragment is peeled twice, or, with a bias, compares as in
+                        // front of the opaque surface
+    PathPair front, behind;  // determine `highest`: above it `behind` is lost once `front` is peeled
+    bool behind_opaque =
+        false;  // `highest` is limited by the opaque surface or the far end instead, which `front` would reach
     [[nodiscard]] bool is_empty() const noexcept { return lowest && highest && *lowest > *highest; }
     [[nodiscard]] bool contains(std::int64_t n) const noexcept {
         return (!lowest || n >= *lowest) && (!highest || n <= *highest);
@@ -34,19 +36,19 @@ struct SafeRange {
     friend bool operator==(const SafeRange&, const SafeRange&) = default;
 };
 
-// `pairs` as pair_up gives them; `opaque` holds the stored code of the opaque surface of every pixel: what is not
-// before it is invisible. For an epsilon in the compare, in units of the last place.
+// The safe range of an epsilon in the comparison, in units of the last place. `pairs` as returned by pair_up; `opaque`
+// is the stored code of the opaque surface per pixel: fragments not in front of it are invisible.
 [[nodiscard]] SafeRange safe_epsilon(std::span<const PathPair> pairs, std::span<const std::uint32_t> opaque);
 
-// For a bias added to the stored depth, in codes of a fixed-point format: a biased fragment must also stay on its side
-// of `opaque`. References are above 0, where depths would be clamped.
+// The safe range of a bias added to the stored depth, in codes of a fixed-point format: a biased fragment must also
+// stay on its side of `opaque`. References must be above 0, where depths would be clamped.
 [[nodiscard]] SafeRange safe_bias(std::span<const PathPair> pairs, std::span<const std::uint32_t> opaque);
 
-// Epsilons as parts of the depth range [0,1], as a program adds them: every double from `lowest` to `highest` is safe,
-// the next ones outside are not. Empty: no double is.
+// Epsilons as fractions of the depth range [0,1], as a program adds them: every double from `lowest` to `highest` is
+// safe, and the next doubles outside are not. If the range is empty, no double is safe.
 struct SafeAbsolute {
     std::optional<double> lowest,
-        highest;  // lowest: none if no epsilon up to 1 is enough; highest: none if nothing can be lost
+        highest;  // lowest: empty if no epsilon up to 1 suffices; highest: empty if no layer can be lost
     bool is_empty = false;
     [[nodiscard]] bool contains(double epsilon) const noexcept {
         return !is_empty && lowest && epsilon >= *lowest && (!highest || epsilon <= *highest);

@@ -1,11 +1,11 @@
-// peeling/loops/block_passes.h - the passes of a peel over a block of lists: the scalar references of
+// peeling/loops/block_passes.h - the passes of a dual peel over a block of per-pixel lists: the scalar references of
 // block_passes_simd.cpp.
 //
-// Rule     Pass i takes depth i of a list from the front and depth i from its back, until they meet. Lists do not meet:
-//          the scalar reference goes from list to list, the vectors through many side by side. Dual front: the UNDER of
-//          under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back: the code of
-//          the far colour, OVER what is there, where its alpha is not 0.
-// Ties     Fragments of one depth are one group: MAX over what each of them would leave.
+// Rule     Pass i takes depth i of a list from the front and depth i from its back, until they meet. Lists are
+//          independent: the scalar reference processes one after another, the vectors process many at once. Dual front:
+//          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
+//          the code of the far colour, OVER the stored back, where its alpha is not 0.
+// Ties     Fragments of one depth are one group: MAX over the values that each of them would store.
 // Tests    tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>
@@ -19,13 +19,14 @@ namespace strata::peeling {
 
 using BlockCodes = std::array<BlockLanes, 4>;  // codes of a target by channel
 
-// What the passes of a block go by.
+// The rules of a block's passes.
 struct BlockRules {
     pipeline::ColorRules color;
-    std::uint32_t most_passes = ~0u;  // that peel, where a frame ends sooner
+    std::uint32_t most_passes = ~0u;  // limit on passes that peel
 };
 
-// Colours from 0 to this one, with alphas from 0 to 1, have no sum beyond the halves, and MAX keeps one of them.
+// With colours from 0 to this value and alphas from 0 to 1 no sum exceeds the range of half, and MAX keeps one of the
+// two values.
 inline constexpr float most_plain_color = 1024.0f;
 
 inline namespace strict {
@@ -34,7 +35,7 @@ namespace scalar {
 using Color = std::array<float, 4>;
 using Codes = std::array<std::uint32_t, 4>;
 
-// Straight, as the rasterizer gave it.
+// Not premultiplied, as rasterized.
 [[nodiscard]] inline Color color_at(const ListBlock& block, std::size_t lane, std::size_t k) noexcept {
     return block.color[block.index(lane, k)];
 }
@@ -46,8 +47,8 @@ inline void put_column(const Codes& list, std::size_t lane, BlockCodes& codes) n
     for (std::size_t c = 0; c < 4; ++c) codes[c][lane] = list[c];
 }
 
-// Colours that MAX does not order: on float targets negative ones, -0 and NaN; and those that a half may not have sums
-// of.
+// False for colours that MAX does not order (on float targets negative values, -0 and NaN), and for those whose sums
+// may exceed the range of half.
 [[nodiscard]] inline bool is_plain(const Color& color) noexcept {
     const auto is_at_most = [](float value, float most) {
         return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);
@@ -82,8 +83,8 @@ class ColumnPasses {
     }
 
   private:
-    // Every fragment outside [begin, end) passes the old front through, and MAX keeps it; without one the cleared
-    // target, 0, is what MAX meets (algorithms.md 5.4).
+    // Every fragment outside [begin, end) passes the old front through, and MAX keeps it. If there is none, MAX meets
+    // the cleared target, 0 (algorithms.md 5.4).
     void blend_near(std::uint32_t begin, std::uint32_t end, Codes& front) const {
         Codes next = block_.visible[lane_] + block_.hidden[lane_] > end - begin ? front : Codes{};
         const float through = let_through(OneFloat{}, target_.value(front[3]));
@@ -115,7 +116,7 @@ class ColumnPasses {
     pipeline::scalar::StoredColor<Rules> target_;
 };
 
-// The lists that hold a depth twice, or all of them.
+// Peels the lists that contain a depth twice, or all of them.
 [[nodiscard]] inline bool peel_both_ends(const ListBlock& block, bool tied_alone, BlockCodes& front_codes,
                                          BlockCodes& back_codes, const BlockRules& rules) {
     bool is_plain = true;
@@ -149,17 +150,17 @@ void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCo
 }  // namespace scalar
 }  // namespace strict
 
-// All passes of the block. `front` and `back` hold what was there before. False if MAX does not order the colours: the
-// codes are then of no use.
+// All passes of the block. `front` and `back` contain the initial codes and receive the results. Returns false if MAX
+// does not order the colours; the codes are then unspecified.
 [[nodiscard]] bool peel_both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules);
-// Sixteen words of an rgba8 target, red lowest.
+// The codes of sixteen texels of an rgba8 target, red in the low byte.
 [[nodiscard]] inline BlockCodes codes_of(const std::uint32_t* words) noexcept {
     BlockCodes codes;
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t lane = 0; lane < block_lanes; ++lane) codes[c][lane] = words[lane] >> (8 * c) & 0xffu;
     return codes;
 }
-// Stores in an rgba8 target what the last quad of a peel stores: the front over the colour behind it, alpha 1.
+// Stores in an rgba8 target the result of a peel's last quad: the front over the colour behind it, alpha 1.
 void composite_block(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words);
 
 }  // namespace strata::peeling

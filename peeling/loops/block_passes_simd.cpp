@@ -1,5 +1,4 @@
-// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of lists at
-// a time.
+// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set, one list per lane.
 // How kernels are written: kernels.md. Tests: tests/peeling/loops/block_passes_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/loops/block_passes_simd.cpp"
@@ -23,7 +22,7 @@ struct AllLanes {
 
 #include "peeling/programs/under_text-inl.h"
 
-// Some lists of a block, and their front and back while the passes run. Dual peeling is that of lists without ties.
+// Some lists of a block, with their front and back during the passes. Dual peeling of lists without ties.
 template <class Rules>
 class Lists {
   public:
@@ -39,7 +38,7 @@ class Lists {
     HWY_INLINE void load(const BlockCodes& codes, Held (&to)[4]) const {
         for (std::size_t c = 0; c < 4; ++c) to[c] = target_.held(hn::LoadU(Words{}, &codes[c][lane_]));
     }
-    // A channel that nothing was blended onto keeps its code, of a NaN or a denormal, too.
+    // A channel that nothing was blended onto keeps its code, including codes of NaN and denormals.
     HWY_INLINE void store(WordMask blended, const Held (&from)[4], std::size_t channels, BlockCodes& codes) const {
         for (std::size_t c = 0; c < channels; ++c) {
             const WordVec old = hn::LoadU(Words{}, &codes[c][lane_]);
@@ -65,7 +64,7 @@ class Lists {
             const Color near = take(level(pass), has_near);
             meet(near);
             blend_near(near, has_near, front);
-            if (2 * pass + 1 == block_.height) break;  // no list has a far one any more
+            if (2 * pass + 1 == block_.height) break;  // no list has a far fragment left
             const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
             const WordVec index = is_full_ ? level(block_.height - 1 - pass) : far_indices(pass, has_far);
             const Color far = take(index, has_far);
@@ -86,7 +85,7 @@ class Lists {
         FloatVec channel[4];
     };
 
-    // Places of level k, near to far.
+    // Entries of level k, near to far.
     HWY_INLINE WordVec level(std::size_t k) const {
         WordVec key;
         return level(k, key);
@@ -97,7 +96,7 @@ class Lists {
                              index, key);
         return index;
     }
-    // Places of level visible - 1 - pass of each list: ends lie at different levels, so they are gathered.
+    // Indices of level visible - 1 - pass of each list: the far ends are at different levels, so they are gathered.
     HWY_INLINE WordVec far_indices(std::uint32_t pass, WordMask has) const {
         const Words d;
         const WordVec level = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
@@ -106,7 +105,7 @@ class Lists {
         return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.levels), hn::BitCast(Signed{}, word));
     }
 
-    // With gathers, or where the indices follow each other, without.
+    // The colours at the indices: a plain load where the indices are consecutive, else gathers.
     HWY_INLINE Color take(WordVec index, WordMask has) const {
         const Words d;
         const Floats df;
@@ -127,8 +126,9 @@ class Lists {
         return color;
     }
 
-    // As the scalar reference's blend_near. A list whose only fragment is the near one has no other to pass the old
-    // front through; a list that has ended keeps it, because 0 members differ from its number of fragments.
+    // As blend_near of the scalar reference. A list whose only fragment is the near one has no other fragment to pass
+    // the old front through. A list that has ended keeps its front, because 0 members differ from its number of
+    // fragments.
     HWY_INLINE void blend_near(const Color& color, WordMask has, Held (&front)[4]) const {
         const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, target_.value(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
@@ -140,8 +140,8 @@ class Lists {
         }
     }
 
-    // As the scalar reference's; a list without a far fragment takes alpha 0, and keeps its back. Says which lists have
-    // changed.
+    // As blend_far of the scalar reference. A list without a far fragment takes alpha 0 and keeps its back. Returns the
+    // mask of lists that have changed.
     HWY_INLINE WordMask blend_far(const Color& color, Held (&back)[4]) const {
         const Held dump = target_.stored(color.channel[3]);
         const WordMask is_there = is_set(dump);
@@ -170,11 +170,10 @@ bool both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, cons
     return is_plain;
 }
 
-// algorithms.md 0.4, with the codes packed to a word a pixel, red lowest.
+// The blending of algorithms.md 0.4, with the codes packed into one word per pixel, red in the low byte.
 template <pipeline::UnormRounding to_code>
 void last_quad_by(const BlockCodes& front, const BlockCodes& back, std::uint32_t* words) {
-    using Target =
-        StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // nothing is blended here
+    using Target = StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // no blending here
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const auto value = [lane](const BlockLanes& codes)
@@ -208,7 +207,7 @@ namespace strata::peeling {
 STRATA_EXPORT(both_ends);
 STRATA_EXPORT(last_quad);
 
-// Tied lists are rare, and left to the scalar reference.
+// Lists with ties are rare and left to the scalar reference.
 bool peel_both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
     if (simd_is_scalar()) return scalar::peel_both_ends(block, false, front, back, rules);
     const auto kernel = kernel_of(HWY_DISPATCH_TABLE(both_ends));

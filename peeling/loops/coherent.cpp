@@ -10,28 +10,29 @@ namespace {
 
 constexpr int later_passes = 4;  // passes 3 to 6
 
-// One face for both: the stencil counts fragments, whichever way they face. The reference stands on the left of `func`.
+// Both faces have the same test: the stencil counts fragments of either facing. The reference is the left operand of
+// `func`.
 StencilTest stencil_test(CompareFunc func, std::uint8_t ref, StencilOp fail, StencilOp depth_fail, StencilOp pass) {
     return {.enabled = true,
             .front = {.func = func, .ref = ref, .fail = fail, .depth_fail = depth_fail, .pass = pass},
             .back = {}};
 }
 
-// The range of passes 3 and 4: from the nearest fragment on, inclusive (E17), before what arrived earlier.
+// The range of passes 3 and 4: from the nearest fragment, inclusive (E17), to `previous`, exclusive.
 void keep_after_nearest(const FragmentBatch& in, const Loads& own, Outputs& out) noexcept {
     keep_from(in, own.depth(0), out);
     keep_before(in, own.depth(1), out);
     keep_before(in, own.depth(2), out);
 }
 
-// The same as a selection.
+// The same range as a selection.
 FragmentSelection selects_after_nearest(const CoherentPeel& peel) {
     return {.keeps = Keeps::interval,
             .near = KeyBound::at(peel.nearest),
             .far = {KeyBound::beyond(peel.previous), KeyBound::beyond(peel.region.opaque_depth())}};
 }
 
-// For the report of an endless listing: the pixels that the last iteration composited at.
+// For the report of a listing that does not terminate: the pixels where the last iteration composited a fragment.
 void note_composited(CoherentPeel& peel, const FragmentBatch& in, const Outputs& out) {
     if (!peel.published) return;
     for (std::size_t i = 0; i < lanes(in); ++i)
@@ -40,9 +41,9 @@ void note_composited(CoherentPeel& peel, const FragmentBatch& in, const Outputs&
 
 }  // namespace
 
-// Pass 3 counts, in the stencil, the fragments that arrive in depth order. The first fragment out of order inverts the
-// count. The stencil test (128 > count) then fails for every later fragment, as it also does once the count reaches
-// 128.
+// Pass 3 counts, in the stencil, the fragments that are submitted in depth order. The first fragment out of order
+// inverts the count. The stencil test (128 > count) then fails for every later fragment, as it also does once the count
+// reaches 128.
 void count_run(CoherentPeel& peel) {
     Region& region = peel.region;
     region.clear(peel.last_in_order, {.depth = 0.0f});
@@ -70,7 +71,7 @@ void find_breaker(CoherentPeel& peel) {
     static_cast<void>(region.draw(state, keep_after_nearest));
 }
 
-// The end of the run, the next iteration's D(sc).
+// The end of the run, which is D(sc) of the next iteration.
 void find_reached(CoherentPeel& peel) {
     PassState state = find_state(peel.reached, CompareFunc::always);
     state.reads = {peel.previous, peel.breaker, peel.region.opaque_depth()};
@@ -82,7 +83,7 @@ void find_reached(CoherentPeel& peel) {
     peel.from_the_start = false;
 }
 
-// Pass 5: the run, without its end.
+// Pass 5 composites the run without its end.
 Drawn composite_run(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.nearest, peel.reached};
@@ -96,8 +97,8 @@ Drawn composite_run(CoherentPeel& peel) {
     });
 }
 
-// Pass 6: what lies exactly at the end, unless that is the opaque surface: as published it is composited even then, and
-// again in every iteration (E22).
+// Pass 6 composites the fragments exactly at the end, unless that is the opaque surface. As published they are
+// composited even then, and again in every iteration (E22).
 Drawn composite_end(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.reached, peel.region.opaque_depth()};
@@ -126,7 +127,7 @@ Count finish_iteration(CoherentPeel& peel, const FirstPasses& first) {
     return run.passed + composite_end(peel).passed;
 }
 
-// Resolved: pass 1 of the next iteration already tells that nothing is left.
+// With the errata resolved, pass 1 of the next iteration already shows that nothing is left.
 void peel_until_nothing_is_left(CoherentPeel& peel, const FirstPasses& first) {
     Region& region = peel.region;
     if (region.limit_reached()) return;
@@ -138,8 +139,8 @@ void peel_until_nothing_is_left(CoherentPeel& peel, const FirstPasses& first) {
     }
 }
 
-// Not the machine's: whether `reached` has moved beyond `farthest` at any pixel. Where it has not, a listing that goes
-// on composites the same fragments for ever.
+// Counts the pixels where `reached` has moved beyond `farthest`; not a pass of the emulated device. If there are none,
+// a listing that continues would composite the same fragments forever.
 Count progress(CoherentPeel& peel, Target farthest) {
     PassState state = find_state(farthest, CompareFunc::greater);
     state.reads[0] = peel.reached;

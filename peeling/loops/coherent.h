@@ -1,18 +1,18 @@
-// peeling/loops/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend)
-// share. Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
+// peeling/loops/coherent.h - the parts of coherent layer peeling that its two formulations (coherent_stencil,
+// coherent_blend) share. Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
 //
 // Rule     An iteration composites, in submission order, the run of fragments that starts at the nearest one not yet
 //          composited (`nearest`, the paper's D(sn)) and is in order: it ends before the nearest deeper fragment that
-//          arrived earlier (`previous`), and before the nearest one that interrupts the run later (`breaker`). The
-//          least of the two and of the opaque depth is `reached`; what lies exactly there is composited last, and the
-//          next iteration starts behind it.
+//          was submitted earlier (`previous`), and before the nearest one that interrupts the run later (`breaker`).
+//          The least of these two depths and the opaque depth is `reached`; fragments exactly there are composited
+//          last, and the next iteration starts behind it.
 // Tests    tests/peeling/sequences_test.cpp, coherent_test.cpp, published_test.cpp
 #pragma once
 #include "peeling/programs/depth_range.h"
 
 namespace strata::peeling {
 
-// The targets and counting of one peel. Depth targets hold codes, and so does every comparison below.
+// The targets and counts of one peel. Depth targets contain codes, and all comparisons below are of codes.
 struct CoherentPeel {
     explicit CoherentPeel(pipeline::Region& r)
         : region{r},
@@ -28,7 +28,7 @@ struct CoherentPeel {
         region.call(reached, "reached");
         region.call(last_in_order, "last_in_order");
         region.clear(accumulated, {.color = {0, 0, 0, 1}});
-        region.clear(reached, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
+        region.clear(reached, {.depth = 0.0f});  // as published: strict comparisons lose depth 0 (E23)
         from_the_start = !published;
     }
 
@@ -38,37 +38,37 @@ struct CoherentPeel {
     pipeline::Target accumulated = region.make_color();
     pipeline::Target stencil = region.make(pipeline::Format::s8);
     pipeline::Target nearest = region.make_depth(), previous = region.make_depth(), breaker = region.make_depth();
-    pipeline::Target reached = region.make_depth();        // D(sc): how far everything is composited
-    pipeline::Target last_in_order = region.make_depth();  // pass 3's own depth
-    pipeline::Target shifted;  // coherent_blend: rgb the depth before `nearest`, alpha itself
-    PixelSet full_counts;      // pass 3 counted to 128
-    PixelSet composited;       // in this iteration; kept as published alone
+    pipeline::Target reached = region.make_depth();        // D(sc): everything up to this depth is composited
+    pipeline::Target last_in_order = region.make_depth();  // the depth buffer of pass 3
+    pipeline::Target shifted;  // coherent_blend: rgb = the depth before `nearest`, alpha = `nearest`
+    PixelSet full_counts;      // pixels where pass 3 counted to 128
+    PixelSet composited;       // in this iteration; only kept as published
     BoundTies ties;
 };
 
-// Passes 1 and 2, or what stands for them: the formulations differ in these alone.
+// Passes 1 and 2, the only ones in which the formulations differ.
 struct FirstPasses {
     int geometry_passes = 0;
-    pipeline::Drawn (*find_nearest)(CoherentPeel&) = nullptr;  // tells whether anything is left
+    pipeline::Drawn (*find_nearest)(CoherentPeel&) = nullptr;  // its query says whether anything is left
     void (*find_previous)(CoherentPeel&) = nullptr;
 };
 
-// The range of passes 1 and 2: behind what is composited, before the opaque surface. Reads 0 and 1 are `reached` and
-// that.
+// The range of passes 1 and 2: behind everything composited, before the opaque surface. Reads 0 and 1 are `reached` and
+// the opaque depth.
 inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::FragmentBatch& in, const pipeline::Loads& own,
                               pipeline::Outputs& out) noexcept {
     if (!peel.from_the_start) keep_behind(in, own.depth(0), out);
     keep_before(in, own.depth(1), out);
 }
 
-// The same as a selection.
+// The same range as a selection.
 [[nodiscard]] inline pipeline::FragmentSelection selects_what_is_left(const CoherentPeel& peel) {
     return {.keeps = pipeline::Keeps::interval,
             .near = pipeline::KeyBound::beyond(peel.from_the_start ? pipeline::Target{} : peel.reached),
             .far = {pipeline::KeyBound::beyond(peel.region.opaque_depth())}};
 }
 
-// A pass that finds a depth in `target`, within the range that its program keeps.
+// The state of a pass that finds a depth in `target`, within the range that its program keeps.
 [[nodiscard]] inline pipeline::PassState find_state(pipeline::Target target, pipeline::CompareFunc func) {
     pipeline::PassState state;
     state.depth = {.enabled = true, .func = func, .write = true};
@@ -84,7 +84,7 @@ namespace listing::coherent_blend {
 extern const FirstPasses passes;
 }
 
-// Passes 3 to 6, with the bound between them; in this order, after the first passes.
+// Passes 3 to 6, with `reached` computed between them; call them in this order, after the first passes.
 void count_run(CoherentPeel& peel);
 void find_breaker(CoherentPeel& peel);
 void find_reached(CoherentPeel& peel);

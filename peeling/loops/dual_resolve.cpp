@@ -1,15 +1,15 @@
 // peeling/loops/dual_resolve.cpp - dual peeling as a resolve: pass i takes the i-th depth from the front and the
-// i-th from the back. It runs by default in place of the passes of peeling/algorithms/dual.cpp, which are its
-// definition: it leaves their bits, passes, queries and trace. tests/peeling/execution_test.cpp and
+// i-th from the back. It runs by default instead of the passes of peeling/algorithms/dual.cpp, which define it: bits,
+// passes, queries and trace are the same. tests/peeling/execution_test.cpp and
 // sequences_test.cpp compare the two.
 //
 // Declines   where a pixel's fragments alone do not decide how far it is peeled (a ratio, the paper's exit), where
-//            passes see another depth of a fragment, layers are kept, the background's alpha is not 1, the colour
-//            format is not one of stored_color.h or not that of back and picture, or no record can be sorted; and where
-//            MAX asks for an order or changes a depth: float targets with other than plain colours (block_passes.h),
-//            visible depths below the cleared -1, denormals that are flushed. Then the passes run.
+//            passes compute different depths of a fragment, layers are kept, the background's alpha is not 1, the
+//            colour format is not one of stored_color.h or not that of back and picture, or no record can be sorted;
+//            and where MAX depends on the order or changes a depth: float targets with colours that are not plain
+//            (block_passes.h), visible depths below the cleared -1, denormals that are flushed. Then the passes run.
 // Source     algorithms.md 0.7.
-// Ties       a depth is one group (block_passes.h).
+// Ties       fragments of one depth are one group (block_passes.h).
 #include "peeling/loops/dual_resolve.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using namespace pipeline;
 
 namespace {
 
-// Null where it may be tried.
+// The reason why the resolve does not apply to the frame; null if it may be tried.
 const char* why_not(const Frame& frame) {
     using enum TerminationRule;
     const auto rule = frame.termination.rule;
@@ -40,7 +40,7 @@ const char* why_not(const Frame& frame) {
     return frame.keep_layers ? "layers are kept" : nullptr;
 }
 
-// Limits count the first pass, too, which peels nothing.
+// Limits also count the first pass, which peels nothing.
 BlockRules rules_of(const Frame& frame) {
     BlockRules rules{.color = color_rules(*frame.profile, frame.color_format)};
     const int fixed = frame.termination.rule == TerminationRule::fixed ? frame.termination.passes : 0;
@@ -49,7 +49,7 @@ BlockRules rules_of(const Frame& frame) {
     return rules;
 }
 
-// Depths that MAX blending of (-z, z) onto (-1, -1) does not keep, or that have no order (depth.md 2.9).
+// True if a depth is changed by MAX blending of (-z, z) onto (-1, -1), or has no order (depth.md 2.9).
 bool has_foreign_depths(const TileFragments& fragments, const DeviceProfile& profile) {
     const bool flushes = profile.denormals == DenormalRule::flush;
     const bool wraps = profile.raster.depth_limits == rasterizer::DepthLimits::wrap;
@@ -59,7 +59,7 @@ bool has_foreign_depths(const TileFragments& fragments, const DeviceProfile& pro
     });
 }
 
-// Depths of a sorted list.
+// The number of distinct depths of a sorted list.
 std::uint32_t distinct(const ListBlock& block, std::size_t lane) {
     std::uint32_t depths = 0;
     const std::uint32_t end = block.visible[lane];
@@ -74,8 +74,8 @@ std::uint32_t most_distinct(const ListBlock& block) {
     return most;
 }
 
-// Pass by pass, the front before the back. A depth's fragments are one mixture, so its entry names the depth and no
-// fragment; near == far is one group, and the near one (algorithms.md 5.1).
+// Pass by pass, the front before the back. Fragments of one depth are merged, so the entry has the depth and no
+// fragment. near == far is one group, which counts as near (algorithms.md 5.1).
 void trace_pixel(Region& region, const ListBlock& block, std::size_t lane, std::uint32_t most_passes) {
     std::uint32_t near = 0, far = block.visible[lane];
     const auto add = [&](std::uint32_t k, Side side) {
@@ -90,7 +90,7 @@ void trace_pixel(Region& region, const ListBlock& block, std::size_t lane, std::
     }
 }
 
-// Blocks of an rgba8 region from their opaque colours up to the last quad.
+// The resolve of blocks of an rgba8 region, from their opaque colours to the last quad.
 class Rgba8Course {
   public:
     explicit Rgba8Course(Region& region)
@@ -98,7 +98,7 @@ class Rgba8Course {
           target_{region.make_color()},
           opaque_{RegionShortcuts{region}.words(region.opaque_color())},
           result_{RegionShortcuts{region}.words(target_)} {
-        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
+        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // pixels without a fragment
             result_[pixel] = opaque_[pixel] | 0xff000000u;
     }
 
@@ -122,7 +122,8 @@ class Rgba8Course {
     Word* result_;
 };
 
-// The same of floats, which are stored: the quad is a pass, which alone says which of two NaN stays.
+// The resolve for float targets, which are stored: the last quad is a pass, because only a pass determines which of two
+// NaNs is kept.
 class FloatCourse {
   public:
     explicit FloatCourse(Region& region) : region_{region}, front_{region.make_color()}, back_{region.make_color()} {
@@ -158,8 +159,8 @@ class FloatCourse {
     ColorCodes codes_;
 };
 
-// Colours first, passes last: as long as colours may still turn out to be ones that MAX orders nothing is booked, and
-// the trace is cut back to where it was.
+// Colours first, then passes: nothing is counted while a later colour may still be one that MAX does not order, and the
+// trace is truncated to its former length in that case.
 template <class Course>
 bool peel_region(Region& region, const SortedRecord& record) {
     RegionShortcuts shortcuts{region};

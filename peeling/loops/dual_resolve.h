@@ -1,9 +1,9 @@
-// peeling/loops/dual_resolve.h - the loop of dual peeling, computed at once from a tile's record.
+// peeling/loops/dual_resolve.h - the result of dual peeling's loop, computed at once from a tile's recorded fragments.
 //
-// Rule     It leaves what the passes would leave, ties included: the same codes, queries and trace. Where it does not
-//          apply it returns false, has counted nothing, and the passes run.
+// Rule     The result equals that of the passes, ties included: the same codes, queries and trace. Where it does not
+//          apply it returns false without having counted anything, and the passes run.
 // Source   algorithms.md 0.7.
-// Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: against literal execution
+// Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: comparison with literal execution
 #pragma once
 #include "pipeline/region/region.h"
 

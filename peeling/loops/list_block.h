@@ -1,6 +1,7 @@
-// peeling/loops/list_block.h - sixteen neighbouring pixels of a tile's record, each with its fragments near to far.
+// peeling/loops/list_block.h - view of 16 adjacent pixels of SortedLists, fragments sorted near to far, for SIMD peel
+// loops.
 //
-// Rule     A fragment is visible if its key lies before the opaque surface's.
+// Rule     A fragment is visible if its key is less than the opaque surface's; an equal key is hidden.
 // Tests    tests/peeling/loops/block_passes_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>
@@ -17,14 +18,15 @@ using pipeline::block_lanes;
 using BlockLanes = std::array<std::uint32_t, block_lanes>;
 
 struct ListBlock {
-    std::size_t first = 0;                  // its first pixel in the region
-    int count = 0;                          // its pixels; lanes behind the region's last pixel are empty
-    std::uint32_t height = 0;               // levels: visible fragments of the tallest list
-    BlockLanes visible{};                   // heights
-    BlockLanes hidden{};                    // fragments at the opaque surface or behind it
-    BlockLanes has_ties{};                  // not 0: a depth stands twice in the list
-    const std::uint64_t* levels = nullptr;  // of SortedLists
-    const pipeline::TileFragments::Color* color = nullptr;  // by index, straight
+    std::size_t first = 0;     // index of the first pixel in the region
+    int count = 0;             // pixels in the block, 1 to 16; lanes past the region's end have no fragments
+    std::uint32_t height = 0;  // the largest visible[lane]
+    BlockLanes visible{};      // visible fragments per lane (before the opaque surface)
+    BlockLanes hidden{};       // fragments per lane at the opaque surface or behind it
+    BlockLanes has_ties{};     // nonzero: two visible fragments have equal keys
+    const std::uint64_t* levels =
+        nullptr;  // entries level by level: levels[k * block_lanes + lane] is (key << 32 | index); see sorted_lists.h
+    const pipeline::TileFragments::Color* color = nullptr;  // by index_of(entry); not premultiplied
 
     [[nodiscard]] std::uint32_t key(std::size_t lane, std::size_t k) const noexcept {
         return pipeline::key_of(levels[k * block_lanes + lane]);
@@ -32,12 +34,13 @@ struct ListBlock {
     [[nodiscard]] std::uint32_t index(std::size_t lane, std::size_t k) const noexcept {
         return pipeline::index_of(levels[k * block_lanes + lane]);
     }
-    // Level k and those beside it that hold its depth end here, at most, and begin here, at least.
+    // One past the last entry in [k, most) with the key of entry k.
     [[nodiscard]] std::uint32_t end_of_depth(std::size_t lane, std::uint32_t k, std::uint32_t most) const noexcept {
         std::uint32_t end = k + 1;
         while (end < most && key(lane, end) == key(lane, k)) ++end;
         return end;
     }
+    // The first entry with the key of entry k, not below `least`.
     [[nodiscard]] std::uint32_t begin_of_depth(std::size_t lane, std::uint32_t least, std::uint32_t k) const noexcept {
         std::uint32_t begin = k;
         while (begin > least && key(lane, begin - 1) == key(lane, k)) --begin;
@@ -48,7 +51,7 @@ struct ListBlock {
     }
 };
 
-// `surface`: the opaque depths of the region, binary32.
+// `surface`: per pixel, the bits of the opaque depth (binary32), indexed from the region's first pixel.
 [[nodiscard]] inline ListBlock block_of(const pipeline::SortedLists& sorted, std::size_t number,
                                         const std::uint32_t* surface,
                                         const pipeline::TileFragments::Color* color) noexcept {

@@ -1,8 +1,9 @@
 // peeling/loops/peel_sets.cpp - the loop of Algorithm 1 and its three passes (algorithms.md 9).
 //
 // Needs      fragment programs with discard, separate alpha blending.
-// Passes     3 an iteration where a set is ordered, else 2; the first iteration has no layer to composite.
-// Invariant  before an iteration everything up to `peeled` is composited; `layer` is found, and composited by it.
+// Passes     3 per iteration with an ordered set, else 2; the first iteration has no layer to composite.
+// Invariant  before an iteration everything up to `peeled` is composited; `layer` is found, and the iteration
+//            composites it.
 #include "peeling/loops/peel_sets.h"
 
 #include <utility>
@@ -16,7 +17,7 @@ using namespace pipeline;
 
 namespace {
 
-// Empty stands for the whole list (PassState::primitives).
+// An empty span means the whole list (PassState::primitives).
 std::span<const PrimitiveRange> as_span(const std::optional<PrimitiveRange>& range) {
     if (!range) return {};
     return {&*range, 1};
@@ -33,11 +34,11 @@ class Peel {
         region_.call(peeled_, "layer");
         region_.call(layer_, "layer");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
-        region_.clear(peeled_, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
+        region_.clear(peeled_, {.depth = 0.0f});  // as published: strict comparisons lose depth 0 (E23)
         from_the_start_ = !published_;
     }
 
-    // A limit is asked for all passes of the next iteration together, so that it never ends one half way.
+    // A limit is checked for all passes of the next iteration together, so that an iteration is never left incomplete.
     void run() {
         bool more = true, has_layer = false;
         while (!region_.limit_reached((has_layer ? 1 : 0) + 1 + (sets_.ordered ? 1 : 0))) {
@@ -48,17 +49,18 @@ class Peel {
             has_layer = true;
             if (!(more = region_.any(found.passed, idle()))) break;
         }
-        if (more && has_layer && !region_.limit_reached()) composite_layer();  // a limit ended it, and leaves room
+        if (more && has_layer && !region_.limit_reached())
+            composite_layer();  // stopped by a limit that still allows this pass
         ties_.report(region_);
         publish_over_background(region_, accumulated_, region_.opaque_color());
     }
 
   private:
-    // As published, finished pixels change while others are peeled; and under a limit the last layer waits for its
-    // composite.
+    // As published, finished pixels change while others are peeled. Under a pass limit the last layer still has to be
+    // composited.
     [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
 
-    // The nearest unordered fragment strictly behind `peeled`, before the opaque surface.
+    // Finds the nearest unordered fragment strictly behind `peeled` and before the opaque surface.
     Drawn find_layer() {
         region_.copy(region_.opaque_depth(), layer_);
         PassState state;
@@ -74,8 +76,8 @@ class Peel {
         });
     }
 
-    // The ordered fragments behind `peeled`, up to the layer and with it, as they arrive: in front of the layer at
-    // equal depth.
+    // Composites the ordered fragments behind `peeled` up to and including the layer's depth, in submission order: at
+    // equal depth they are in front of the layer.
     void composite_ordered() {
         PassState state = composite_state(accumulated_);
         state.reads = {peeled_, layer_, region_.opaque_depth()};
@@ -85,7 +87,7 @@ class Peel {
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             if (!from_the_start_) keep_behind(in, own.depth(0), out);
             if (published_)
-                keep_before(in, own.depth(1), out);  // loses what is at the layer's depth (E24)
+                keep_before(in, own.depth(1), out);  // as published: loses fragments at the layer's depth (E24)
             else
                 keep_up_to(in, own.depth(1), out);
             keep_before(in, own.depth(2), out);
@@ -93,7 +95,7 @@ class Peel {
         }));
     }
 
-    // The layer of this iteration becomes the peeled one of the next.
+    // Composites the layer, which becomes `peeled` of the next iteration.
     void composite_layer() {
         PassState state = composite_state(accumulated_);
         state.reads = {layer_, region_.opaque_depth()};

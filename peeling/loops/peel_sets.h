@@ -1,10 +1,10 @@
 // peeling/loops/peel_sets.h - Algorithm 1: unordered geometry peeled layer by layer, ordered geometry composited
 // between two peels. Carr, Mech and Miller 2008, section 3; algorithms.md 9, errata E23 and E24.
 //
-// Rule     An iteration: the nearest unordered layer behind the last one (`peeled`, strict) is found; the ordered
-//          fragments up to it are composited; then the layer, by equality. As published, ordered fragments at the
-//          layer's own depth, and all at depth 0, are lost, and unordered ones at the opaque surface are composited in
-//          every iteration.
+// Rule     An iteration finds the nearest unordered layer strictly behind the last one (`peeled`), composites the
+//          ordered fragments up to it, then composites the layer, by equality of depth. As published, ordered fragments
+//          at the layer's own depth, and all fragments at depth 0, are lost, and unordered ones at the opaque surface
+//          are composited in every iteration.
 // Tests    tests/peeling/sequences_test.cpp, published_test.cpp
 #pragma once
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace strata::peeling {
 
-// Empty: one set, the whole list, nothing of it ordered.
+// Empty ranges: one unordered set, which is the whole list.
 struct PeelSets {
     std::optional<pipeline::PrimitiveRange> ordered, unordered;
 };

@@ -1,6 +1,5 @@
-// peeling/programs/average-inl.h - average_text-inl.h for vectors. For *_simd.cpp alone: Highway compiles it once a
-// set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3). Tests:
-// tests/peeling/programs/programs_test.cpp
+// peeling/programs/average-inl.h - average_text-inl.h for vectors. Only for *_simd.cpp: Highway's foreach_target.h
+// compiles it once per target (rasterizer/reference/kernels.md 3). Tests: tests/peeling/programs/programs_test.cpp
 #include <cstdint>
 
 #include "hwy/highway.h"
@@ -24,7 +23,7 @@ using Integers = hn::RebindToSigned<Words>;
 using WordVec = hn::Vec<Words>;
 using FloatVec = hn::Vec<Floats>;
 
-// The operations of scalar::OneAverage, which says what they mean.
+// The operations of scalar::OneAverage, where they are documented, for vectors.
 struct VectorLanes {
     HWY_INLINE static FloatVec all(float v) { return hn::Set(Floats{}, v); }
     HWY_INLINE static WordVec whole(FloatVec n) {
@@ -43,7 +42,7 @@ struct VectorLanes {
 
 #include "peeling/programs/average_text-inl.h"
 
-// Where there is something to average; elsewhere the background stays.
+// Lanes with something to average; the others keep the background.
 HWY_INLINE hn::Mask<Floats> has_average(FloatVec a, FloatVec n) {
     const FloatVec zero = hn::Zero(Floats{});
     return hn::And(hn::Gt(n, zero), hn::Gt(a, zero));

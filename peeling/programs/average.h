@@ -1,7 +1,7 @@
 // peeling/programs/average.h - the resolve of weighted_average.
 //
 // Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n as average_text-inl.h computes
-//          them. The background where n or sums.a is not above 0. Alpha: 1 - t (1 - background's).
+//          them. Where n or sums.a is not above 0, C is the background. Alpha: 1 - t (1 - background alpha).
 // Source   Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8. The guard for sums.a = 0 is ours.
 // Tests    tests/peeling/programs/programs_test.cpp
 #pragma once
@@ -11,16 +11,16 @@
 namespace strata::peeling {
 inline namespace strict {
 
-// Lanes of count pixels; n is the number of fragments.
+// Resolves `count` lanes; n is the number of fragments.
 void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,
                      const pipeline::ColorLanes& background, pipeline::ColorLanes& out, std::size_t count) noexcept;
 
 namespace scalar {
 
-// The operations of average_text-inl.h on one lane.
+// The operations of average_text-inl.h for one lane.
 struct OneAverage {
     static constexpr float all(float v) noexcept { return v; }
-    // n as an integer, 0 for what is not above 0. A binary32 count stops growing at 2^24, so the limit is never met.
+    // n as an integer; 0 if n is not above 0. A binary32 count stops growing at 2^24, so the limit is never reached.
     static std::uint32_t whole(float n) noexcept {
         const float positive = n > 0.0f ? n : 0.0f;
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(positive < 0x1p30f ? positive : 0x1p30f));

@@ -10,9 +10,10 @@
 namespace strata::peeling {
 inline namespace strict {
 
-// OVER from the far end, in the order that `near_to_far` says: alpha c + (1 - alpha) D, each operation rounded to
-// binary64, in this order (algorithms.md 17). By exact depth, the first submitted of equal ones stays in front. Alpha:
-// 1 - (1 - background's) (1 - alpha) ..., from the far end. Premultiplied, as the background is.
+// Blends OVER from the far end, in the order of `near_to_far` reversed: alpha c + (1 - alpha) D, each operation rounded
+// to binary64, in this order (algorithms.md 17). `near_to_far` is sorted by exact depth, the first submitted of equal
+// ones in front. Alpha: 1 - (1 - background alpha) (1 - alpha) ..., from the far end. The result is premultiplied, like
+// the background.
 [[nodiscard]] inline std::array<double, 4> composite(std::span<const KeyedFragment> fragments,
                                                      const FragmentOrder& near_to_far,
                                                      const pipeline::Rgba& background) {

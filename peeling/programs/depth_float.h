@@ -1,8 +1,8 @@
-// peeling/programs/depth_float.h - stored depths as colours: what a program writes into a float target, and reads back
-// as a code.
+// peeling/programs/depth_float.h - converts stored depths to values that a program writes into a float target, and back
+// to codes.
 //
 // Rule     D32F: the float itself. D16, D24: code / (2^n - 1) rounded to binary32, and back to the nearest code; every
-//          code comes back, and greater codes have greater values (24 bits fit into a binary32).
+//          code is recovered, and greater codes have greater values (24 bits fit into a binary32).
 // Tests    tests/peeling/programs/programs_test.cpp
 #pragma once
 #include <bit>

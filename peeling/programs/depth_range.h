@@ -1,5 +1,5 @@
-// peeling/programs/depth_range.h - what the fragment programs of Carr's algorithms share: discards outside a range of
-// stored codes, composites in submission order, and pixels that a fault concerns.
+// peeling/programs/depth_range.h - shared parts of the fragment programs of Carr's algorithms: discard outside a range
+// of stored codes, compositing in submission order, and sets of pixels for fault reports.
 #pragma once
 #include <string>
 #include <utility>
@@ -12,7 +12,7 @@ namespace strata::peeling {
 
 using CodeLanes = pipeline::Lanes<std::uint32_t>;
 
-// Each discards all fragments but those that its name says. Codes of one format order like depths.
+// Each keeps the fragments that its name says and discards the others. Codes of one format are ordered like depths.
 inline void keep_behind(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
     discard_peeled(in, bound, out);
 }
@@ -29,13 +29,13 @@ inline void keep_at(const pipeline::FragmentBatch& in, const CodeLanes& bound, p
     for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(in.code[i] == bound[i]);
 }
 
-// A pass that looks at depth alone.
+// The needs of a pass that reads only the stored code.
 inline constexpr rasterizer::FragmentNeeds code_only{
     .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
 inline constexpr rasterizer::FragmentNeeds code_with_color{
     .shader_z = false, .code = true, .exact_code = false, .color = true, .texcoord = false, .facing = false};
 
-// A pass without depth and stencil tests that blends what its program keeps UNDER `accumulated`.
+// The state of a pass without depth and stencil tests that blends the fragments its program keeps UNDER `accumulated`.
 [[nodiscard]] inline pipeline::PassState composite_state(pipeline::Target accumulated) {
     pipeline::PassState state;
     state.color[0] = accumulated;
@@ -51,11 +51,11 @@ inline void composite_under(const pipeline::FragmentBatch& in, pipeline::Outputs
     std::copy_n(in.code.begin(), lanes(in), out.key.begin());
 }
 
-// Pixels of a region, each once.
+// A set of pixels of a region.
 class PixelSet {
   public:
     explicit PixelSet(const pipeline::Region& region) : has_(region.rect().area()) {}
-    // True if it is new.
+    // True if the pixel was not yet in the set.
     bool add(std::uint32_t pixel) {
         if (has_[pixel]) return false;
         has_[pixel] = true;
@@ -76,7 +76,7 @@ class PixelSet {
     std::uint32_t first_ = 0;
 };
 
-// Arrivals at a depth that a pass composites by equality: more than one at a pixel is a tie at a peel's bound.
+// Detects ties at a peel's bound: more than one fragment at a pixel in a pass that composites by equality of depth.
 class BoundTies {
   public:
     explicit BoundTies(const pipeline::Region& region) : tied_{region}, arrived_(region.rect().area()) {}
@@ -95,7 +95,7 @@ class BoundTies {
 
   private:
     PixelSet tied_;
-    std::vector<std::uint32_t> arrived_;  // by pixel: the last pass in which something did
+    std::vector<std::uint32_t> arrived_;  // per pixel, the last pass in which it had such a fragment
     std::uint32_t pass_ = 1;
 };
 

@@ -1,5 +1,6 @@
-// peeling/programs/fragment_lists.cpp - two walks: coverage says how long every list may become, then fragments are
-// filed where they belong. So a pixel's list is one piece of memory, in submission order, without sorting.
+// peeling/programs/fragment_lists.cpp - builds the lists in two steps: the coverage bounds every list's length, then
+// fragments are stored at their pixel's offset. So a pixel's list is contiguous and in submission order without
+// sorting.
 #include "peeling/programs/fragment_lists.h"
 
 #include <bit>
@@ -17,7 +18,7 @@ namespace {
 constexpr rasterizer::FragmentNeeds list_needs{
     .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
 
-// Puts fragments into their pixels' lists as they come; batches number their pixels from the range's first.
+// Stores fragments in their pixels' lists in submission order; batches number their pixels from the range's first.
 class Filing {
   public:
     Filing(const Region& region, FragmentLists& fragment_lists)
@@ -43,14 +44,14 @@ class Filing {
     }
 
   private:
-    // By the algorithm's key, strictly before the surface; of a float key the target holds the float's bits
+    // The algorithm's key must be less than the surface's; for a float key the target contains the float's bits
     // (algorithms.md 0.1).
     [[nodiscard]] bool is_visible(const FragmentBatch& in, std::size_t i) const {
         const std::uint32_t opaque = opaque_[in.pixel[i]];
         return by_shader_z_ ? in.shader_z[i] < std::bit_cast<float>(opaque) : in.code[i] < opaque;
     }
 
-    // A surface's depth is nearer than the far end: LESS let it pass.
+    // A surface's depth is less than the far end, because LESS let it pass.
     [[nodiscard]] bool lies_on_surface(const FragmentBatch& in, std::size_t i) const {
         const std::uint32_t opaque = opaque_[in.pixel[i]];
         return opaque != far_ && (by_shader_z_ ? in.shader_z[i] == std::bit_cast<float>(opaque) : in.code[i] == opaque);
@@ -64,7 +65,7 @@ class Filing {
 
 }  // namespace
 
-// A range is a part of one row or whole rows (next_range), so that it is a rectangle.
+// A range is part of one row or whole rows (next_range), so it is a rectangle.
 rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept {
     const int width = region.width();
     const int first = static_cast<int>(pixels.first), size = static_cast<int>(pixels.size());
@@ -78,8 +79,8 @@ std::vector<std::uint32_t> coverage_of(Region& region) {
     return coverage;
 }
 
-// Goes on pixel by pixel while the fragments fit. Beyond the first row the range ends at a full row only: `last` moves
-// there, or within the row in which the range began.
+// Advances pixel by pixel while the fragments fit. Beyond the first row the range ends only at the end of a row: `last`
+// moves there, or within the row in which the range began.
 PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
                       std::uint64_t most) noexcept {
     const auto columns = static_cast<std::uint32_t>(width), end = static_cast<std::uint32_t>(coverage.size());
@@ -90,13 +91,13 @@ PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::u
         fragments += coverage[p];
         const bool ends_row = (p + 1) % columns == 0;
         if (ends_row || p < row_end) range.last = p + 1;
-        if (ends_row && first % columns != 0) break;  // the rest of a row that was begun
+        if (ends_row && first % columns != 0) break;  // the rest of the row in which the range began
     }
     range.last = std::max(range.last, first + 1);
     return range;
 }
 
-// Room is given out by coverage, which counts hidden and masked fragments, too: a list may end before the next one
+// Space is reserved by coverage, which also counts hidden and masked fragments, so a list may end before the next one
 // starts.
 void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage, Counting counting,
                   FragmentLists& fragment_lists) {
@@ -110,7 +111,7 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
     fragment_lists.end = fragment_lists.start;
     fragment_lists.at_opaque.assign(pixels.size(), 0);
     if (fragment_lists.fragments.size() < fragments) {
-        fragment_lists.fragments = {};  // so that the old ones are gone before there are new ones
+        fragment_lists.fragments = {};  // frees the old fragments before the new ones are allocated
         fragment_lists.fragments.resize(fragments);
     }
     Filing file{region, fragment_lists};

@@ -1,8 +1,8 @@
 // peeling/programs/fragment_lists.h - the visible fragments of a region's pixels, pixel by pixel, in submission order.
 //
-// Rule     A fragment is visible if its key lies before the opaque surface's. Lists are made of as many pixels at a
-//          time as fit into a stated memory, in row-major order: coverage says beforehand how many fragments a pixel
-//          has at most.
+// Rule     A fragment is visible if its key is less than the opaque surface's. Lists are built for as many pixels at a
+//          time as fit into a given amount of memory, in row-major order; the coverage is an upper bound on the
+//          fragments of a pixel.
 // Tests    tests/peeling/programs/fragment_lists_test.cpp
 #pragma once
 #include <cstdint>
@@ -23,11 +23,11 @@ struct KeyedFragment {
     std::uint32_t key = 0;         // in the algorithm's key: a stored code, or ordered_code(shader_z)
     std::uint32_t exact_code = 0;  // by DepthPath::exact
     std::uint32_t primitive = 0;
-    pipeline::Rgba color{};  // straight
+    pipeline::Rgba color{};  // not premultiplied
     friend bool operator==(const KeyedFragment&, const KeyedFragment&) = default;
 };
 
-// Pixels of a region, numbered row by row: whole rows, or a part of one.
+// Pixels of a region, numbered row by row: whole rows, or part of one row.
 struct PixelRange {
     std::uint32_t first = 0, last = 0;  // half-open
     [[nodiscard]] std::uint32_t size() const noexcept { return last - first; }
@@ -35,29 +35,29 @@ struct PixelRange {
 };
 [[nodiscard]] rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept;
 
-// How many fragments each pixel of the region has, before MASK and before any test.
+// The number of fragments of each pixel of the region, before MASK and before any test.
 [[nodiscard]] std::vector<std::uint32_t> coverage_of(pipeline::Region& region);
 
-// The longest range from pixel `first` on whose pixels have `most` fragments at most all together; one pixel, however
+// The longest range that starts at pixel `first` and has at most `most` fragments in total; at least one pixel, however
 // many it has.
 [[nodiscard]] PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
                                     std::uint64_t most) noexcept;
 
 struct FragmentLists {
     PixelRange pixels;
-    std::vector<std::size_t> start, end;   // of each pixel of the range, in `fragments`
-    std::vector<KeyedFragment> fragments;  // at least as many as there are
+    std::vector<std::size_t> start, end;   // per pixel of the range, offsets in `fragments`
+    std::vector<KeyedFragment> fragments;  // may be longer than needed
     std::vector<std::uint32_t>
-        at_opaque;  // of each pixel of the range: fragments that LESS hides behind a surface of the same key
-    // `pixel` counts in the region.
+        at_opaque;  // per pixel of the range: fragments that LESS hides behind a surface of the same key
+    // `pixel` is an index in the region.
     [[nodiscard]] std::span<const KeyedFragment> of(std::uint32_t pixel) const noexcept {
         const std::size_t p = pixel - pixels.first;
         return {fragments.data() + start[p], end[p] - start[p]};
     }
 };
 
-// Fills `fragment_lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted
-// as a pass of the algorithm, where the range is the whole region; or a look of the emulator's own.
+// Fills `fragment_lists` with those of `pixels`, reusing its memory. `coverage` is the region's. Counted as a pass of
+// the algorithm if the range is the whole region, else not counted.
 void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
                   pipeline::Counting counting, FragmentLists& fragment_lists);
 

@@ -7,8 +7,9 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-// OVER, far to near (algorithms.md 2). A pixel without such a layer holds alpha 0, which leaves it alone, and the
-// opaque depth, by which the trace knows it: nothing else looks at depths, which are textures as good as loads then.
+// OVER, far to near (algorithms.md 2). A pixel without such a layer has alpha 0, which leaves the target unchanged, and
+// the opaque depth, by which the trace recognises it. Only the trace reads the depths; without one they are bound as
+// textures instead of loads.
 void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
         PassState state;
@@ -31,7 +32,7 @@ void composite_layer(Region& region, Target layer, Target depth, Target accumula
     state.reads[0] = layer;
     const bool is_traced = trace_layer(state, region, depth);
     static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone
+        out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves the target unchanged
         if (is_traced) trace_layer(own, lanes(in), Side::front, out);
     }));
 }

@@ -1,6 +1,6 @@
 // peeling/programs/layer_quads.h - saved layers composited as textured quads, far to near. Everitt 2001, "Putting It
-// All Together". Straight colours, alpha 0 where a pixel has no such layer; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA. A
-// layer's depth says where it has a fragment: elsewhere it is the opaque surface's.
+// All Together". Colours are not premultiplied, and alpha is 0 where a pixel has no such layer; blending SRC_ALPHA,
+// ONE_MINUS_SRC_ALPHA. Where a layer has no fragment, its depth is the opaque surface's.
 #pragma once
 #include <vector>
 
@@ -12,7 +12,7 @@ struct SavedLayers {
     std::vector<pipeline::Target> color, depth;  // near to far
 };
 
-// The work of a layer's quad is counted with the iteration that made the layer; the first iteration is 1.
+// The work of a layer's quad is counted in the iteration that made the layer; the first iteration is 1.
 void composite_quads(pipeline::Region& region, const SavedLayers& layers, pipeline::Target result);
 
 }  // namespace strata::peeling

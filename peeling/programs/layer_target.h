@@ -1,18 +1,18 @@
-// peeling/programs/layer_target.h - what one-layer-a-pass peels do with the layer.
+// peeling/programs/layer_target.h - how peels with one layer per pass composite the layer.
 #pragma once
 #include "peeling/programs/programs.h"
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
 
-// Full screen: a premultiplied layer UNDER what is accumulated. `depth` differs from the opaque depth where it has a
-// fragment.
+// A full-screen quad that blends a premultiplied layer UNDER `accumulated`. `depth` differs from the opaque depth where
+// the layer has a fragment.
 void composite_layer(pipeline::Region& region, pipeline::Target layer, pipeline::Target depth,
                      pipeline::Target accumulated);
 
-// A quad that blends a layer reads the two depths that tell where it is. The trace alone looks at their values: without
-// one they are textures, as good as loads, which no program samples. True with a trace: then a program calls the other
-// of this name.
+// A quad that blends a layer binds the two depths that show where it has fragments. Only the trace reads their values:
+// without one they are bound as textures that no program samples. Returns true with a trace; the program then calls the
+// other overload.
 [[nodiscard]] inline bool trace_layer(pipeline::PassState& state, const pipeline::Region& region,
                                       pipeline::Target depth) {
     const bool is_traced = region.frame().trace;

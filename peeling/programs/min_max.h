@@ -10,19 +10,20 @@ namespace strata::peeling {
 
 inline constexpr pipeline::ClearValue empty_min_max{.color = {-1, -1, 0, 0}};
 
-// On which side of the peeled range a fragment lies, as 0 or ~0 a lane.
+// The side of the peeled range on which a fragment is, as 0 or ~0 per lane.
 struct alignas(64) PeelLanes {
     pipeline::Lanes<std::uint32_t> is_near, is_far, is_between;
 };
 
 inline namespace strict {
 
-// z beyond the opaque surface, before `near` or behind `far`: skipped, no lane set. near == far counts as near.
+// A fragment beyond the opaque surface, before `near` or behind `far` is skipped: no lane is set. near == far counts as
+// near.
 void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
               const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& side) noexcept;
 
-// Classifies by the frame's reference depth and its epsilon: a depth within epsilon of `near` or `far` counts as that
-// one. Depths are compared as values, rounded to binary32 or not rounded, as the frame says.
+// Classifies by the frame's reference depth and its epsilon: a depth within epsilon of `near` or `far` counts as equal
+// to it. Depths are compared as values; the frame determines whether they are rounded to binary32.
 inline void classify(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
                      const pipeline::ColorLanes& min_max, const pipeline::Lanes<std::uint32_t>& opaque,
                      PeelLanes& side) noexcept {
@@ -45,12 +46,13 @@ inline void classify(const pipeline::DepthCompare& compare, const pipeline::Frag
 void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
                    pipeline::ColorLanes& out) noexcept;
 
-// Writes the colours of a dual peel. RT1: the front colour, with the near fragment UNDER it; RT2: the colour
-// of the far one, else 0.
+// Writes the colours of a dual peel. RT1: the front colour, with the near fragment blended UNDER it; RT2: the colour of
+// the far fragment, else 0.
 void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& side,
                   pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept;
 
-// The definitions. NaN as a depth fails every comparison: such a fragment lies on no side and writes what MAX ignores.
+// The definitions. A NaN depth fails every comparison: such a fragment is on neither side and writes values that MAX
+// ignores.
 namespace scalar {
 
 inline void classify(const pipeline::Lanes<float>& shader_z, const pipeline::ColorLanes& min_max,
@@ -66,7 +68,7 @@ inline void classify(const pipeline::Lanes<float>& shader_z, const pipeline::Col
     }
 }
 
-// -1 is the least value that -z and z have for depths in [0, 1], so MAX takes any depth over it (E9).
+// -1 is the least value of -z and z for depths in [0, 1], so MAX prefers any depth (E9).
 inline void write_min_max(const pipeline::Lanes<float>& shader_z, const pipeline::Lanes<std::uint32_t>& chosen,
                           pipeline::ColorLanes& out, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
@@ -116,7 +118,7 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     }));
 }
 
-// What a peel looks at between the ends that `min_max` holds: fragments before the surface.
+// Selects the fragments of a peel: between the ends in `min_max`, and before the surface.
 [[nodiscard]] inline pipeline::FragmentSelection ends_between(const pipeline::DepthCompare& compare,
                                                               pipeline::Target min_max, pipeline::Target surface,
                                                               pipeline::Outside outside) {
@@ -128,10 +130,10 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     return selection;
 }
 
-// The layers that a dual peel composites on the fly, as images of their own, where the frame keeps layers. After a peel
-// its fragments are drawn again, those at the near and those at the far end by themselves, with the straight colours
-// that came in. Fragments tied at a depth are one layer, MAX of each channel. That is no pass of the machine, and not
-// counted (algorithms.md 5.5).
+// The layers that a dual peel composites during the peel, as separate images, if the frame keeps layers. After a peel
+// its fragments are drawn again, those at the near end and those at the far end separately, with the fragments' own
+// colours, not premultiplied. Fragments tied at a depth are one layer, MAX of each channel. This is not a pass of the
+// emulated device and not counted (algorithms.md 5.5).
 class DualLayers {
   public:
     explicit DualLayers(pipeline::Region& region) : region_{region} {
@@ -139,7 +141,7 @@ class DualLayers {
             layer_ = {region.make_color(), region.make_depth(), region.make(pipeline::Format::rg32f)};
     }
 
-    // Keeps both layers of the pass that reads this min-max depth.
+    // Keeps both layers of the pass that reads this min-max target.
     void keep(pipeline::Target min_max) {
         if (!region_.frame().keep_layers) return;
         pipeline::RegionShortcuts{region_}.uncounted([&] {
@@ -148,7 +150,7 @@ class DualLayers {
         });
     }
 
-    // After the last pass. Other regions may go on: this one has nothing more to show.
+    // Call after the last pass. Other regions may continue: this one adds empty layers.
     void end() {
         if (!region_.frame().keep_layers) return;
         pipeline::RegionShortcuts{region_}.uncounted([&] { clear(); });
@@ -185,7 +187,7 @@ class DualLayers {
         region_.keep_layer(layer_.color, layer_.depth, side);
     }
 
-    // The depths from one end of what is left to the same end.
+    // Replaces the depths of one end of the range by the depth of that end.
     void find_end(pipeline::Target min_max, pipeline::Side side) {
         using namespace pipeline;
         PassState state;

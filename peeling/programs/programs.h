@@ -1,6 +1,6 @@
-// peeling/programs/programs.h - what several algorithms' fragment programs and passes have in common.
-// Functions over the lanes of a batch are loops in namespace scalar, which is their meaning; outside it stand the same
-// loops compiled for the chosen instruction set (programs_simd.cpp). Tests: tests/peeling/programs/programs_test.cpp
+// peeling/programs/programs.h - shared parts of several algorithms' fragment programs and passes. Functions over the
+// lanes of a batch are defined by loops in namespace scalar; outside it are the same loops compiled for the chosen
+// instruction set (programs_simd.cpp). Tests: tests/peeling/programs/programs_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace strata::peeling {
 inline namespace strict {
 
-using rasterizer::ordered_code;  // the audit's form of a shader_z key
+using rasterizer::ordered_code;  // the trace's form of a shader_z key
 
 [[nodiscard]] inline std::size_t lanes(const pipeline::FragmentBatch& batch) noexcept {
     return static_cast<std::size_t>(batch.count);
@@ -23,12 +23,12 @@ using rasterizer::ordered_code;  // the audit's form of a shader_z key
 
 // out = (c a, a): what UNDER and additive blending expect.
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
-// A fragment dies unless its code is greater than the one already peeled at its pixel.
+// Discards a fragment unless its code is greater than the one already peeled at its pixel.
 void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
                     pipeline::Outputs& out) noexcept;
 
-// A fragment dies unless it lies behind the one already peeled: by the frame's compare, reference and epsilon included.
-// Needs the reference arrays unless the compare is plain.
+// Discards a fragment unless it is behind the one already peeled, by the frame's comparison including reference and
+// epsilon. Needs the reference arrays unless the comparison is plain.
 inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
                            const pipeline::Lanes<std::uint32_t>& peeled, pipeline::Outputs& out) noexcept {
     if (compare.is_plain()) return discard_peeled(in, peeled, out);

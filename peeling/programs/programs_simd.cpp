@@ -1,5 +1,5 @@
 // peeling/programs/programs_simd.cpp - the lane loops of programs.h and min_max.h, inlined (flatten) and compiled once
-// an instruction set, over whole vectors: the arrays of a batch have room for them.
+// per instruction set, over whole vectors: the arrays of a batch are padded for them.
 // How kernels are written: kernels.md. Tests: tests/peeling/programs/programs_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/programs/programs_simd.cpp"
@@ -18,7 +18,7 @@ using pipeline::ColorLanes;
 using MaskLanes = pipeline::Lanes<std::uint32_t>;
 using FloatLanes = pipeline::Lanes<float>;
 
-// Whole vectors of the widest set, sixteen lanes: lanes behind the count are scratch.
+// The count rounded up to whole vectors of the widest set, sixteen lanes; lanes beyond the count are scratch.
 constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::size_t{15}; }
 
 [[gnu::flatten]] void premultiply_lanes(const ColorLanes& color, ColorLanes& out, std::size_t count) {
@@ -44,7 +44,7 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
     scalar::write_layers(color, front, side, next_front, back, padded(count));
 }
 
-// Written out: the loop over the bits of n does not become vectors by itself.
+// Written with explicit vectors: the compiler does not vectorize the loop over the bits of n.
 void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background, ColorLanes& out,
                    std::size_t count) {
     namespace hn = hwy::HWY_NAMESPACE;

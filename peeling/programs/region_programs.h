@@ -1,4 +1,4 @@
-// peeling/programs/region_programs.h - passes that several algorithms end with or ask about, over a region.
+// peeling/programs/region_programs.h - final passes, selections and queries that several algorithms share.
 #pragma once
 #include "peeling/programs/programs.h"
 #include "peeling/programs/under.h"
@@ -6,7 +6,7 @@
 #include "rasterizer/rules/depth_key.h"
 
 namespace strata::peeling {
-// The window of a peel that keeps the nearest fragment behind `peeled`, by whatever depth it compares.
+// The selection of a peel that keeps the nearest fragment behind `peeled`, by any compared depth.
 [[nodiscard]] inline pipeline::FragmentSelection nearest_behind(const pipeline::DepthCompare& compare,
                                                                 pipeline::Target peeled) {
     pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::nearest,
@@ -17,21 +17,21 @@ namespace strata::peeling {
 
 inline namespace strict {
 
-// The promise that a one-layer peel may give about a region whose count is 0. Such a pass leaves the opaque depth as
-// what is peeled, and a fragment that is stored before that but compared as behind it would have been found. Only a
-// first pass that draws other vertices and compares nothing may find nothing where the second finds such a fragment.
+// What a one-layer peel can guarantee about a region whose count is 0. Such a pass leaves the opaque depth in `peeled`,
+// and a fragment that is stored in front of that depth but compares as behind it would have been found. Only if the
+// first pass draws other vertices and compares nothing may it find nothing where the second finds such a fragment.
 [[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
     return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::yes : pipeline::Idle::no;
 }
 
-// A fragment's window depth, whatever the depth order: `shader_z` is the key that orders fragments (depth.md 11.2).
+// A fragment's window depth under either depth order: `shader_z` is the key that orders fragments (depth.md 11.2).
 [[nodiscard]] inline float window_z(const pipeline::Frame& frame, float shader_z) noexcept {
     const bool is_reversed = frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
     return is_reversed ? rasterizer::depth_key(shader_z) : shader_z;
 }
 
-// OVER, straight onto premultiplied: onto an opaque background alpha stays 1 and is not written, else it is 1 - (1 -
-// alpha) (1 - A).
+// OVER of a colour that is not premultiplied onto a premultiplied one: onto an opaque background alpha stays 1 and is
+// not written, else it is 1 - (1 - alpha) (1 - A).
 [[nodiscard]] inline pipeline::Blend over_background(const pipeline::Frame& frame) noexcept {
     using namespace pipeline;
     Blend over = blend_mode::over;
@@ -42,7 +42,7 @@ inline namespace strict {
     return over;
 }
 
-// Publishes the front over the colour behind it, alpha and all: the last quad of every peel that composites from the
+// Publishes the front over the colour behind it, including alpha: the last quad of every peel that composites from the
 // front.
 inline void publish_over(pipeline::Region& region, pipeline::Target front, FrontAlpha meaning,
                          pipeline::Target behind) {

@@ -1,7 +1,8 @@
-// peeling/programs/sample_lists.h - the fragments that samples of many targets hold of a pixel: sorted, and composited.
+// peeling/programs/sample_lists.h - sorts and composites the fragments that a pixel has in the samples of several
+// targets.
 //
-// Rule     Samples of one code are empty. The others are composited UNDER in binary32, nearest first, equal codes in
-//          the order of the samples, and what is left of the light falls on the background.
+// Rule     Samples with a given code are empty. The others are composited UNDER in binary32, nearest first, equal codes
+//          in the order of the samples, and the background is added with the remaining transmittance.
 // Numbers  Colours are four channels of 8, 16 or 32 bits, as targets of a frame's colour format have them.
 // Tests    tests/peeling/programs/sample_lists_test.cpp
 #pragma once
@@ -22,7 +23,7 @@ namespace strata::peeling {
 
 // One sample of every pixel of a region.
 struct SamplePlanes {
-    const std::uint32_t* codes;  // of depth
+    const std::uint32_t* codes;  // depth codes
     pipeline::Texels color;
 };
 
@@ -32,9 +33,9 @@ class SampleLists {
         : samples_{std::move(samples)}, empty_{empty}, rounding_{rounding} {
         words_.reserve(samples_.size());
     }
-    // The pixel's colour over the one that `background` holds.
+    // The pixel's colour over its colour in `background`.
     [[nodiscard]] Rgba composite(std::uint32_t pixel, const pipeline::Texels& background);
-    // (code, number of the sample) of what was composited last, nearest first.
+    // (code, sample index) of the fragments composited last, nearest first.
     [[nodiscard]] std::span<const std::uint64_t> order() const noexcept { return words_; }
 
   private:
@@ -49,7 +50,7 @@ class SampleLists {
 
 namespace sample_formats {
 
-// How a channel's code is read; `bits` is its width.
+// Converts a channel's code to a value; `bits` is its width.
 template <pipeline::UnormRounding rounding>
 struct Bytes {
     static constexpr std::size_t bits = 8;

@@ -22,7 +22,8 @@ std::size_t for_each_group(FragmentOrder& sorted, Body&& body) {
 
 }  // namespace
 
-// Entries are (depth, place), so that an insertion sort puts equal depths in submission order, as a stable sort would.
+// Entries are (depth, submission index), so an insertion sort puts equal depths in submission order, as a stable sort
+// would.
 void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                  const FragmentOrder& near_order, FragmentOrder& order) {
     order.clear();
@@ -49,7 +50,7 @@ void apply(TiePolicy policy, FragmentOrder& by_key) {
         case TiePolicy::unique:
         case TiePolicy::merged: by_key.erase(std::unique(by_key.begin(), by_key.end(), same_key), by_key.end()); break;
         case TiePolicy::first_then_last: {
-            // Every peel takes one key from each end; a single key in the middle counts as near.
+            // Every pass takes one key from each end; a single key in the middle counts as near.
             const std::size_t groups = for_each_group(by_key, [](auto, auto, std::size_t) {});
             for_each_group(by_key, [&](auto begin, auto end, std::size_t group) {
                 if (group >= (groups + 1) / 2) std::reverse(begin, end);

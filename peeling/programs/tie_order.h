@@ -1,4 +1,4 @@
-// peeling/programs/tie_order.h - a pixel's fragments in the order in which a tie policy composites them.
+// peeling/programs/tie_order.h - sorts a pixel's fragments into the order in which a tie policy composites them.
 // keys-and-counts.md 2.2. Tests: tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace strata::peeling {
 
-// A pixel's fragments in an order: each as its depth, above, and its place in submission order, below. Ascending
-// numbers are nearest first, and the first submitted first.
+// A pixel's fragments in an order: each entry is its depth in the high half and its submission index in the low half.
+// Ascending entries are nearest first, and the first submitted first.
 using FragmentOrder = std::vector<std::uint64_t>;
 [[nodiscard]] constexpr std::uint32_t place_of(std::uint64_t entry) noexcept {
     return static_cast<std::uint32_t>(entry);
@@ -21,7 +21,7 @@ using FragmentOrder = std::vector<std::uint64_t>;
     return static_cast<std::uint32_t>(entry >> 32);
 }
 
-// Fills `order` with all of a pixel's fragments, given in submission order, by the depth that `code` names.
+// Fills `order` with all of a pixel's fragments, given in submission order, sorted by the depth member `code`.
 inline void sort_by(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                     FragmentOrder& order) {
     order.clear();
@@ -30,13 +30,12 @@ inline void sort_by(std::uint32_t KeyedFragment::*code, std::span<const KeyedFra
     std::sort(order.begin(), order.end());
 }
 
-// sort_by for a depth by which `near_order` is almost sorted: an insertion sort, or sort_by itself where that takes
-// more than 8 steps a fragment.
+// As sort_by, for a depth by which `near_order` is almost sorted: an insertion sort that falls back to sort_by after
+// more than 8 steps per fragment.
 void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                  const FragmentOrder& near_order, FragmentOrder& order);
 
-// Turns the order by key into that in which `policy` composites, nearest first; `unique` and `merged` keep one fragment
-// a key.
+// Converts the order by key into that of `policy`, nearest first; `unique` and `merged` keep one fragment per key.
 void apply(TiePolicy policy, FragmentOrder& by_key);
 
 }  // namespace strata::peeling

@@ -2,7 +2,7 @@
 
 namespace strata::peeling {
 
-// As reports spell it.
+// The name in reports.
 std::string_view name(TiePolicy policy) noexcept {
     switch (policy) {
         case TiePolicy::none: return "none";

@@ -1,5 +1,5 @@
-// peeling/programs/tie_policy.h - which fragments of equal key are composited, and in which order. keys-and-counts.md
-// 2.2.
+// peeling/programs/tie_policy.h - the rule that says which fragments of equal key are composited, and in which order.
+// keys-and-counts.md 2.2.
 #pragma once
 #include <cstdint>
 #include <string_view>
@@ -7,12 +7,12 @@
 namespace strata::peeling {
 
 enum class TiePolicy : std::uint8_t {
-    none,             // no order at all
+    none,             // the algorithm has no order
     first,            // all, the first submitted in front
-    last,             // all, the last arrival in front
-    unique,           // the first submitted only
-    merged,           // one layer a key, a component-wise mixture
-    first_then_last,  // FIRST in the front half of the keys, LAST in the back half (dual_independent)
+    last,             // all, the last submitted in front
+    unique,           // only the first submitted
+    merged,           // one layer per key, a component-wise mixture
+    first_then_last,  // `first` in the front half of the keys, `last` in the back half (dual_independent)
 };
 
 [[nodiscard]] std::string_view name(TiePolicy policy) noexcept;

@@ -1,4 +1,4 @@
-// peeling/programs/under.h - under_text-inl.h for a lane at a time.
+// peeling/programs/under.h - under_text-inl.h for single lanes.
 // Tests: tests/peeling/programs/programs_test.cpp, tests/peeling/loops/block_passes_test.cpp
 #pragma once
 #include <cstdint>
@@ -7,7 +7,10 @@
 
 namespace strata::peeling {
 
-enum class FrontAlpha : std::uint8_t { covers, lets_through };  // which of the two the alpha of a front says
+enum class FrontAlpha : std::uint8_t {
+    covers,
+    lets_through
+};  // the meaning of a front's alpha: coverage or transmittance
 
 inline namespace strict {
 namespace scalar {
@@ -23,8 +26,8 @@ struct OneFloat {
     return meaning == FrontAlpha::covers ? let_through(OneFloat{}, alpha) : alpha;
 }
 
-// The alpha of a front that lets `through` of what is behind it through: 1 - through (1 - behind), and 1 before what is
-// opaque.
+// The alpha of a front of transmittance `through` over alpha `behind`: 1 - through (1 - behind), which is 1 if `behind`
+// is 1.
 [[nodiscard]] constexpr float alpha_over(float through, float behind) noexcept {
     return behind == 1.0f ? 1.0f : 1.0f - through * (1.0f - behind);
 }

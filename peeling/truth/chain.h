@@ -1,14 +1,15 @@
-// peeling/truth/chain.h - the links between a scene and a stored pixel, each as the machine has it or without any
+// peeling/truth/chain.h - the steps from a scene to a stored pixel, each as the emulated device has it or without
 // rounding.
-//
-// Rule     transform positions by the view's vertex path; exact: matrices and products in binary64 snap viewport in
-//          binary32, positions cut to the device's grid; exact: unsnapped, in binary64 plane depth by the device's
-//          path; exact: the plane through the three corners conversion depth as the buffer's code; exact: as it is
-//          color colours, coordinates, textures by the device's rules; exact: perspective in binary64 blend a layer a
-//          depth, blended over the target from the far end in the target's arithmetic; exact: every
-//                      fragment, in binary64
-//          store       opaque surfaces, layers and picture in the colour format; exact: not rounded (blended: binary32)
-//          A chain without an exact link is what depth_units leaves; with all of them exact it is the truth.
+// Rule     The links, each as on the device and exact:
+//          transform   positions by the view's vertex path; exact: matrices and products in binary64
+//          snap        viewport in binary32, positions rounded to the device's grid; exact: unsnapped, in binary64
+//          plane       depth by the device's path; exact: the plane through the three corners
+//          conversion  depth as the buffer's code; exact: not converted
+//          color       colours, coordinates, textures by the device's rules; exact: perspective in binary64
+//          blend       one layer per depth, blended over the target from the far end in the target's arithmetic;
+//                      exact: every fragment, in binary64
+//          store       opaque surfaces, layers and image in the colour format; exact: not rounded (blended: binary32)
+//          A chain without an exact link gives the result of depth_units; with all links exact it is the truth.
 // Source   audit.md 14.
 // Tests    tests/peeling/truth/chain_test.cpp, truth_test.cpp
 #pragma once
@@ -40,13 +41,13 @@ inline constexpr std::array<Link, 7> links{{{"transform", &Chain::transform},
 inline constexpr Chain exact_chain{};
 inline constexpr Chain machine_chain{false, false, false, false, false, false, false};
 
-// The first `count` links exact, the others the machine's.
+// The first `count` links exact, the others as on the device.
 [[nodiscard]] constexpr Chain exact_up_to(std::size_t count) noexcept {
     Chain chain = machine_chain;
     for (std::size_t i = 0; i < count; ++i) chain.*links[i].is_exact = true;
     return chain;
 }
-// That link exact, all others the machine's.
+// That link exact, all others as on the device.
 [[nodiscard]] constexpr Chain exact_alone(std::size_t link) noexcept {
     Chain chain = machine_chain;
     chain.*links[link].is_exact = true;

@@ -20,7 +20,7 @@ using rasterizer::Rect;
 
 namespace {
 
-// What the machine sets up where some of its links are exact.
+// The profile of the device with some links exact.
 [[nodiscard]] DeviceProfile device_of(const ChainScene& scene, const Chain& chain) {
     DeviceProfile device = scene.profile;
     if (!chain.snap) return device;
@@ -36,7 +36,7 @@ namespace {
     return view;
 }
 
-// The depth of a cleared buffer by what a fragment's depth is made of.
+// The depth of a cleared buffer in the unit of the fragments' depths.
 [[nodiscard]] double far_of(const Chain& chain, rasterizer::DepthFormat format) {
     if (!chain.conversion) return rasterizer::max_code(format);
     return chain.plane ? 1.0 : rasterizer::buffer_units(format);
@@ -110,7 +110,7 @@ Rect ChainList::tile_rect(std::size_t tile) const noexcept {
     return intersection({x, y, x + tile_size, y + tile_size}, frame_);
 }
 
-// The depth of the exact plane, converted or as it is.
+// The depth of the exact plane, converted or not.
 double ChainList::real_depth(double z) const {
     if (chain_.conversion) return z;
     return rasterizer::depth_code(
@@ -150,7 +150,7 @@ void ChainList::real_fragments(std::size_t tile, std::vector<ChainFragment>& out
     }
 }
 
-// Where a value is evaluated at the corners, triangles are drawn one by one, so that a batch is one triangle's.
+// If a value is evaluated at the corners, triangles are drawn one by one, so that a batch belongs to one triangle.
 void ChainList::machine_fragments(std::size_t tile, std::vector<ChainFragment>& out) const {
     const rasterizer::Geometry& geometry = prepared_.geometry;
     const bool needs_corners = chain_.color || (chain_.plane && chain_.conversion);
@@ -172,7 +172,7 @@ void ChainList::machine_fragments(std::size_t tile, std::vector<ChainFragment>& 
     }
 }
 
-// The machine's way of a batch is that of Stages::shade.
+// Processes a batch as Stages::shade does.
 void ChainList::take(FragmentBatch& batch, const RealTriangle* triangle, std::vector<ChainFragment>& out) const {
     const auto count = static_cast<std::size_t>(batch.count);
     const MaterialStage& material = prepared_.materials[batch.material];

@@ -1,9 +1,9 @@
-// peeling/truth/chain_list.h - the fragments of one draw list, made by a chain: depth and colour before any test.
+// peeling/truth/chain_list.h - generates the fragments of one draw list with a chain: depth and colour before any test.
 //
-// Rule     Where plane, colour and snap are exact no kernel of the machine is asked, and coverage is that of unsnapped
-//          corners. Elsewhere the machine sets triangles up and its kernels fill batches; a link that is exact is then
-//          evaluated in binary64 at the corners of the set-up triangle. Kernels want positions on a grid: if snap is
-//          exact and one of them follows, it is the finest that a profile may name, 1/4096 pixel.
+// Rule     If plane, colour and snap are exact no kernel of the emulated device is used, and coverage is that of
+//          unsnapped corners. Otherwise triangles are set up and batches filled by the device's code; an exact link is
+//          then evaluated in binary64 at the corners of the set-up triangle. Kernels need positions on a grid: if snap
+//          is exact and a kernel is used, the grid is the finest that a profile may have, 1/4096 pixel.
 // Tests    tests/peeling/truth/chain_test.cpp
 #pragma once
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace strata::peeling {
 
-// What a picture is made of: as a Renderer takes it. The references must outlive this.
+// The input of an image, as a Renderer takes it. The references must outlive this.
 struct ChainScene {
     const pipeline::DrawList& list;
     pipeline::View view;
@@ -30,7 +30,7 @@ struct ChainScene {
 };
 
 struct ChainFragment {
-    std::uint32_t pixel = 0;  // in the tile, row by row
+    std::uint32_t pixel = 0;  // index in the tile, row by row
     double depth = 0;         // in the list's own unit, see far()
     std::array<double, 4> color{};
 };
@@ -41,11 +41,11 @@ class ChainList {
 
     ChainList(const ChainScene& scene, const Chain& chain, pipeline::Selection selection);
 
-    // The depth that a cleared buffer holds, in the unit of the fragments' depths: a code's, the buffer's, or 1.
+    // The depth of a cleared buffer in the unit of the fragments' depths: codes, the buffer's own values, or [0, 1].
     [[nodiscard]] double far() const noexcept { return far_; }
     // Appends the fragments of a tile in submission order, after MASK.
     void fragments_of(std::size_t tile, std::vector<ChainFragment>& out) const;
-    // Tiles stand row by row over the frame.
+    // Tiles are numbered row by row over the frame.
     [[nodiscard]] std::size_t tile_count() const noexcept;
     [[nodiscard]] rasterizer::Rect tile_rect(std::size_t tile) const noexcept;
 
@@ -53,7 +53,7 @@ class ChainList {
     void machine_fragments(std::size_t tile, std::vector<ChainFragment>& out) const;
     void real_fragments(std::size_t tile, std::vector<ChainFragment>& out) const;
     void take(rasterizer::FragmentBatch& batch, const RealTriangle* triangle, std::vector<ChainFragment>& out) const;
-    // Empty if MASK drops it.
+    // Empty if MASK discards the fragment.
     [[nodiscard]] std::optional<std::array<double, 4>> real_color(const RealTriangle& triangle,
                                                                   const RealWeights& weights) const;
     [[nodiscard]] double real_depth(double z) const;
@@ -64,7 +64,7 @@ class ChainList {
     rasterizer::Rect frame_;
     double far_ = 1;
     float alpha_scale_;
-    bool is_real_;  // no kernel of the machine is asked
+    bool is_real_;  // no kernel of the emulated device is used
     pipeline::PreparedDraw prepared_;
     std::vector<RealTriangle> triangles_;
     std::vector<std::vector<std::uint32_t>> bins_;

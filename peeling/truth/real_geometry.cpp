@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t colors = 4;
 
-// x y z w, then front r g b a, back r g b a, s t: everything that clipping interpolates.
+// x y z w, then front r g b a, back r g b a, s t: all values that clipping interpolates.
 using RealVertex = std::array<double, 4 + 2 * colors + 2>;
 
 [[nodiscard]] RealVertex real_vertex(const ClipVertex& v) {
@@ -28,7 +28,7 @@ using RealVertex = std::array<double, 4 + 2 * colors + 2>;
     return real;
 }
 
-// Each instance's vertices stand in the soup one after the other.
+// The vertices of the instances follow each other in the soup.
 void transform_in_binary64(const DrawList& list, const View& view, const rasterizer::TriangleSoup& soup,
                            std::vector<RealVertex>& vertices) {
     std::size_t next = 0;
@@ -48,7 +48,7 @@ void transform_in_binary64(const DrawList& list, const View& view, const rasteri
 // The signed distance of a clip plane.
 using Distance = double (*)(const RealVertex&);
 
-// Sutherland and Hodgman: a side that crosses is cut from its inside end.
+// Sutherland-Hodgman: an edge that crosses is clipped from its inside end.
 void cut(Distance distance, std::vector<RealVertex>& polygon) {
     std::vector<RealVertex> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -94,7 +94,7 @@ enum class Facing : std::uint8_t { front, back };
     return corner;
 }
 
-// As setup.cpp decides it, of the snapped area's sign.
+// As setup.cpp decides it, from the sign of the snapped area.
 [[nodiscard]] Facing facing_of(int winding, const RasterState& state, bool is_mirrored) {
     const bool clockwise = (winding > 0) == (state.y_direction == rasterizer::YDirection::up);
     const bool is_front = (clockwise == (state.front_face == rasterizer::FrontFace::clockwise)) != is_mirrored;

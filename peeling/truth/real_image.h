@@ -1,4 +1,4 @@
-// peeling/truth/real_image.h - a picture of binary64 numbers.
+// peeling/truth/real_image.h - an image of binary64 values.
 #pragma once
 #include <vector>
 
@@ -15,7 +15,7 @@ struct RealImage {
     friend bool operator==(const RealImage&, const RealImage&) = default;
 };
 
-// The values that the codes of a colour image stand for.
+// The values of a colour image's codes.
 [[nodiscard]] RealImage real_image(const pipeline::Image& image);
 
 }  // namespace strata::peeling

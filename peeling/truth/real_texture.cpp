@@ -12,7 +12,7 @@ using namespace pipeline;
 
 namespace {
 
-// Two texels of an axis and the share of the second.
+// Two texels along an axis and the weight of the second.
 struct RealTexels {
     std::int32_t first, second;
     double share;

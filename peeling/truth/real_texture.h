@@ -1,8 +1,10 @@
-// peeling/truth/real_texture.h - a texture lookup without rounding: the texel or the bilinear sum at a binary64
-// coordinate.
+// peeling/truth/real_texture.h - reference texture sampling in binary64 (nearest or bilinear), without the hardware's
+// fixed-point filter weights.
 //
-// Rule     texel_address.h and texture_sample.h without 256ths: nearest is texel floor(u); linear weighs the two texels
-//          about u - 1/2 by the fraction itself. Texels are k / 255, or the binary32 of the sRGB table.
+// Rule     As texel_address.h and texture_sample.h in pipeline/textures, but filter weights are not quantized to 1/256.
+//          Nearest: texel floor(u). Linear: texels floor(u - 1/2) and the next one, weighted by frac(u - 1/2); the same
+//          along v. A texel channel is code / 255, or for sRGB textures the binary32 entry of srgb_to_linear (alpha
+//          stays code / 255).
 // Tests    tests/peeling/truth/truth_test.cpp
 #pragma once
 #include <array>

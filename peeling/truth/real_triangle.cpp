@@ -13,7 +13,7 @@ using rasterizer::Rect;
 
 namespace {
 
-// The edge function of a point, and its exact sign.
+// An edge function at a point, and its exact sign.
 struct Side {
     double value;
     int sign;
@@ -21,7 +21,7 @@ struct Side {
 
 [[nodiscard]] int sign_of(double v) noexcept { return int{v > 0} - int{v < 0}; }
 
-// The determinant of (a, b, p) with all products written out.
+// The determinant of (a, b, p) with all products expanded.
 [[nodiscard]] int exact_sign(const RealCorner& a, const RealCorner& b, double x, double y) noexcept {
     rasterizer::ExactSum sum;
     sum.add_product(a.x, b.y);
@@ -52,7 +52,7 @@ RealTriangle::RealTriangle(const std::array<RealCorner, 3>& corner, std::uint32_
       material_{material},
       winding_{side(corner[0], corner[1], corner[2].x, corner[2].y).sign} {}
 
-// Corners may lie far beyond what an int holds.
+// Corners may be far outside the range of int.
 Rect RealTriangle::box(const Rect& within) const noexcept {
     const auto [left, right] = std::minmax({corner_[0].x, corner_[1].x, corner_[2].x});
     const auto [top, bottom] = std::minmax({corner_[0].y, corner_[1].y, corner_[2].y});

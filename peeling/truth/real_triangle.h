@@ -1,12 +1,13 @@
-// peeling/truth/real_triangle.h - a triangle at positions that no grid holds: which pixel centres it covers, and its
-// values there.
+// peeling/truth/real_triangle.h - a triangle with unsnapped corners: the pixel centres that it covers, and its values
+// there.
 //
 // Rule     A centre is inside as edge.h says, top-left rule, decided by the exact sign of the edge function of the
-//          binary64 corners. With b the weights of the corners on the screen: depth is the sum of b z; a value u is the
-//          sum of b u / w over the sum of b / w.
-// Numbers  A side is always evaluated from its lexicographically smaller end, so its two triangles see values that
-//          differ in the sign alone. A value beyond 2^-50 of its two products has the right sign (their errors stay
-//          below 4 2^-53 of them); of others the six products of the expanded determinant are summed without rounding.
+//          binary64 corners. With b the screen-space weights of the corners, depth is the sum of b z, and an attribute
+//          u is the sum of b u / w divided by the sum of b / w.
+// Numbers  An edge is always evaluated from its lexicographically smaller end, so the two triangles that share it get
+//          values that differ only in sign. A value larger than 2^-50 times its two products has the right sign (their
+//          error is below 4 2^-53 of them); otherwise the six products of the expanded determinant are summed without
+//          rounding.
 // Tests    tests/peeling/truth/truth_test.cpp
 #pragma once
 #include <array>
@@ -33,12 +34,12 @@ class RealTriangle {
   public:
     RealTriangle(const std::array<RealCorner, 3>& corner, std::uint32_t primitive, std::uint32_t material) noexcept;
 
-    // Twice the area's sign: positive is clockwise with y down; 0 covers nothing.
+    // The sign of twice the area: positive is clockwise with y down; a triangle of area 0 covers nothing.
     [[nodiscard]] int winding() const noexcept { return winding_; }
     [[nodiscard]] const std::array<RealCorner, 3>& corners() const noexcept { return corner_; }
     [[nodiscard]] std::uint32_t primitive() const noexcept { return primitive_; }
     [[nodiscard]] std::uint32_t material() const noexcept { return material_; }
-    // The pixels of `within` that it may cover.
+    // The pixels of `within` that the triangle may cover.
     [[nodiscard]] rasterizer::Rect box(const rasterizer::Rect& within) const noexcept;
 
     // At the centre of a pixel.

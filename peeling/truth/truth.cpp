@@ -19,24 +19,24 @@ namespace {
 
 using Color = std::array<double, 4>;
 
-// The colour target of a chain: its format, and what becomes of a value there.
+// The colour target of a chain: its format, and the conversion of stored values.
 class ChainTarget {
   public:
     ChainTarget(const ChainScene& scene, const Chain& chain, Format format)
         : profile_{scene.profile}, type_{chain.store ? ChannelType::single : info(format).type}, keeps_{chain.store} {}
 
-    // Written without blending and read again.
+    // Stored without blending and read again.
     [[nodiscard]] Color stored(const Color& color) const {
         if (keeps_) return color;
         return rounded(color);
     }
-    // What a stored colour stands for (image_error.h): 8-bit codes are k / 255 in binary64.
+    // The value of a stored colour (image_error.h): 8-bit codes are k / 255 in binary64.
     [[nodiscard]] Color shown(const Color& color) const {
         if (keeps_ || type_ != ChannelType::unorm8) return color;
         const Codes codes = codes_of(color);
         return {codes[0][0] / 255.0, codes[1][0] / 255.0, codes[2][0] / 255.0, codes[3][0] / 255.0};
     }
-    // A layer that a peel has stored, blended OVER what is there; alpha is not written.
+    // Blends a layer stored by a peel OVER the target; alpha is not written.
     void blend_over(const Color& layer, Color& target) const {
         const Color source = rounded(layer);
         Codes codes = codes_of(target);
@@ -108,7 +108,7 @@ class ChainTile {
     [[nodiscard]] Color color(std::size_t pixel) const { return color_[pixel]; }
 
   private:
-    // A peel keeps one layer a depth: the first submitted.
+    // A peel keeps one layer per depth: the first submitted.
     void composite(const std::vector<ChainFragment>& fragments, std::vector<std::uint32_t>& order, Color& color) const {
         if (!chain_.blend) {
             const auto is_tie = [&](std::uint32_t a, std::uint32_t b) {
@@ -153,7 +153,7 @@ RealImage real_image(const Image& image) {
 
 RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     if (scene.list.light) throw InputError("scene", "light", "no light that casts shadows", "one");
-    // The chain's machine has the exact planes and the snapped edges of NVIDIA's profiles alone.
+    // Only the NVIDIA profiles have the plane and snapping rules that a chain can evaluate.
     const rasterizer::RasterRules& rules = scene.profile.raster;
     const bool is_known = rules.plane_rule == rasterizer::PlaneRule::exact &&
                           rules.coverage == rasterizer::CoverageRule::snapped_edges &&

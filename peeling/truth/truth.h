@@ -1,9 +1,9 @@
-// peeling/truth/truth.h - a picture as the numbers of a chain: with every link exact, the truth that errors are
-// measured from.
+// peeling/truth/truth.h - the image that a chain computes; with every link exact, it is the truth from which errors are
+// measured.
 //
-// Rule     A pixel's opaque surface is the nearest of the opaque fragments (LESS); of the transparent ones those in
-//          front of it count, nearest first, and of equal depths the first submitted. blend: D = alpha c + (1 - alpha)
-//          D from the far end. The numbers are those that codes stand for, where a link stores codes.
+// Rule     A pixel's opaque surface is the nearest of the opaque fragments (LESS); the transparent fragments in front
+//          of it are composited, sorted nearest first, and at equal depth the first submitted first. blend: D = alpha c
+//          + (1 - alpha) D from the far end. If a link stores codes, the results are the values of those codes.
 // Source   audit.md 14.
 // Tests    tests/peeling/truth/truth_test.cpp, chain_test.cpp
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace strata::peeling {
 
-// Throws InputError for a list with a light: shadow maps are the machine's alone.
+// Throws InputError for a list with a light: shadow maps exist only on the emulated device.
 [[nodiscard]] RealImage render_chain(const ChainScene& scene, const Chain& chain);
 
 }  // namespace strata::peeling
