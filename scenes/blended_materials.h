@@ -1,7 +1,7 @@
-// scenes/blended_materials.h - single materials drawn as transparent, as --alpha NAME=A asks.
+// scenes/blended_materials.h - draws single materials as transparent, for --alpha NAME=A.
 //
-// Rule     Each material of that name becomes BLEND, its colours' alpha times A. A material whose alpha is cut (MASK)
-//          is refused: blended, it would show what is cut.
+// Rule     Each material of that name becomes BLEND, its colours' alpha times A. A material with an alpha test (MASK)
+//          is rejected: blended, it would show the discarded parts.
 // Tests    tests/scenes/blended_materials_test.cpp
 #pragma once
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace strata::scenes {
 
-// InputError names `spec`, the scene, for a name that no material has.
+// Throws InputError, which names the scene `spec`, for a name that no material has.
 void blend_materials(pipeline::DrawList& list, std::span<const MaterialAlpha> wanted, const std::string& spec);
 
 }  // namespace strata::scenes

@@ -1,4 +1,4 @@
-// scenes/bounds.cpp - the box of a draw list, vertex by vertex; bounds.h says which of them count.
+// scenes/bounds.cpp - computes the bounding box vertex by vertex; which vertices count: bounds.h.
 #include "scenes/bounds.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace strata::scenes {
 namespace {
 
-// The product of a matrix and a point (p, 1) in a fixed order of additions: the bounds decide where an orbit
-// camera stands, so their bits are bits of the picture. The bottom row is 0 0 0 1 and is not looked at.
+// The product of a matrix and a point (p, 1) in a fixed order of additions: the bounds determine the position of an
+// orbit camera, so their bits affect the image. The bottom row is 0 0 0 1 and is not read.
 Vec3d transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
     Vec3d world;
     for (std::size_t r = 0; r < 3; ++r)
@@ -18,11 +18,11 @@ Vec3d transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
     return world;
 }
 
-// Widens the box to hold the point. A point with a NaN or an infinity is left out: it would make the box
-// useless, and the rasterizer drops its triangles.
+// Extends the box to contain the point. A point with a NaN or an infinity is ignored: it would make the box useless,
+// and the rasterizer drops its triangles.
 void include(Bounds& bounds, const Vec3d& point) noexcept {
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) return;
-    // The first point replaces the empty box, whose lo is above its hi.
+    // The first point replaces the empty box, in which lo > hi.
     if (bounds.is_empty()) bounds = {point, point};
     for (std::size_t i = 0; i < 3; ++i) {
         bounds.lo[i] = std::min(bounds.lo[i], point[i]);
@@ -36,12 +36,12 @@ Bounds bounds_of(const pipeline::DrawList& list) {
     Bounds bounds;
     for (const pipeline::Instance& instance : list.instances) {
         const pipeline::Mesh& mesh = list.meshes[instance.mesh];
-        // Indices are walked instead of positions: a vertex that no triangle names is not drawn and must not
-        // move the camera.
+        // Iterates over indices instead of positions: a vertex that no triangle uses is not drawn and must not move the
+        // camera.
         for (const std::uint32_t index : mesh.indices) {
             const Vec3& p = mesh.positions[index];
             const double w = mesh.w.empty() ? 1.0 : double{mesh.w[index]};
-            // Behind or in the plane of w = 0 a point has no place in space.
+            // A point with w <= 0 has no position in space.
             if (w > 0)
                 include(bounds, transformed(instance.model, {static_cast<float>(p[0] / w), static_cast<float>(p[1] / w),
                                                              static_cast<float>(p[2] / w)}));

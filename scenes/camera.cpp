@@ -1,5 +1,5 @@
 // scenes/camera.cpp - the matrices of gluLookAt and gluPerspective, entry by entry. The order of the operations
-// is part of the rule of camera.h: every bit of a picture hangs on these entries.
+// is part of the rule of camera.h: every bit of an image depends on these entries.
 #include "scenes/camera.h"
 
 #include <fmt/format.h>
@@ -14,10 +14,10 @@
 namespace strata::scenes {
 namespace {
 
-// The vector must not be 0: the reader of camera files and orbit_camera() see to that.
+// The vector must not be 0: parse_look_at() in camera_file.cpp and orbit_camera() ensure that.
 Vec3d normalized(const Vec3d& a) noexcept { return divided(a, std::sqrt(dot_product(a, a))); }
 
-// World to eye space, GLU 1.3 section 4.1: the rows are side, top and -forward, for the eye looks along -z. The
+// World to eye space, GLU 1.3 section 4.1: the rows are side, top and -forward, because the eye looks along -z. The
 // initializer lists columns.
 pipeline::Matrix look_at_matrix(const Vec3d& eye, const Vec3d& center, const Vec3d& up) noexcept {
     const Vec3d forward = normalized(minus(center, eye));
@@ -60,8 +60,7 @@ pipeline::Matrix perspective(double half_angle, double aspect, double znear, dou
     return m;
 }
 
-// glTF 2.0 section 3.10.3: xmag and ymag are half the width and the height of the view. The image's aspect does
-// not enter.
+// glTF 2.0 section 3.10.3: xmag and ymag are half the width and the height of the view. The image's aspect is not used.
 pipeline::Matrix orthographic(const SceneCamera& camera) noexcept {
     pipeline::Matrix m(0.0);
     const double depth = camera.znear - camera.zfar;
@@ -73,7 +72,7 @@ pipeline::Matrix orthographic(const SceneCamera& camera) noexcept {
     return m;
 }
 
-// A NaN fails both comparisons and is refused like an angle out of range.
+// A NaN fails both comparisons and is rejected like an angle out of range.
 void check_angle(const char* name, double angle, double limit, const char* expected) {
     if (angle >= -limit && angle <= limit) return;
     throw InputError("--orbit", name, expected, fmt::format("{}", angle));
@@ -84,8 +83,8 @@ struct Sphere {
     double radius = 1;
 };
 
-// The sphere through the corners of the box. A box that is one point, or empty, gets radius 1, so that near and
-// far of the orbit camera stay apart.
+// The sphere through the corners of the box. A box that is one point or empty gets radius 1, so that near and far of
+// the orbit camera differ.
 Sphere bounding_sphere(const Bounds& bounds) noexcept {
     if (bounds.is_empty()) return {};
     Sphere sphere;
@@ -114,7 +113,7 @@ LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevati
 
     LookAt camera{
         .eye = plus(center, times(outward, 2.5 * radius)), .center = center, .near = 1.4 * radius, .far = 3.6 * radius};
-    if (std::abs(outward[1]) > 0x1.ffffffffffp-1) {  // within 10^-6 radians of a pole: +y is the line of sight
+    if (std::abs(outward[1]) > 0x1.ffffffffffp-1) {  // within 10^-6 radians of a pole: the line of sight is along y
         const double sign = outward[1] > 0 ? -1 : 1;
         camera.up = {sign * sin(azimuth), 0, sign * cos(azimuth)};
     }
@@ -141,8 +140,7 @@ pipeline::View as_seen_under(const pipeline::View& view, const ClipConvention& f
 
 pipeline::View camera_view(const SceneCamera& camera, double image_aspect) {
     const FloatEnvironment environment;
-    // A camera of the file that has an aspect of its own keeps it: a picture of another shape is then
-    // stretched.
+    // A camera of the file with its own aspect keeps it: an image of another shape is then stretched.
     if (!camera.perspective) return {camera.view, orthographic(camera)};
     const double aspect = camera.aspect > 0 ? camera.aspect : image_aspect;
     return {camera.view, perspective(camera.yfov / 2, aspect, camera.znear, camera.zfar)};

@@ -1,4 +1,5 @@
-// scenes/camera.h - views: an orbit round a scene's bounds, a camera file, a camera of a glTF scene.
+// scenes/camera.h - makes views from an orbit around a scene's bounds, from a camera file or from a camera of a glTF
+// scene.
 //
 // Rule     gluLookAt and gluPerspective in binary64 with our own sin, cos; matrices column-major, clip depth -1 to 1
 //          unless as_seen_under converts it.
@@ -13,22 +14,22 @@
 
 namespace strata::scenes {
 
-struct LookAt {  // what a camera file of the first form says
+struct LookAt {  // the content of a camera file of the first form
     Vec3d eye{0, 0, 1}, center{0, 0, 0}, up{0, 1, 0};
     double fovy_degrees = 45, near = 0.1, far = 100;
 };
 
 [[nodiscard]] pipeline::View look_at(const LookAt& camera, double aspect) noexcept;
 
-// Sees the whole bounding sphere of the box: its near and far planes are 1.4 and 3.6 of the sphere's radii away.
-// |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and below, up is the limit. A box without
-// extent is framed as if its radius were 1, an empty one as if it stood at the origin.
+// Contains the bounding sphere of the box: the near and far planes are 1.4 and 3.6 radii away. InputError unless
+// |elevation| <= 90 and |azimuth| <= 10^6. At elevation +-90 the up vector is the limit of neighbouring elevations. A
+// box without extent is framed as if its radius were 1, an empty one as if it were at the origin.
 [[nodiscard]] LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevation_degrees);
 [[nodiscard]] pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees,
                                         double aspect);
 
-// What clip-space z means: where the volume ends, and whether near is the greater depth (0 <= z <= w then has near at
-// w).
+// The meaning of clip-space z: the limits of the view volume, and whether near has the greater depth (0 <= z <= w then
+// has near at w).
 struct ClipConvention {
     rasterizer::ClipDepth clip_depth = rasterizer::ClipDepth::minus_one_to_one;
     rasterizer::DepthOrder depth_order = rasterizer::DepthOrder::less;

@@ -9,8 +9,8 @@ namespace strata::scenes {
 
 namespace {
 
-// In binary64: the sides of small triangles far from the origin would cancel in binary32. Not finite, or of
-// length 0: the triangle has no direction, and any unit vector will do.
+// In binary64, because the sides of small triangles far from the origin would cancel in binary32. A triangle whose
+// product is not finite or of length 0 has no direction, and any unit vector will do.
 Vec3 flat_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3d origin{a};
     const Vec3d n = cross_product(minus(Vec3d{b}, origin), minus(Vec3d{c}, origin));
@@ -19,7 +19,7 @@ Vec3 flat_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
 }
 
-// Values of vertices become values of corners.
+// Expands values per vertex to values per corner.
 template <class Value>
 void unshare(std::vector<Value>& values, const std::vector<std::uint32_t>& indices) {
     if (values.empty()) return;

@@ -1,6 +1,7 @@
-// scenes/flat_normals.h - the normals of a lit mesh that has none: each triangle's own.
+// scenes/flat_normals.h - flat normals, one per triangle, for a lit mesh without normals.
 //
-// Rule     The cross product of two sides in binary64, over its length; (0, 0, 1) where that is 0 or not finite.
+// Rule     The cross product of two sides in binary64, divided by its length; (0, 0, 1) if the length is 0 or not
+//          finite.
 // Source   glTF 2.0, 3.7.2.1.
 // Tests    tests/scenes/gltf/gltf_mesh_test.cpp
 #pragma once
@@ -8,10 +9,10 @@
 
 namespace strata::scenes {
 
-// Three positions a triangle, which share no corner: three normals a triangle.
+// Takes three positions per triangle, without shared vertices, and returns three normals per triangle.
 [[nodiscard]] std::vector<Vec3> flat_normals(const std::vector<Vec3>& positions);
 
-// Gives every corner a vertex of its own, and each triangle its flat normal.
+// Gives every corner its own vertex, and each triangle its flat normal.
 void make_flat(pipeline::Mesh& mesh);
 
 }  // namespace strata::scenes

@@ -16,7 +16,7 @@ bool leaves_by_name(const fs::path& name) {
 InsideFolder inside_folder(const fs::path& folder, const fs::path& name) {
     using enum InsideFolder::Found;
     if (leaves_by_name(name)) return {name_leaves};
-    // Both sides are canonical, with links resolved, so that a link out of the folder is seen.
+    // Both paths are canonical, with links resolved, so that a link out of the folder is detected.
     std::error_code error;
     const fs::path home = fs::canonical(folder.empty() ? fs::path{"."} : folder, error);
     const fs::path path = error ? fs::path{} : fs::canonical(home / name, error);

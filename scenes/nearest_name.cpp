@@ -1,4 +1,4 @@
-// scenes/nearest_name.cpp - suggestions by edit distance; nearest_name.h states which candidate is near.
+// scenes/nearest_name.cpp - suggestions by edit distance.
 #include "scenes/nearest_name.h"
 
 #include <fmt/format.h>
@@ -9,9 +9,9 @@
 namespace strata::scenes {
 namespace {
 
-// Optimal string alignment, row by row; names are cut at 64 letters.
+// Optimal string alignment, row by row; names are truncated to 64 letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    // The cut bounds time and memory: the name may be any text of a file.
+    // This bounds time and memory: the name may be any text of a file.
     a = a.substr(0, 64);
     b = b.substr(0, 64);
     std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -23,8 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const std::size_t replaced = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
             cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, replaced});
-            // Two neighbours in the wrong order are one slip of the hand and cost 1, where replacing both would
-            // cost 2.
+            // Two swapped neighbours are one typing error and cost 1, where replacing both would cost 2.
             const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
             if (exchanged) cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
         }
@@ -39,8 +38,8 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     std::size_t best_distance = 0;
     for (const std::string_view candidate : candidates) {
         const std::size_t distance = edit_distance(name, candidate);
-        // More would be a guess: a third of the candidate's letters may differ, and one of two. Only a smaller distance
-        // replaces the best, so the first of equals stays.
+        // At most a third of the candidate's letters may differ, or one of two. Only a smaller distance replaces the
+        // best, so the first of equals is kept.
         const std::size_t most = candidate.size() == 2 ? 1 : candidate.size() / 3;
         if (distance > most || candidate.empty() || (!best.empty() && distance >= best_distance)) continue;
         best = candidate;
@@ -50,7 +49,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 }
 
 std::string quoted_with_suggestion(std::string_view name, std::span<const std::string_view> candidates) {
-    // Error messages stay one short line however long the name is.
+    // Keeps error messages to one short line however long the name is.
     const std::string_view shown = name.substr(0, 64), nearest = nearest_name(name, candidates);
     return nearest.empty() ? fmt::format("'{}'", shown) : fmt::format("'{}' (did you mean '{}'?)", shown, nearest);
 }

@@ -1,9 +1,8 @@
-// scenes/printable.h - text from outside as it may stand in a sentence, one line of UTF-8, and in a document of XML or
-// HTML.
+// scenes/printable.h - escapes untrusted text for a message, which is one line of UTF-8, and for XML and HTML.
 //
-// Rule     A control character below U+0020 and a byte that is no part of a UTF-8 character become \xNN; U+007F to
-//          U+009F, which JSON does not escape and some terminals obey, become \u00NN. A file's name and a word of the
-//          command line may hold any byte but 0. Source RFC 3629 4. Tests tests/tools/errors_test.cpp,
+// Rule     A control character below U+0020 and a byte that is not part of a UTF-8 character become \xNN; U+007F to
+//          U+009F, which JSON does not escape and some terminals interpret, become \u00NN. A file name and a
+//          command-line argument may contain any byte except 0. Source RFC 3629 4. Tests tests/tools/errors_test.cpp,
 //          tests/tools/messages_test.cpp
 #pragma once
 #include <algorithm>
@@ -13,7 +12,7 @@
 
 namespace strata::scenes {
 
-// The number of bytes of the character at the beginning of `text`; 0 if no character is there.
+// The length in bytes of the character at the beginning of `text`; 0 if there is no valid character.
 [[nodiscard]] constexpr std::size_t utf8_length(std::string_view text) noexcept {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<std::uint8_t>(text[i]) : 0u; };
     const std::uint32_t first = byte(0);
@@ -24,7 +23,7 @@ namespace strata::scenes {
         if ((byte(i) & 0xc0u) != 0x80u) return 0;
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    constexpr std::uint32_t least[] = {0x80, 0x800, 0x10000};  // below it fewer bytes would do
+    constexpr std::uint32_t least[] = {0x80, 0x800, 0x10000};  // the smallest value that needs that many bytes
     const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
     const bool is_character = first >= 0xc2 && first <= 0xf4 && code >= least[length - 2] && code <= 0x10ffff;
     return is_character && !is_surrogate ? length : 0;
@@ -50,7 +49,7 @@ namespace strata::scenes {
     return shown;
 }
 
-// Of a text of more than `most` characters the begin, and "..." for the rest: `most` in all.
+// Text of more than `most` characters is shortened to `most`, with "..." at the end.
 [[nodiscard]] inline std::string shortened(std::string_view text, std::size_t most) {
     std::size_t end = 0, begin_of_dots = 0, count = 0;
     for (; end < text.size(); ++count) {
@@ -61,8 +60,8 @@ namespace strata::scenes {
     return std::string(text);
 }
 
-// As content of an element, or as an attribute in quotation marks, of XML and HTML: what either does not allow is as
-// `printable` has it, but for line ends.
+// Escapes text for an element or a quoted attribute of XML and HTML: characters that either does not allow are escaped
+// as in `printable`, except line ends.
 [[nodiscard]] inline std::string markup_text(std::string_view text) {
     std::string safe;
     std::size_t begin = 0;

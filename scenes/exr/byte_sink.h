@@ -1,4 +1,4 @@
-// scenes/exr/byte_sink.h - a file that is being written, as the image libraries see it.
+// scenes/exr/byte_sink.h - the interface through which image libraries write a file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace strata::scenes {
 
-// The functions never throw: they report failures to their owner, who asks for no more.
+// The functions never throw: they return failures to the caller, which then stops writing.
 struct ByteSink {
-    std::string path;  // for messages alone
+    std::string path;  // only for messages
     std::function<std::size_t(const void* bytes, std::size_t size)> write;
     std::function<bool(std::int64_t position)> seek;
     std::function<std::int64_t()> position;

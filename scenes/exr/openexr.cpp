@@ -1,4 +1,4 @@
-// scenes/exr/openexr.cpp - frame buffers over bytes that stand pixel by pixel, and the library's threads.
+// scenes/exr/openexr.cpp - frame buffers over interleaved pixels, and the library's threads.
 #include "scenes/exr/openexr.h"
 
 #include <OpenEXR/ImfThreading.h>
@@ -8,8 +8,8 @@
 
 namespace strata::scenes::exr {
 
-// The library ends the process where it is refused a thread (found by limiting them, OpenEXR 3.1): so they are asked
-// for before.
+// OpenEXR 3.1 terminates the process if it cannot create a thread (observed with a thread limit), so this creates them
+// first.
 int start_threads() {
     static const int started = [] {
         constexpr std::size_t usual_stack = std::size_t{8} << 20;

@@ -1,4 +1,4 @@
-// scenes/exr/openexr.h - what reader and writer have in common of OpenEXR's own terms.
+// scenes/exr/openexr.h - conversions to OpenEXR's types that reader and writer share.
 #pragma once
 #include <ImathBox.h>
 #include <OpenEXR/ImfDeepFrameBuffer.h>
@@ -18,25 +18,26 @@ namespace strata::scenes::exr {
     return Imf::NUM_PIXELTYPES;  // unreachable: the enum is closed
 }
 
-// The rows of `window` in `bytes`, pixel by pixel as PartSource::rows has them.
+// A frame buffer over the rows of `window` in `bytes`, laid out pixel by pixel as PartSource::rows.
 [[nodiscard]] Imf::FrameBuffer flat_frame(const PartHeader& header, const Imath::Box2i& window, const std::byte* bytes);
 
-// The samples of some rows of a deep part: for each pixel their number, and for each channel the place of the first.
+// The samples of some rows of a deep part: per pixel the sample count, per pixel and channel the address of the first
+// sample.
 class DeepRows {
   public:
     DeepRows(const PartHeader& header, std::size_t pixels);
 
-    // The frame in which `window` is what these rows hold.
+    // The frame buffer for `window`, whose rows these are.
     [[nodiscard]] Imf::DeepFrameBuffer frame(const Imath::Box2i& window);
 
-    // Points at samples that stand one after the other in `bytes`, by `counts`.
+    // Sets the addresses for samples that are consecutive in `bytes`, with the numbers in `counts`.
     void point_at(std::byte* bytes);
 
-    std::vector<unsigned int> counts;  // OpenEXR's type for them
+    std::vector<unsigned int> counts;  // OpenEXR's type for sample counts
 
   private:
     const PartHeader& header_;
-    std::vector<std::vector<std::byte*>> places_;  // of each channel, of each pixel
+    std::vector<std::vector<std::byte*>> places_;  // per channel, per pixel
 };
 
 }  // namespace strata::scenes::exr

@@ -1,5 +1,5 @@
-// scenes/exr/read_parts.cpp - the parts of an EXR file, in scan lines or tiles, flat or deep, as bytes in their own
-// types.
+// scenes/exr/read_parts.cpp - reads the parts of an EXR file, in scan lines or tiles, flat or deep, as bytes in their
+// stored types.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepScanLineInputPart.h>
 #include <OpenEXR/ImfDeepTiledInputPart.h>
@@ -22,7 +22,7 @@
 namespace strata::scenes::exr {
 namespace {
 
-// The side that the project's own targets may have; a header that says more is damage or another kind of file.
+// The largest side of the project's own targets; a larger one means damage or another kind of file.
 constexpr int max_size = 16384;
 
 void check(const std::string& path, const Imf::Header& header) {
@@ -48,7 +48,7 @@ PartHeader header_of(const Imf::Header& header) {
     if (header.hasName()) part.name = header.name();
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         part.channels.push_back({channel.name(), as_stored(channel.channel().type)});
-    // Attributes of other types are passed over: the project reads back text alone.
+    // Attributes of other types are ignored: the project only reads text.
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
             part.attributes.emplace(attribute.name(), text->value());
@@ -59,7 +59,7 @@ void read_flat(Imf::MultiPartInputFile& file, int number, StoredPart& part) {
     const Imath::Box2i window = file.header(number).dataWindow();
     part.bytes.resize(pixel_bytes(part.header) * static_cast<std::size_t>(part.header.width) *
                       static_cast<std::size_t>(part.header.height));
-    Imf::InputPart input{file, number};  // of tiles, too
+    Imf::InputPart input{file, number};  // reads tiles, too
     input.setFrameBuffer(flat_frame(part.header, window, part.bytes.data()));
     input.readPixels(window.min.y, window.max.y);
 }
@@ -70,7 +70,7 @@ void read_counts(Imf::DeepScanLineInputPart& input, const Imath::Box2i& window) 
 void read_samples(Imf::DeepScanLineInputPart& input, const Imath::Box2i& window) {
     input.readPixels(window.min.y, window.max.y);
 }
-// The tiles of the first level: the picture itself.
+// The tiles of the first level, which is the full image.
 void read_counts(Imf::DeepTiledInputPart& input, const Imath::Box2i&) {
     input.readPixelSampleCounts(0, input.numXTiles(0) - 1, 0, input.numYTiles(0) - 1, 0, 0);
 }
@@ -78,7 +78,7 @@ void read_samples(Imf::DeepTiledInputPart& input, const Imath::Box2i&) {
     input.readTiles(0, input.numXTiles(0) - 1, 0, input.numYTiles(0) - 1, 0, 0);
 }
 
-// Sample by sample, the channels side by side, as PartSource::rows has them; a pixel may have no sample.
+// Sample by sample with interleaved channels, as PartSource::rows; a pixel may have no sample.
 template <class Part>
 void read_deep(Imf::MultiPartInputFile& file, int number, StoredPart& part) {
     const Imath::Box2i window = file.header(number).dataWindow();
@@ -106,15 +106,15 @@ StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
         part.is_whole = true;
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception&) {  // OpenEXR's own are of this kind
+    } catch (const std::exception&) {  // OpenEXR's exceptions are derived from it
         part.bytes.clear();
         part.samples.clear();
     }
     return part;
 }
 
-// What OpenEXR's second parser found, which holds the sizes of attributes against the file's: the classes below ask for
-// the memory first, 2 GiB for a text that is not there (OpenEXR 3.1).
+// A size error found by OpenEXR's second parser, which compares the sizes of attributes with the file's. The classes
+// below would allocate first, up to 2 GiB for a text that is not in the file (OpenEXR 3.1).
 struct WrongSize {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     std::string sentence{};

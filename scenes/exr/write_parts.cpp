@@ -1,4 +1,4 @@
-// scenes/exr/write_parts.cpp - the parts of an EXR file, flat or deep, into a sink.
+// scenes/exr/write_parts.cpp - writes the parts of an EXR file, flat or deep, into a sink.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepScanLineOutputPart.h>
 #include <OpenEXR/ImfHeader.h>
@@ -32,7 +32,7 @@ class SinkStream : public Imf::OStream {
     void seekp(std::uint64_t position) override {
         if (!sink_.seek(static_cast<std::int64_t>(position))) throw std::runtime_error("a seek failed");
     }
-    // All rows were given; what follows are the tables of blocks.
+    // All rows have been given; the tables of blocks follow.
     void end() noexcept { is_ending_ = true; }
     [[nodiscard]] bool lacks_block() const noexcept { return lacks_block_; }
 
@@ -51,9 +51,8 @@ void tell_space(Imf::Header& header, StoredSpace space) {
 
 Imf::Header header_of(const PartHeader& part) {
     Imf::Header header{part.width, part.height};
-    header.compression() =
-        part.is_deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION;  // deep parts may have no stronger
-    header.zipCompressionLevel() = 3;                                 // OpenEXR's own choice
+    header.compression() = part.is_deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION;  // the strongest for deep parts
+    header.zipCompressionLevel() = 3;                                                    // OpenEXR's default
     header.setType(part.is_deep ? Imf::DEEPSCANLINE : Imf::SCANLINEIMAGE);
     if (!part.name.empty()) header.setName(part.name);
     for (const StoredChannel& channel : part.channels)
@@ -84,15 +83,15 @@ void write_deep(Imf::MultiPartOutputFile& file, int number, const PartSource& pa
     DeepRows row{part.header, width};
     for (int y = 0; y < part.header.height; ++y) {
         std::ranges::copy(part.samples.subspan(static_cast<std::size_t>(y) * width, width), row.counts.begin());
-        row.point_at(const_cast<std::byte*>(part.rows(y, y + 1)));  // the library reads them alone
+        row.point_at(const_cast<std::byte*>(part.rows(y, y + 1)));  // the library only reads them
         output.setFrameBuffer(row.frame(rows_of(part.header, y, y + 1)));
         output.writePixels(1);
     }
 }
 
-// Every part has two blocks of 16 rows in work for each thread, about three times (their packed form and the packer's
-// own), from the file's first byte to its last. So a picture has them all, and many layers what adds little to the
-// layers themselves.
+// Every part has two blocks of 16 rows in work per thread, about three times (with their compressed form and the
+// compressor's state), from the file's first byte to its last. So a single image uses all threads, and a file of many
+// layers uses few, so that the memory added is small beside the layers themselves.
 int threads_for(std::span<const PartSource> parts) {
     const int all = start_threads();
     return parts.size() == 1 ? all : std::min(all, parts.front().header.height / 1024);
@@ -100,9 +99,9 @@ int threads_for(std::span<const PartSource> parts) {
 
 }  // namespace
 
-// A block that could not be packed (zlib had no memory) is left out without a word, and what follows it too: OpenEXR
-// 3.1 returns from OutputFile::writePixels before it asks its tasks for failures. The tables of blocks, written when
-// the file closes, then hold a 0.
+// OpenEXR 3.1 silently omits a block that could not be compressed (zlib had no memory), and all that follow: it returns
+// from OutputFile::writePixels before it checks its tasks for failures. The tables of blocks, written when the file
+// closes, then contain a 0.
 std::string write_parts(const ByteSink& sink, std::span<const PartSource> parts) try {
     std::vector<Imf::Header> headers;
     for (const PartSource& part : parts) headers.push_back(header_of(part.header));

@@ -23,20 +23,20 @@ constexpr std::size_t buffer_bytes = 65536;
 std::atomic<void (*)(const std::string& path)> told_of_files{nullptr};
 constexpr std::string_view temporary_ending = ".tmp";
 
-// The process and a counter make the name its own; the same folder makes the later rename one step of one file
-// system. The dot in front hides it from a glob. 255 bytes are the longest name that Linux's file systems hold.
+// The process id and a counter make the name unique; the same folder makes the rename atomic, within one file system.
+// The leading dot hides it from globs. Linux's file systems allow names of at most 255 bytes.
 std::string temporary_name(const std::string& path, bool is_stream) {
     static std::atomic<unsigned> number{0};
     const std::filesystem::path target{path};
     const std::string own = fmt::format(".{}-{}{}", ::getpid(), number++, temporary_ending);
     const std::string name = "." + target.filename().string().substr(0, 255 - 1 - own.size()) + own;
-    // The folder of a pipe or a device need not take files.
+    // The folder of a pipe or a device may not allow files.
     return ((is_stream ? std::filesystem::temp_directory_path() : target.parent_path()) / name).string();
 }
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// All of it, whatever the system takes at once. False with errno after a failure.
+// Writes all of it, however little the system takes per call. False with errno after a failure.
 bool write_all(int descriptor, const std::byte* bytes, std::size_t size) noexcept {
     while (size > 0) {
         const ssize_t written = ::write(descriptor, bytes, size);
@@ -48,8 +48,8 @@ bool write_all(int descriptor, const std::byte* bytes, std::size_t size) noexcep
     return true;
 }
 
-// Whether a finished file cannot take this one's place. A folder, or a name that no folder takes, is an error here: a
-// rename would tell it only after all the work of rendering.
+// True if the path leads to a pipe or a device, which a rename must not replace. A folder, or a name that no folder
+// allows, is an error here: the rename would report it only after all the rendering.
 bool leads_to_stream(const std::string& path) {
     if (is_standard_output(path)) return true;
     struct stat status {};
@@ -72,19 +72,19 @@ AtomicFile::AtomicFile(const std::string& path)
     throw SystemError(path, "write", reason(error));
 }
 
-// O_EXCL: a file of that name belongs to another process. A killed process of the same number may have left one (the
-// first process of a container has the number 1 each time): the next name is tried. Mode 0666 leaves the permissions to
+// O_EXCL: an existing file of that name belongs to another process. A killed process of the same id may have left one
+// (the first process of a container always has id 1): then the next name is tried. Mode 0666 leaves the permissions to
 // the umask.
 void AtomicFile::open_temporary() {
     constexpr int most_tries = 10000;
     for (int i = 0; i < most_tries; ++i) {
         temporary_ = temporary_name(path_, is_stream_);
-        // Entered before the file exists: an interrupt between the two finds nothing to unlink; the other order
-        // would leave a file behind.
+        // Entered before the file exists: an interrupt between the two finds nothing to unlink; in the other order a
+        // file could remain.
         slot_ = enter_unfinished_file(temporary_);
         descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) return;
-        // Not discard(): the file is another's.
+        // Not discard(): the file belongs to another process.
         const int error = errno;
         forget_unfinished_file(slot_);
         slot_ = -1;
@@ -129,7 +129,7 @@ void AtomicFile::note_failure() noexcept {
     if (failure_ == 0) failure_ = errno != 0 ? errno : EIO;
 }
 
-// The order is what makes it safe: a name must not reach the disk before the bytes that it stands for.
+// The order ensures safety: the name must not reach the disk before the file's bytes.
 void AtomicFile::put_in_place() {
     errno = 0;
     if (::fsync(descriptor_) != 0 && errno != EINVAL) return note_failure();
@@ -144,7 +144,7 @@ void AtomicFile::put_in_place() {
 }
 
 void AtomicFile::send() noexcept {
-    // Standard output may be a file that is open at some place: only its own descriptor knows where.
+    // Standard output may be a file that is open at some offset, which only its own descriptor has.
     const int stream = is_standard_output(path_) ? ::dup(STDOUT_FILENO) : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (stream < 0) return note_failure();
     bool done = ::lseek(descriptor_, 0, SEEK_SET) == 0;
@@ -160,7 +160,7 @@ void AtomicFile::send() noexcept {
 
 void AtomicFile::commit() {
     if (flush()) is_stream_ ? send() : put_in_place();
-    if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes what is there
+    if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes the file
     if (const auto told = told_of_files.load()) told(path_);
 }
 
@@ -187,7 +187,7 @@ void write_file(const std::string& path, std::string_view bytes) {
 
 int sync_folder(const std::string& folder) noexcept {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // A folder may be open to writers alone: then its names reach the disk when the system likes.
+    // A folder may be writable but not readable; then its entries reach the disk when the system writes them.
     if (descriptor < 0) return errno == EACCES ? 0 : errno;
     const int error = ::fsync(descriptor) == 0 ? 0 : errno;
     ::close(descriptor);

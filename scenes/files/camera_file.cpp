@@ -1,5 +1,4 @@
-// scenes/files/camera_file.cpp - camera files in and out. Numbers are read and written the same under every locale and
-// rounding mode.
+// scenes/files/camera_file.cpp - reads and writes camera files. Locale and rounding mode do not affect numbers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +27,7 @@ constexpr std::string_view look_at_keys[] = {"eye", "center", "up", "fovy_degree
 constexpr std::string_view matrix_keys[] = {"view", "projection"};
 constexpr std::string_view all_keys[] = {"eye", "center", "up", "fovy_degrees", "near", "far", "view", "projection"};
 
-// A value of the file with the two names that an error needs.
+// A value of the file, with the file name and the JSON pointer for errors.
 struct Place {
     const std::string& file;
     std::string pointer;
@@ -37,7 +36,7 @@ struct Place {
     [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
         throw InputError(file, pointer.empty() ? "/" : pointer, expected, found);
     }
-    [[noreturn]] void fail(const std::string& expected) const {  // dump recurses: not into what may be nested deeply
+    [[noreturn]] void fail(const std::string& expected) const {  // dump recurses: unsafe if nested deeply
         fail(expected, value.is_structured() ? value.type_name() : value.dump().substr(0, 64));
     }
     [[nodiscard]] Place operator[](std::string_view key) const {
@@ -63,10 +62,10 @@ std::optional<double> parse_hex_float(std::string_view text) {
     return negative ? -magnitude : magnitude;
 }
 
-// Beyond 2^64 squares and products leave binary32, below 2^-64 so do quotients: no scene needs either.
+// Beyond 2^64 squares and products overflow binary32, below 2^-64 quotients do: no scene needs either.
 constexpr double largest = 0x1p64, smallest = 0x1p-64;
 
-// Every number of a camera file passes here: an infinity or a NaN would spread through both matrices.
+// Every number of a camera file is checked here: an infinity or a NaN would spread through both matrices.
 double number(const Place& place) {
     std::optional<double> value;
     if (place.value.is_number()) value = place.value.get<double>();
@@ -89,7 +88,7 @@ std::array<double, count> numbers(const Place& place) {
     return result;
 }
 
-// Each wanted key and no other.
+// Requires each key in `wanted` and no other.
 void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
     for (const auto& [key, value] : camera.value.items()) {
         if (std::ranges::find(wanted, key) == wanted.end())
@@ -100,9 +99,9 @@ void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
     }
 }
 
-// |a x b| relative to both lengths, squared.
+// The square of |a x b| divided by both lengths.
 double squared_sine(const Vec3d& a, const Vec3d& b) noexcept {
-    // Vectors of length 0 have no direction: they count as parallel.
+    // Vectors of length 0 have no direction and count as parallel.
     const double aa = dot_product(a, a), bb = dot_product(b, b);
     const Vec3d c = cross_product(a, b);
     return aa > 0 && bb > 0 ? dot_product(c, c) / aa / bb : 0;
@@ -113,8 +112,8 @@ Vec3d vector(const Place& place) {
     return {x, y, z};
 }
 
-// Every condition that the matrices divide by: an angle with a tangent, near apart from far and from 0, an eye
-// away from its center, an up that is not along the line of sight.
+// Checks the conditions that the matrices need for their divisions: an angle with a tangent, near different from far
+// and from 0, an eye different from its center, an up that is not along the line of sight.
 LookAt parse_look_at(const Place& camera) {
     check_keys(camera, look_at_keys);
     const LookAt result{.eye = vector(camera["eye"]),
@@ -130,15 +129,15 @@ LookAt parse_look_at(const Place& camera) {
     if (result.near < smallest) camera["near"].fail("a distance of at least 2^-64");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
-    // The bound is 10^-12 for the sine itself: below it the cross product is rounding noise and the picture
-    // would turn with its last bits.
+    // The bound is 10^-12 for the sine itself: below it the cross product is rounding noise, and the image would turn
+    // with its last bits.
     if (!(squared_sine(minus(result.center, result.eye), result.up) > 1e-24))
         camera["up"].fail("a direction across the line of sight");
     return result;
 }
 
-// Whether the matrix maps all of space to less than space. Elimination in binary64: a matrix that is singular but for
-// its roundings passes.
+// True if the matrix is singular, by elimination in binary64: a matrix that is singular only without its rounding
+// errors passes.
 bool is_singular(std::array<double, 16> rows) {
     const auto at = [&](std::size_t row, std::size_t column) -> double& { return rows[4 * row + column]; };
     for (std::size_t k = 0; k < 4; ++k) {
@@ -161,8 +160,8 @@ pipeline::Matrix matrix(const Place& place) {
     return matrix_of(entries);
 }
 
-// std::to_chars writes the shortest hexadecimal digits that give the same bits back, without 0x; the sign goes
-// in front of it. A zero keeps its sign.
+// std::to_chars writes the shortest hexadecimal digits that give the same bits back, without 0x; the sign is put in
+// front of it. A zero keeps its sign.
 std::string hex_float(double value) {
     char text[32];
     const auto [end, error] = std::to_chars(std::begin(text), std::end(text), std::abs(value), std::chars_format::hex);
@@ -183,13 +182,13 @@ pipeline::View parse_camera(const std::string& text, const std::string& name, do
     const json document = parse_strict_json(text, name, "a camera in JSON");
     const Place camera{name, "", document};
     if (!document.is_object()) camera.fail("an object", document.type_name());
-    for (const auto& [key, value] : document.items()) {  // a misspelt key must not choose the form
+    for (const auto& [key, value] : document.items()) {  // a misspelled key must not select the form
         if (std::ranges::find(all_keys, key) == std::end(all_keys))
             camera.fail(fmt::format("only the keys {}", fmt::join(all_keys, ", ")),
                         quoted_with_suggestion(key, all_keys));
     }
-    // A file with either of the matrix keys is of the second form, and check_keys() then asks for the other and
-    // refuses those of the first.
+    // A file with either of the matrix keys is of the second form; check_keys() then requires the other and rejects
+    // keys of the first form.
     if (!document.contains("view") && !document.contains("projection")) return look_at(parse_look_at(camera), aspect);
     check_keys(camera, matrix_keys);
     return {matrix(camera["view"]), matrix(camera["projection"])};

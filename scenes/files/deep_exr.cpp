@@ -1,7 +1,7 @@
 // scenes/files/deep_exr.cpp - a layered depth image: every fragment of every pixel in one deep EXR file.
 //
 // Rule     Channels R G B A (FLOAT, premultiplied), Z (FLOAT), Zbits and id (UINT32: depth code and primitive). Samples
-//          stand in the order of `fragments`, which need not be that of Z.
+//          are in the order of `fragments`, which need not be sorted by Z.
 #include <array>
 #include <bit>
 #include <cassert>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t words_a_fragment = 7;
 constexpr std::array<const char*, words_a_fragment> names{"R", "G", "B", "A", "Z", "Zbits", "id"};
-constexpr std::size_t first_integer = 5;  // the words before are FLOAT
+constexpr std::size_t first_integer = 5;  // the words before it are FLOAT
 
 using Words = std::array<std::uint32_t, words_a_fragment>;
 
@@ -33,8 +33,7 @@ PartHeader header_of(const DeepFragments& fragments, const Attributes& attribute
     return header;
 }
 
-// As the file holds it: premultiplied.
-// Each float as its bits: a NaN keeps its payload.
+// A fragment as stored in the file: premultiplied. Each float is stored as its bits: a NaN keeps its payload.
 Words words_of(const DeepFragments& fragments, std::size_t i) noexcept {
     const pipeline::Rgba& c = fragments.rgba[i];
     const float scale = fragments.premultiplied ? 1.0f : c[3];
@@ -57,15 +56,15 @@ void append(const Words& words, DeepFragments& fragments) {
     fragments.primitive.push_back(words[6]);
 }
 
-// Hands out the fragments row by row, from the top.
+// Provides the fragments row by row, from the top.
 class DeepRows {
   public:
     explicit DeepRows(const DeepFragments& fragments) : fragments_{fragments} {}
 
     [[nodiscard]] const std::byte* encode(int first, int last) {
         const auto width = static_cast<std::size_t>(fragments_.width);
-        // first and last are rows, count is per pixel. The writer asks for the rows once and in order, which
-        // `next_` counts on.
+        // first and last are rows, count is per pixel. The writer requests the rows once and in order, which `next_`
+        // relies on.
         const auto begin = fragments_.count.begin() + static_cast<std::ptrdiff_t>(first * width);
         const auto end = fragments_.count.begin() + static_cast<std::ptrdiff_t>(last * width);
         words_.clear();
@@ -80,13 +79,13 @@ class DeepRows {
     std::vector<Words> words_;
 };
 
-// Where a fragment of the file keeps each of our words.
+// The offset of each of our words in a fragment of the file.
 std::array<std::size_t, words_a_fragment> offsets_in(const PartHeader& header, const std::string& path) {
     std::array<std::size_t, words_a_fragment> offsets{};
     for (std::size_t i = 0; i < words_a_fragment; ++i) {
         const auto channel = find_channel(header, names[i]);
         const StoredType type = i < first_integer ? StoredType::single : StoredType::word;
-        // A deep file of another program has other channels: it is refused, not guessed at.
+        // A deep file of another program has other channels and is rejected.
         if (!channel || channel->type != type)
             throw InputError(path, "part 0", std::string{"a channel "} + names[i] + " as strata writes it", "none");
         offsets[i] = channel->offset;
@@ -109,7 +108,7 @@ std::string digest(const DeepFragments& fragments) {
 
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {
     const FloatEnvironment environment;
-    // The counts and the lists must tell of the same number of fragments, or the rows run out of bounds.
+    // The counts must add up to the length of the lists, or rows would exceed them.
     assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
     if (image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
@@ -128,7 +127,7 @@ DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
         fragments.space = pipeline::ColorSpace::linear;
     fragments.count = part.samples;
     const std::size_t stride = pixel_bytes(part.header);
-    // A fragment at a time; its seven words may stand in any order in the file.
+    // One fragment per iteration; its seven words may be in any order in the file.
     for (std::size_t at = 0; at < part.bytes.size(); at += stride) {
         Words words{};
         for (std::size_t i = 0; i < words_a_fragment; ++i)
@@ -142,7 +141,7 @@ DeepFragments read_deep(const std::string& path) {
     const FloatEnvironment environment;
     std::vector<StoredPart> parts;
     exr::read_parts(path, [&](StoredPart&& part) { parts.push_back(std::move(part)); });
-    // read_exr() answers at least one part or throws.
+    // read_exr() returns at least one part or throws.
     return as_fragments(parts.front(), path);
 }
 

@@ -1,10 +1,11 @@
-// scenes/files/exr.cpp - flat and multi-part EXR: premultiplied colours to look at, the targets' own codes to compare.
+// scenes/files/exr.cpp - flat and multi-part EXR files: premultiplied colours for viewers, and the targets' codes for
+// comparisons.
 //
-// Rule     R G B A hold premultiplied values. Where the target is premultiplied half or binary32 they are its codes bit
-//          for bit, in its own type; else they are FLOAT, and the codes stand beside them as UINT32 `Rbits Gbits Bbits
+// Rule     R G B A are premultiplied values. If the target is premultiplied half or binary32 they are its codes bit for
+//          bit, in its own type; else they are FLOAT, and the codes are stored in addition as UINT32 `Rbits Gbits Bbits
 //          Abits`. `Z` is the depth as a FLOAT, `Zbits` its code. All bits survive: OpenEXR copies each channel in
 //          its own type.
-// Cost     Colours of a straight target are stored twice; zip shrinks the smaller codes to little.
+// Cost     Colours of a target that is not premultiplied are stored twice; the codes are small after zip compression.
 #include <fmt/format.h>
 
 #include <array>
@@ -29,13 +30,13 @@ using pipeline::Image;
 
 constexpr std::string_view channel_names[4] = {"R", "G", "B", "A"};
 
-// Premultiplied half and binary32 targets: what viewers want is what the target holds. A unorm8 code is an
-// integer and never a channel's value.
+// True for premultiplied half and binary32 targets, whose codes are the values that viewers need. A unorm8 code is an
+// integer and not a channel's value.
 bool values_are_codes(const OutputColor& image) noexcept {
     return image.premultiplied && pipeline::info(image.color.format).type != ChannelType::unorm8;
 }
 
-// The channels in the order of a pixel's bytes; append_pixel() below writes them in this order.
+// The channels in the order of their bytes in a pixel; append_pixel() below writes them in this order.
 PartHeader header_of(const OutputColor& image) {
     PartHeader header{.width = image.color.width, .height = image.color.height};
     const auto add = [&](std::string name, StoredType type) { header.channels.push_back({std::move(name), type}); };
@@ -52,10 +53,10 @@ PartHeader header_of(const OutputColor& image) {
     return header;
 }
 
-// What all parts of a file are encoded into, one after the other.
+// The buffer into which all parts of a file are encoded, one after another.
 using RowBytes = std::shared_ptr<std::vector<std::byte>>;
 
-// Rows of pixels as PartSource gives them: the channels of one pixel after the other, each in its own type.
+// Rows of pixels as required by PartSource: interleaved channels, each in its own type.
 class Rows {
   public:
     // The image must outlive the rows.
@@ -87,7 +88,7 @@ class Rows {
     void append_pixel(int x, int y) {
         const int channels = image_.color.channels();
         const std::uint32_t* codes = &image_.color.codes[image_.color.index(x, y)];
-        // bare: the channel is the code itself, and no "bits" channel follows.
+        // bare: the channel itself is the code, and no "bits" channel follows.
         const bool bare = values_are_codes(image_);
         for (int c = 0; c < channels; ++c) {
             if (bare && type_ == ChannelType::half) append(static_cast<std::uint16_t>(codes[c]));
@@ -97,14 +98,14 @@ class Rows {
         const bool has_depth = !image_.depth.codes.empty();
         const std::uint32_t depth = has_depth ? image_.depth.codes[image_.depth.index(x, y)] : 0;
         const auto format = pipeline::depth_format(image_.depth.format);
-        // Z is the value, rounded, for other programs; Zbits below is what a comparison reads.
+        // Z is the rounded value, for other programs; comparisons read Zbits below.
         if (has_depth) append(static_cast<float>(rasterizer::depth_value(depth, format)));
         if (!bare)
             for (int c = 0; c < channels; ++c) append(codes[c]);
         if (has_depth) append(depth);
     }
 
-    // Alpha itself, and colours without alpha, stay as they are. One multiplication, rounded once.
+    // Alpha, and colours without alpha, are unchanged. One multiplication, rounded once.
     [[nodiscard]] float premultiplied(const std::uint32_t* codes, int c, int channels) const noexcept {
         const float v = channel_value(type_, codes[c]);
         return image_.premultiplied || channels < 4 || c == 3 ? v : v * channel_value(type_, codes[3]);
@@ -117,7 +118,7 @@ class Rows {
     std::byte* next_ = nullptr;
 };
 
-// The source keeps its rows alive: it is copied into the writer's list.
+// The source owns its rows, because it is copied into the writer's list.
 PartSource source_of(const OutputColor& image, const RowBytes& bytes) {
     PartSource part;
     part.header = header_of(image);
@@ -127,7 +128,7 @@ PartSource source_of(const OutputColor& image, const RowBytes& bytes) {
     return part;
 }
 
-// A format's name as an attribute says it; nothing for any other text.
+// The format named by an attribute; empty for any other text.
 std::optional<Format> format_named(std::string_view name) {
     for (const Format format : enum_values<Format>)
         if (pipeline::info(format).name == name) return format;
@@ -138,8 +139,7 @@ StoredType type_of_codes(Format format) {
     return pipeline::info(format).type == ChannelType::half ? StoredType::half : StoredType::single;
 }
 
-// The way back from a part of a file to targets. It works for files of other programs as far as they have R G B
-// A.
+// Converts a part of a file back to targets. Also reads files of other programs that have R G B A.
 class PartReader {
   public:
     PartReader(const StoredPart& part, int number, const std::string& path)
@@ -162,7 +162,7 @@ class PartReader {
         throw InputError(path_, fmt::format("part {}", number_), expected, found);
     }
 
-    // By name, or, in a file of another program, by the type of R.
+    // By name, or, in a file of another program, by the type of channel R.
     [[nodiscard]] Format color_format() const {
         if (const auto format = format_named(attribute(header_, "format.color")); format && pipeline::is_color(*format))
             return *format;
@@ -171,9 +171,8 @@ class PartReader {
         return red->type == StoredType::half ? Format::rgba16f : Format::rgba32f;
     }
 
-    // One target from the channels `names`. The "bits" channel holds the codes where there is one; else the
-    // channel itself must be of the type that the format's codes have, for a converted value would not be the
-    // code.
+    // One target from the channels `names`. The codes are read from the "bits" channel if there is one; otherwise the
+    // channel must have the type of the format's codes, because a converted value would not be the code.
     [[nodiscard]] Image target(Format format, const std::vector<std::string>& names) const {
         Image image{format, header_.width, header_.height};
         const auto channels = static_cast<std::size_t>(image.channels());
@@ -187,7 +186,7 @@ class PartReader {
         return image;
     }
 
-    // memcpy, for a channel may begin at any byte of a pixel. A half fills the low 16 bits of its word.
+    // memcpy, because a channel may begin at any byte of a pixel. A half fills the low 16 bits of its word.
     void copy_codes(const ChannelPlace& source, Image& image, std::size_t channel) const {
         const auto channels = static_cast<std::size_t>(image.channels());
         const std::byte* from = part_.bytes.data() + source.offset;
@@ -222,7 +221,7 @@ void write_layers(const std::string& path, std::span<const OutputColor> layers) 
     std::vector<PartSource> parts;
     for (const OutputColor& layer : layers) {
         parts.push_back(source_of(layer, bytes));
-        // Three digits sort up to a thousand layers; beyond that the number grows.
+        // Three digits sort correctly up to a thousand layers; beyond that the number gets longer.
         parts.back().header.name = layer.part.empty() ? fmt::format("layer.{:03}", parts.size() - 1) : layer.part;
     }
     write_exr_parts(path, parts);

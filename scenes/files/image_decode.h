@@ -1,10 +1,10 @@
-// scenes/files/image_decode.h - a PNG or JPEG in memory to 8-bit RGBA.
+// scenes/files/image_decode.h - decodes a PNG or JPEG in memory to 8-bit RGBA.
 //
-// Rule     PNG by OpenImageIO's reader "png", JPEG by "jpeg", never by a guess; alpha stays straight, colour profiles
-//          and gamma chunks change nothing. 16-bit PNG codes become the nearest 8-bit ones: (c + 128) / 257 rounded
-//          down. Grey is copied to r, g, b; missing alpha is 255. The header is read here first: a side is at most
-//          16384 texels, and the data must be long enough for the size that the header claims (deflate packs at most
-//          1032 to 1; a JPEG block takes at least one bit).
+// Rule     PNG by OpenImageIO's reader "png", JPEG by "jpeg", the format is never guessed. Colours are not multiplied
+//          by alpha; colour profiles and gamma chunks are ignored. 16-bit PNG codes become the nearest 8-bit ones: (c +
+//          128) / 257 rounded down. Grey is copied to r, g, b; missing alpha is 255. The header is checked first: width
+//          and height are at most 16384 texels, and the data must be long enough for the size in the header (deflate
+//          packs at most 1032 to 1; a JPEG block takes at least one bit).
 // Source   glTF 2.0, 3.8.3; PNG 11.2.2; JPEG: ITU T.81, B.2. JPEG's own arithmetic is libjpeg-turbo's (integer, slow
 //          but exact). Tests    tests/scenes/gltf/gltf_image_test.cpp
 #pragma once
@@ -25,17 +25,17 @@ struct ImageHeader {
     std::uint32_t width = 0, height = 0;
 };
 
-// Throws InputError at `place` for anything but a PNG or JPEG of sane size.
+// Throws InputError at `place` for anything except a PNG or JPEG of permitted size.
 [[nodiscard]] ImageHeader read_image_header(Bytes bytes, const Place& place);
 
-// width * height * 4 codes, top row first. `header` is what read_image_header said of the same bytes.
+// Returns width * height * 4 codes, top row first. `header` must be read_image_header's result for the same bytes.
 [[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place);
 
-// OpenImageIO's reader for what a file's name ends in: .png, .jpg, .jpeg, .ppm, .pgm, .pbm, .pnm, .tga, .bmp, .hdr,
-// .tif or .tiff, in either case. Null for other endings.
+// OpenImageIO's reader for a file's ending: .png, .jpg, .jpeg, .ppm, .pgm, .pbm, .pnm, .tga, .bmp, .hdr, .tif or .tiff,
+// in either case. Null for other endings.
 [[nodiscard]] const char* reader_of(const std::string& path);
-// A picture's own channels and bits, for programs that compare codes; `path` is read whole. InputError for what that
-// reader cannot read.
+// An image's stored channels and bits, for programs that compare codes; `path` is read whole. InputError if the reader
+// cannot read it.
 [[nodiscard]] StoredCodes read_codes(const std::string& path, const char* reader);
 
 }  // namespace strata::scenes

@@ -1,4 +1,4 @@
-// scenes/files/image_formats.h - the readers and writers behind image_io, and their common ground.
+// scenes/files/image_formats.h - the readers and writers that image_io chooses from, and their shared functions.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,41 +10,41 @@
 
 namespace strata::scenes {
 
-// The value of a colour code: k / 255, or the half's or the float's own, whose NaN payload may be lost.
+// The value of a colour code: k / 255, or the value of the half or float, whose NaN payload may be lost.
 [[nodiscard]] float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept;
 
-// Writes one file: `write` answers "", or what failed. SystemError, with the system's own reason where there is one.
+// Writes one file: `write` returns "", or an error message. Throws SystemError, with the system's reason if there is
+// one.
 void write_with(const std::string& path, const std::function<std::string(const ByteSink& sink)>& write);
 void write_exr_parts(const std::string& path, std::span<const PartSource> parts);
 
-// Keys with "strata:" before them.
+// The attributes with the prefix "strata:".
 [[nodiscard]] Attributes prefixed(const Attributes& attributes);
 
-// The attribute "strata:KEY", "" if there is none.
+// The attribute "strata:KEY", or "".
 [[nodiscard]] std::string attribute(const PartHeader& header, const std::string& key);
 
-// The caller's attributes with format, digest and colour space of the targets.
+// The caller's attributes, with format, digest and colour space of the targets added.
 [[nodiscard]] Attributes described(const OutputColor& image);
 
 // "encoded" or "linear".
 [[nodiscard]] std::string name_of(pipeline::ColorSpace space);
 [[nodiscard]] StoredSpace stored_space(pipeline::ColorSpace space) noexcept;
 
-// Where a pixel of a part keeps a channel, and as what.
+// The offset and the type of a channel in a pixel of a part.
 struct ChannelPlace {
     std::size_t offset = 0;
     StoredType type = StoredType::single;
 };
 [[nodiscard]] std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::string& name);
 
-// Writers and readers of one format each; image_io.cpp chooses. The readers throw InputError, the writers
-// SystemError.
+// The writers and readers of the formats; image_io.cpp chooses. Readers throw InputError, writers SystemError.
 void write_png(const std::string& path, const OutputColor& image);
 void write_exr(const std::string& path, const OutputColor& image);
 [[nodiscard]] std::vector<FileImage> read_png(const std::string& path);
 [[nodiscard]] std::vector<FileImage> read_exr(const std::string& path);
 
-// A flat part's targets; a deep part's fragments. `number` is the part's place in the file.
+// The targets of a flat part, or the fragments of a deep part. `number` is the part's index in the file.
 [[nodiscard]] std::vector<FileImage> as_images(const StoredPart& part, int number, const std::string& path);
 [[nodiscard]] DeepFragments as_fragments(const StoredPart& part, const std::string& path);
 

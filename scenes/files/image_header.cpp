@@ -1,4 +1,5 @@
-// scenes/files/image_header.cpp - what a PNG or JPEG says of its size, before any decoder sees it. See image_decode.h.
+// scenes/files/image_header.cpp - reads the size of a PNG or JPEG and checks it before a decoder runs. See
+// image_decode.h.
 #include <algorithm>
 #include <array>
 
@@ -8,8 +9,8 @@ namespace strata::scenes {
 namespace {
 
 constexpr std::array<unsigned char, 8> png_signature{0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
-constexpr std::uint64_t deflate_ratio = 1032;  // no deflate stream grows by more
-constexpr int max_jpeg_scans = 64;             // each scan is a walk over the whole image: few bytes, much time
+constexpr std::uint64_t deflate_ratio = 1032;  // the largest expansion of a deflate stream
+constexpr int max_jpeg_scans = 64;             // each scan is a pass over the whole image: few bytes, much time
 
 std::uint32_t byte_at(Bytes bytes, std::size_t at) { return std::to_integer<std::uint32_t>(bytes[at]); }
 std::uint32_t big_endian16(Bytes bytes, std::size_t at) { return byte_at(bytes, at) << 8 | byte_at(bytes, at + 1); }
@@ -17,7 +18,7 @@ std::uint32_t big_endian32(Bytes bytes, std::size_t at) {
     return big_endian16(bytes, at) << 16 | big_endian16(bytes, at + 2);
 }
 
-// The bytes decide what an image is; the type that a file names is compared with them by the caller.
+// The bytes decide the format; the caller compares it with the type that a file states.
 bool is_png(Bytes bytes) {
     return bytes.size() >= png_signature.size() &&
            std::equal(png_signature.begin(), png_signature.end(), bytes.begin(),
@@ -25,8 +26,8 @@ bool is_png(Bytes bytes) {
 }
 bool is_jpeg(Bytes bytes) { return bytes.size() >= 3 && big_endian16(bytes, 0) == 0xffd8 && byte_at(bytes, 2) == 0xff; }
 
-// `least_bytes` is the smallest file that can hold an image of this size: a header that promises more is
-// refused before memory is asked for its texels.
+// `least_bytes` is the size of the smallest file that can contain an image of this size: a larger claim is rejected
+// before memory for its texels is allocated.
 void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_t bytes, const Place& place) {
     const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
     if (header.width == 0 || header.height == 0) place.fail("IMAGE_DATA_INVALID", "an image with texels", size);
@@ -37,7 +38,7 @@ void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_
                    std::to_string(bytes));
 }
 
-// The checksum runs over the chunk's type and data, PNG 5.5; the table holds its value for each byte.
+// The checksum covers the chunk's type and data, PNG 5.5; the table has its value for each byte.
 constexpr std::array<std::uint32_t, 256> crc_table = [] {  // PNG annex D
     std::array<std::uint32_t, 256> table{};
     for (std::uint32_t n = 0; n < 256; ++n) {
@@ -54,8 +55,8 @@ std::uint32_t crc32(Bytes bytes) {
     return ~crc;
 }
 
-// Whole chunks with right checksums up to IEND: what is damaged by accident never reaches libpng, which would print of
-// its own.
+// Requires whole chunks with correct checksums up to IEND: libpng, which prints messages of its own, never sees
+// accidental damage.
 void check_png_chunks(Bytes bytes, const Place& place) {
     constexpr std::size_t frame = 12;  // length, type, checksum
     constexpr std::uint32_t iend = 0x49454e44;
@@ -79,20 +80,19 @@ ImageHeader png_header(Bytes bytes, const Place& place) {
     if (big_endian32(bytes, ihdr) != 13 || big_endian32(bytes, ihdr + 4) != 0x49484452)
         place.fail("IMAGE_DATA_INVALID", "an IHDR chunk first", "another");
     const ImageHeader header{ImageKind::png, big_endian32(bytes, ihdr + 8), big_endian32(bytes, ihdr + 12)};
-    const std::uint64_t bits = byte_at(bytes, ihdr + 16);  // at least one channel of them a texel
-    // Bytes of the unpacked rows, with less than the file's true depth where it has several channels: a lower
-    // bound.
+    const std::uint64_t bits = byte_at(bytes, ihdr + 16);  // at least one channel of that many bits per texel
+    // The size of the unpacked rows, counted as one channel: a lower bound if the file has several channels.
     const std::uint64_t raw = (std::uint64_t{header.width} * bits + 7) / 8 * header.height;
     check_size(header, raw / deflate_ratio, bytes.size(), place);
     check_png_chunks(bytes, place);
     return header;
 }
 
-bool is_frame(std::uint32_t marker) {  // SOF0 to SOF15 without DHT, JPG, DAC
+bool is_frame(std::uint32_t marker) {  // SOF0 to SOF15 except DHT, JPG, DAC
     return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
-// The next marker at or after `at`, its position behind it; 0 at the end. Stuffed zeros and restart markers are data.
+// The next marker at or after `at`, which is moved past it; 0 at the end. Stuffed zeros and restart markers are data.
 std::uint32_t next_marker(Bytes bytes, std::size_t& at) {
     while (at + 1 < bytes.size()) {
         const std::uint32_t code = byte_at(bytes, at + 1);
@@ -106,8 +106,8 @@ std::uint32_t next_marker(Bytes bytes, std::size_t& at) {
     return 0;
 }
 
-// A walk over all marker segments: the frame says the size, and the scans are counted, for a progressive file
-// of few bytes can ask for any number of walks over the image.
+// Iterates over all marker segments: the frame gives the size, and the scans are counted, because a small progressive
+// file can require any number of passes over the image.
 ImageHeader jpeg_header(Bytes bytes, const Place& place) {
     ImageHeader header{ImageKind::jpeg, 0, 0};
     constexpr std::uint32_t scan = 0xda, end_of_image = 0xd9;
@@ -126,8 +126,7 @@ ImageHeader jpeg_header(Bytes bytes, const Place& place) {
         }
         if (marker == scan && ++scans > max_jpeg_scans)
             place.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more");
-        // TEM, 0x01, has no length behind it; every other marker here has one, in 16 bits that count
-        // themselves.
+        // TEM, 0x01, has no length; every other marker here has a 16-bit length that includes itself.
         if (marker != 0x01) at += big_endian16(bytes, at);
     }
     if (header.width == 0 || scans == 0) place.fail("IMAGE_DATA_INVALID", "a frame and a scan", "none");

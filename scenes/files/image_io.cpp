@@ -1,5 +1,5 @@
-// scenes/files/image_io.cpp - what PNG and EXR have in common: the choice by name, the atomic file round every
-// writer, attributes and digests.
+// scenes/files/image_io.cpp - shared parts of PNG and EXR: the choice by name, the atomic file around every writer,
+// attributes and digests.
 #include "scenes/files/image_io.h"
 
 #include <bit>
@@ -22,7 +22,7 @@ ImageFile image_file(const std::string& path) {
     throw InputError(path, "name", "a file name that ends in .png or .exr", "another ending");
 }
 
-// A code is 8, 16 or 32 bits in the low end of its word; the type says which.
+// A code is in the low 8, 16 or 32 bits of its word, depending on the type.
 float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept {
     if (type == pipeline::ChannelType::unorm8) return pipeline::from_unorm8(static_cast<std::uint8_t>(code));
     if (type == pipeline::ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
@@ -37,8 +37,8 @@ void write_with(const std::string& path, const std::function<std::string(const B
                .write = [&](const void* bytes, std::size_t size) { return file.write(bytes, size); },
                .seek = [&](std::int64_t position) { return file.seek(position); },
                .position = [&] { return file.position(); }});
-    // Where both know of a failure, commit() throws the system's reason, which says more than the library's.
-    if (failure.empty() || file.failed()) return file.commit();  // which knows the system's reason
+    // If both report a failure, commit() throws the system's reason, which is more precise than the library's.
+    if (failure.empty() || file.failed()) return file.commit();  // throws the system's reason
     throw SystemError(path, "write", failure);
 }
 
@@ -46,7 +46,7 @@ void write_exr_parts(const std::string& path, std::span<const PartSource> parts)
     write_with(path, [&](const ByteSink& sink) { return exr::write_parts(sink, parts); });
 }
 
-// The prefix keeps the project's keys apart from those that a format or a library gives a meaning.
+// The prefix separates the project's keys from those that a format or a library interprets.
 Attributes prefixed(const Attributes& attributes) {
     Attributes named;
     for (const auto& [key, value] : attributes) named.emplace("strata:" + key, value);
@@ -66,7 +66,7 @@ StoredSpace stored_space(pipeline::ColorSpace space) noexcept {
     return space == pipeline::ColorSpace::encoded ? StoredSpace::srgb : StoredSpace::linear;
 }
 
-// Channels stand one after the other in a pixel's bytes, in the header's order and without padding.
+// Channels are interleaved in a pixel's bytes, in the header's order and without padding.
 std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::string& name) {
     std::size_t offset = 0;
     for (const StoredChannel& channel : header.channels) {
@@ -76,7 +76,7 @@ std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::st
     return std::nullopt;
 }
 
-// The writer's own keys replace the caller's of the same name: they state what is in the file.
+// The writer's own keys replace the caller's keys of the same name, because they describe the file's content.
 Attributes described(const OutputColor& image) {
     Attributes attributes = image.attributes;
     attributes["format.color"] = pipeline::info(image.color.format).name;
@@ -94,7 +94,7 @@ void write_image(const std::string& path, const OutputColor& image) { write_imag
 
 void write_image(const std::string& path, const OutputColor& image, ImageFile kind) {
     const FloatEnvironment environment;
-    // Samples are resolved before: an image file has one value a pixel.
+    // Samples are resolved before: an image file has one value per pixel.
     assert(pipeline::is_color(image.color.format) && image.color.samples == 1);
     switch (kind) {
         case ImageFile::png: return write_png(path, image);
@@ -102,7 +102,7 @@ void write_image(const std::string& path, const OutputColor& image, ImageFile ki
     }
 }
 
-// The header has been read by image_header.cpp; the decoder is told what to expect and refuses anything else.
+// image_header.cpp has read the header; the decoder rejects an image that differs from it.
 std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place) {
     return image_module().decode({.bytes = bytes,
                                   .reader = header.kind == ImageKind::png ? "png" : "jpeg",
@@ -128,7 +128,7 @@ std::vector<FileDigest> digests_of(const std::string& path) {
         digests.push_back({found.part, found.target, std::string{pipeline::info(image.format).name}, image.width,
                            image.height, digest(image)});
     };
-    // A PNG is one target; an EXR's parts come one by one and are dropped when their digest is known.
+    // A PNG is one target; an EXR's parts are read one by one and freed once their digest is known.
     if (image_file(path) == ImageFile::png) {
         for (const FileImage& image : read_png(path)) add(image);
         return digests;

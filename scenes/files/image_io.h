@@ -1,10 +1,11 @@
-// scenes/files/image_io.h - finished targets to PNG and EXR files and back, without losing a bit or adding one.
+// scenes/files/image_io.h - writes finished targets to PNG and EXR files and reads them back, bit for bit.
 //
-// Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. images.md 2 and 3 list
-//          channels, parts, attributes and the conversion to 8 bits. The same call writes the same bytes: no time, host
-//          or path goes in. Written under a temporary name and renamed: SystemError, and no file, if that fails.
-// Source   images.md 2 to 6; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless
-//          told not to.
+// Rule     The file's ending selects the format: .png has 8-bit colours that are not premultiplied, .exr everything.
+//          images.md 2 and 3 list channels, parts, attributes and the conversion to 8 bits. The same call writes the
+//          same bytes, without time, host or path. A file is written under a temporary name and renamed; if that fails,
+//          SystemError is thrown and there is no file.
+// Source   images.md 2 to 6; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files by
+//          default.
 // Tests    tests/scenes/files/png_test.cpp, exr_test.cpp, deep_exr_test.cpp
 #pragma once
 #include <cstdint>
@@ -21,50 +22,50 @@ namespace strata::scenes {
 using Attributes = std::map<std::string, std::string>;  // stored as "strata:KEY"
 
 struct OutputColor {
-    pipeline::Image color{};     // one sample, a colour format
+    pipeline::Image color{};     // single-sampled, a colour format
     pipeline::Image depth{};     // of the same size, or empty
-    bool premultiplied = false;  // whether `color` holds colours times alpha
+    bool premultiplied = false;  // whether `color` is premultiplied by alpha
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
-    Attributes attributes{};  // formats, digests, colour space and the form of alpha are added by the writer
-    std::string part{};       // its name among layers; "": layer.NNN by its number
+    Attributes attributes{};  // the writer adds formats, digests, colour space and the form of alpha
+    std::string part{};       // its name as a layer; "": layer.NNN by its index
 };
 
-// The kind of file that the ending of its name asks for.
+// The file format given by the ending of a file's name.
 enum class ImageFile : std::uint8_t { png, exr };
 
 // By the name's ending; InputError if it is neither .png nor .exr. Call it before rendering.
 [[nodiscard]] ImageFile image_file(const std::string& path);
 
-// One target, with its depths in an EXR; a PNG leaves depths out. The second one is for a path whose ending says
-// nothing, such as "-", standard output.
+// Writes one target, and in an EXR its depths; a PNG has no depths. The second overload is for a path without an
+// ending, such as "-", standard output.
 void write_image(const std::string& path, const OutputColor& image);
 void write_image(const std::string& path, const OutputColor& image, ImageFile kind);
 
-// Part `layer.000`, `layer.001` ... of one EXR file, or as each says; all of one size, and at least one.
+// Parts `layer.000`, `layer.001` ... of one EXR file, or with the names in `part`; all of one size, and at least one.
 void write_layers(const std::string& path, std::span<const OutputColor> layers);
 
-// Every fragment of every pixel, pixel by pixel in rows from the top; within a pixel in the order given.
+// Every fragment of every pixel: pixels in rows from the top, fragments of a pixel in the given order.
 struct DeepFragments {
     int width = 0, height = 0;
-    bool premultiplied = false;  // whether `rgba` holds colours times alpha
+    bool premultiplied = false;  // whether `rgba` is premultiplied by alpha
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
-    std::vector<std::uint32_t> count{};       // fragments a pixel
-    std::vector<std::uint32_t> depth_code{};  // the others: one entry a fragment
-    // The depth as a value, and the colour at that fragment.
+    std::vector<std::uint32_t> count{};       // fragments per pixel
+    std::vector<std::uint32_t> depth_code{};  // this array and the following have one entry per fragment
+    // The depth as a value, and the fragment's colour.
     std::vector<float> z{};
     std::vector<pipeline::Rgba> rgba{};
-    // The number of the triangle in submission order.
+    // The index of the triangle in submission order.
     std::vector<std::uint32_t> primitive{};
     friend bool operator==(const DeepFragments&, const DeepFragments&) = default;
 };
 
-// One deep part, in the binary32 and u32 channels that deep_exr.cpp lists. InputError unless the name ends in
+// Writes one deep part with the binary32 and u32 channels listed in deep_exr.cpp. InputError unless the name ends in
 // .exr.
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes);
-[[nodiscard]] DeepFragments read_deep(const std::string& path);  // rgba as in the file: premultiplied
+[[nodiscard]] DeepFragments read_deep(const std::string& path);  // rgba is premultiplied, as in the file
 
 // The hash of pipeline::digest over "deep", a zero byte, width and height, the fragments of each pixel, then of each
-// fragment R G B A (premultiplied), Z, depth code and primitive: u32 all of them.
+// fragment R G B A (premultiplied), Z, depth code and primitive, all as u32.
 [[nodiscard]] std::string digest(const DeepFragments& fragments);
 
 // A target found in a file: "color" or "depth", of the part `layer.000` or of the whole file (part "").
@@ -73,19 +74,19 @@ struct FileImage {
     pipeline::Image image;
 };
 
-// The targets of a file: a PNG's 8-bit codes, an EXR's codes. InputError for what is no such image, or a deep one.
+// The targets of a file: a PNG's 8-bit codes, an EXR's codes. InputError for other files and for a deep image.
 [[nodiscard]] std::vector<FileImage> read_images(const std::string& path);
 
-// One target's digest; of a deep part that of its "fragments", format "deep".
+// One target's digest; for a deep part the digest of its "fragments", format "deep".
 struct FileDigest {
     std::string part, target, format;
     int width = 0, height = 0;
     std::string digest;
 };
-// Part by part, so that no more than one part of a large file is in memory.
+// Reads part by part, so that only one part of a large file is in memory.
 [[nodiscard]] std::vector<FileDigest> digests_of(const std::string& path);
 
-// The pixels of a .png of `image`: straight alpha, 8-bit colours, encoded.
+// The pixels of a .png of `image`: 8-bit encoded colours, not premultiplied.
 [[nodiscard]] pipeline::Image as_straight_rgba8(const OutputColor& image);
 
 }  // namespace strata::scenes

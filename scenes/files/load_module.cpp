@@ -1,5 +1,5 @@
-// scenes/files/load_module.cpp - finds the shared library of a module and takes its function; of the image module, once
-// there is room for what it brings along.
+// scenes/files/load_module.cpp - finds the shared library of a module and its function; for the image module it first
+// checks that there are threads and address space for its dependencies.
 #include "scenes/files/load_module.h"
 
 #include <dlfcn.h>
@@ -14,16 +14,16 @@
 namespace strata::scenes {
 namespace {
 
-constexpr const char* installed_folder = STRATA_MODULE_FOLDER;  // from the program's folder, when installed
+constexpr const char* installed_folder = STRATA_MODULE_FOLDER;  // relative to the program's folder, when installed
 
-// dlerror() answers null where nothing has failed since it was last asked.
+// dlerror() returns null if nothing has failed since the last call.
 std::string last_reason() {
     const char* reason = ::dlerror();
     return reason != nullptr ? reason : "no reason given";
 }
 
-// Of the shared library that this code is a part of; empty if that is not known. A program is known by the name that it
-// was called by, which may be relative to another folder: only whole paths count.
+// The folder of the shared library that contains this code; empty if unknown. For a program dladdr gives the name it
+// was called by, which may be relative to another folder, so only absolute paths are used.
 std::filesystem::path folder_of_this_code() {
     Dl_info info{};
     if (::dladdr(reinterpret_cast<const void*>(&last_reason), &info) == 0 || info.dli_fname == nullptr) return {};
@@ -32,7 +32,8 @@ std::filesystem::path folder_of_this_code() {
     return std::filesystem::canonical(info.dli_fname, ignored).parent_path();
 }
 
-// Where the module may be. The current folder and the search path are left out, so that no stray library is run.
+// The folders in which the module may be. The current folder and the search path are left out, so that no foreign
+// library is run.
 std::vector<std::filesystem::path> places(const char* file) {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
@@ -46,7 +47,7 @@ std::vector<std::filesystem::path> places(const char* file) {
 
 }  // namespace
 
-// A function that the program already holds (tests link the module) comes first.
+// A function that is already in the program (tests link the module) takes precedence.
 void* module_function(const ModuleFile& module) {
     if (void* const linked = ::dlsym(RTLD_DEFAULT, module.symbol)) return linked;
     std::error_code ignored;
@@ -54,9 +55,9 @@ void* module_function(const ModuleFile& module) {
     for (const auto& path : places(module.file)) {
         looked_in += (looked_in.empty() ? "" : " or ") + path.parent_path().lexically_normal().string();
         if (!std::filesystem::exists(path, ignored)) continue;
-        void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for as long as the process lives
+        void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // never closed
         void* const function = library != nullptr ? ::dlsym(library, module.symbol) : nullptr;
-        // A library that is there and does not load is an error of its own: a second place would hide it.
+        // A library that exists but does not load is an error of its own; trying the next folder would hide it.
         if (function == nullptr) throw SystemError(path.string(), module.task, last_reason());
         return function;
     }
@@ -73,15 +74,16 @@ namespace {
 constexpr ModuleFile image_file{STRATA_IMAGE_MODULE, image_module_symbol, "load the image module",
                                 "PNG and JPEG need it"};
 
-// Asked for and given back: nothing of it is ever touched.
+// Reserves the address space and frees it again; it is never touched.
 bool has_address_space(std::size_t bytes) {
     void* const place = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     return place != MAP_FAILED && ::munmap(place, bytes) == 0;
 }
 
-// OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four
-// of its log library (found by counting them, OpenImageIO 2.4 of Debian 12). It ends by a signal, too, where the
-// address space runs out behind the libraries' own 400 MiB (found by limiting it, megabyte by megabyte).
+// OpenImageIO's libraries start threads while they are loaded, and the process aborts or hangs if one cannot be
+// created: four threads of its log library (counted, with OpenImageIO 2.4 of Debian 12). A signal also ends the process
+// if the address space is less than what the libraries need beyond their own 400 MiB (measured with limits in steps of
+// a megabyte).
 void require_room() {
     constexpr int wanted = 4;
     constexpr std::size_t usual_stack = std::size_t{8} << 20, libraries = std::size_t{400} << 20;
@@ -98,7 +100,7 @@ void require_room() {
 
 const ImageModule& load_image_module() {
     require_room();
-    // POSIX lets an object pointer of dlsym() be a function's.
+    // POSIX allows converting dlsym()'s object pointer to a function pointer.
     const ImageModule& module = *reinterpret_cast<ImageModuleEntry>(module_function(image_file))();
     check_version(image_file, module.version);
     return module;
@@ -107,7 +109,7 @@ const ImageModule& load_image_module() {
 }  // namespace
 
 const ImageModule& image_module() {
-    // Once a process, and safe from several threads; a failure is tried again by the next call.
+    // Once per process and thread-safe; after a failure the next call tries again.
     static const ImageModule& module = load_image_module();
     return module;
 }

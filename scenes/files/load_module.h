@@ -1,11 +1,11 @@
-// scenes/files/load_module.h - shared libraries that are loaded when they are first needed, for what they bring along
-// is large.
+// scenes/files/load_module.h - shared libraries that are loaded when first needed, because their dependencies are
+// large.
 //
-// Rule     A program that is linked with a module has it. Else its file is looked for beside the program (the build
-//          tree), then in the folder ../lib/strata from there (an installed one), then beside the shared library that
-//          this code is in, and in the folder strata there. SystemError if it is in none of them, or is another
-//          version's; of the image module, too, where the system has no threads or no address space for what it brings
-//          along.
+// Rule     A program that is linked with a module uses that one. Otherwise its file is searched in the program's folder
+//          (build tree), then in ../lib/strata relative to it (installed), then in the folder of the shared library
+//          that contains this code, and in its subfolder strata. SystemError if it is in none of them, or is of another
+//          version; for the image module also if the system has not enough threads or address space for its
+//          dependencies.
 // Tests    tests/tools/image_module_test.cpp
 #pragma once
 #include <string>
@@ -21,13 +21,13 @@ struct ModuleFile {
     const char* is_needed;  // "PNG and JPEG need it"
 };
 
-// The exported function.
+// Returns the exported function.
 [[nodiscard]] void* module_function(const ModuleFile& module);
 
-// Program and module must come from one build of the project: their tables have no version of their own.
+// Program and module must come from one build of the project: their tables have no version numbers.
 void check_version(const ModuleFile& module, const std::string& version);
 
-// Loaded by the first call.
+// The first call loads it.
 [[nodiscard]] const ImageModule& image_module();
 
 }  // namespace strata::scenes

@@ -21,8 +21,8 @@ std::size_t big_endian32(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-// PNG 11.3.4.3: a chunk tEXt is a keyword, a zero byte and the text. The chunks are whole: read_image_header has walked
-// them.
+// PNG 11.3.4.3: a tEXt chunk is a keyword, a zero byte and the text. The chunks are complete: read_image_header has
+// checked them.
 Attributes png_attributes(const std::string& path) {
     constexpr std::size_t largest = std::size_t{1} << 30, signature = 8, around = 12, type = 4, data = 8;
     const std::string file = read_text_file(path, largest);

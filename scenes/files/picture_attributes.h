@@ -1,5 +1,5 @@
-// scenes/files/picture_attributes.h - what a picture says of itself: the command, camera and profile that were written
-// beside its pixels.
+// scenes/files/picture_attributes.h - reads the attributes of an image file: the command, camera and profile that were
+// stored with its pixels.
 // Tests    tests/tools/manual_test.cpp
 #pragma once
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace strata::scenes {
 
-// Those under "strata:", without that; of an EXR file the first part's. Empty for a picture of another program;
-// InputError for what is none.
+// The attributes with the prefix "strata:", without the prefix; for an EXR file those of the first part. Empty for an
+// image of another program; InputError if the file is no image.
 [[nodiscard]] Attributes read_attributes(const std::string& path);
 
 }  // namespace strata::scenes

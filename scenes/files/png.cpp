@@ -1,4 +1,5 @@
-// scenes/files/png.cpp - PNG files: written from straight 8-bit colours (straight_color.cpp), read by the image module.
+// scenes/files/png.cpp - PNG files: written from 8-bit colours that are not premultiplied (straight_color.cpp), read by
+// the image module.
 #include <algorithm>
 #include <span>
 
@@ -15,7 +16,7 @@ namespace {
 using pipeline::Format;
 using pipeline::Image;
 
-// The largest picture, 16384 x 16384 of 4 codes, is 2^30 bytes before it is packed, and 2^31 with 16 bits a code.
+// The largest image, 16384 x 16384 of 4 codes, has 2^30 bytes uncompressed, and 2^31 with 16 bits per code.
 constexpr std::size_t max_png_bytes = std::size_t{1} << 31;
 
 }  // namespace
@@ -52,7 +53,7 @@ StoredCodes read_codes(const std::string& path, const char* reader) {
     const Bytes bytes = std::as_bytes(std::span{file});
     const Place place{path, ""};
     EncodedPicture picture{.bytes = bytes, .reader = reader};
-    // What libpng and libjpeg would say of a damaged file by themselves is found before they see it.
+    // Damage that libpng and libjpeg would report on their own is found before they read the file.
     const bool is_png = reader == std::string_view{"png"};
     if (is_png || reader == std::string_view{"jpeg"}) {
         const ImageHeader header = read_image_header(bytes, place);
@@ -68,7 +69,8 @@ std::vector<FileImage> read_png(const std::string& path) {
     const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
     const Place place{path, ""};
-    const ImageHeader header = read_image_header(bytes, place);  // all chunks whole: libpng says and leaks nothing
+    const ImageHeader header =
+        read_image_header(bytes, place);  // all chunks are whole: libpng prints and leaks nothing
     // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
     if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
         throw InputError(path, "format", "a PNG with 8-bit colours", "another image");

@@ -1,5 +1,5 @@
-// scenes/files/profile_json.cpp - profiles as JSON. Which fields there are, their ranges and choices come from
-// pipeline::profile_fields(): this file knows no field by name.
+// scenes/files/profile_json.cpp - profiles as JSON. The fields with their ranges and choices come from
+// pipeline::profile_fields().
 #include "scenes/files/profile_json.h"
 
 #include <fmt/format.h>
@@ -29,14 +29,14 @@ using pipeline::ProfileField;
 
 using Names = std::vector<std::string_view>;
 
-// Fields of the rasterizer stand in an object of their own, `raster`, as their keys say.
+// Fields of the rasterizer are in an object of their own, `raster`, according to the prefix of their keys.
 constexpr std::string_view raster_prefix = "raster.";
-// In bytes. Names stand in tables and error lines, descriptions in the list of profiles.
+// In bytes. Names are printed in tables and error messages, descriptions in the list of profiles.
 constexpr std::size_t longest_name = 64, longest_description = 1000;
 
-// Fields that came after the first packs were written. A file without one of them, and without a base, means the
-// machine as it was before: the value of DeviceProfile itself. All other fields are required there, so that no default
-// of the program slips into a user's profile.
+// Fields that were added after the first packs were written. In a file without such a field and without a base, it has
+// the default value of DeviceProfile, which describes the earlier behaviour. All other fields are required there, so
+// that no default of the program enters a user's profile.
 constexpr std::string_view later_fields[] = {"blend_storage",
                                              "depth24",
                                              "has_d24f",
@@ -63,7 +63,7 @@ constexpr std::string_view later_fields[] = {"blend_storage",
     return std::ranges::find(later_fields, field.key) != std::end(later_fields);
 }
 
-// The last part of the key: what the JSON object says.
+// The last part of the key, which is the key in the JSON object.
 [[nodiscard]] std::string_view leaf(const ProfileField& field) {
     return is_raster(field) ? field.key.substr(raster_prefix.size()) : field.key;
 }
@@ -78,7 +78,7 @@ Names builtin_names() {
     return names;
 }
 
-// The keys that one object may have: the document's own (false) or those of `raster` (true).
+// The allowed keys of an object: the document (false) or `raster` (true).
 Names keys(bool of_raster) {
     Names names;
     if (!of_raster) names = {"base", "name", "description", "open", "raster"};
@@ -87,20 +87,20 @@ Names keys(bool of_raster) {
     return names;
 }
 
-std::string shown(const json& value) {  // dump recurses: not into what may be nested deeply
+std::string shown(const json& value) {  // dump recurses: unsafe if nested deeply
     return value.is_structured() ? value.type_name()
                                  : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
 }
 
 void check_keys(const json& object, const Names& allowed, const std::string& file, const std::string& place) {
     if (!object.is_object()) throw InputError(file, place, "an object", shown(object));
-    // A misspelt key is an error: passed over, it would leave its field at the base's value without a word.
+    // A misspelled key is an error: if it were ignored, its field would silently keep the base's value.
     for (const auto& [key, value] : object.items())
         if (std::ranges::find(allowed, key) == allowed.end())
             throw InputError(file, place, "a key of a profile", quoted_with_suggestion(key, allowed));
 }
 
-// A string that must be there. Empty ones pass; the caller asks for more where it needs more.
+// A required string, which may be empty.
 std::string text(const json& document, const std::string& key, std::size_t longest, const std::string& file) {
     const auto found = document.find(key);
     const std::string expected = fmt::format("a string of at most {} bytes", longest);
@@ -110,7 +110,7 @@ std::string text(const json& document, const std::string& key, std::size_t longe
     return found->get<std::string>();
 }
 
-// The values that the field may have, as an error states them.
+// The field's allowed values, for error messages.
 [[nodiscard]] std::string expectation(const ProfileField& field) {
     switch (field.kind) {
         case FieldKind::boolean: return "true or false";
@@ -121,7 +121,7 @@ std::string text(const json& document, const std::string& key, std::size_t longe
     return fmt::format("a number from {} to {} in steps of {}", field.lowest, field.highest, field.step);
 }
 
-// The value as ProfileField::set takes it; empty if the JSON says something else than the field may be.
+// The value as ProfileField::set takes it; empty if the JSON value is not allowed for the field.
 std::optional<int> value_of(const ProfileField& field, const json& value) {
     switch (field.kind) {
         case FieldKind::boolean:
@@ -136,8 +136,7 @@ std::optional<int> value_of(const ProfileField& field, const json& value) {
         case FieldKind::integer: {
             if (!value.is_number_unsigned()) return std::nullopt;  // no field is negative
             const auto number = value.get<std::uint64_t>();
-            // Compared as 64 bits before the cast to int: a number beyond int must not wrap round into the
-            // range.
+            // Compared as 64 bits before the cast to int, because a number beyond int must not wrap into the range.
             const auto lowest = static_cast<std::uint64_t>(field.lowest),
                        highest = static_cast<std::uint64_t>(field.highest);
             if (number < lowest || number > highest) return std::nullopt;
@@ -148,14 +147,14 @@ std::optional<int> value_of(const ProfileField& field, const json& value) {
     return std::nullopt;  // unreachable: the enum is closed
 }
 
-// A choice that is almost right gets a suggestion; other values are shown as they are.
+// Shows a value in an error message, with a suggestion if it resembles a choice.
 std::string found_text(const ProfileField& field, const json& value) {
     if (field.kind == FieldKind::choice && value.is_string())
         return quoted_with_suggestion(value.get_ref<const std::string&>(), field.choices);
     return shown(value);
 }
 
-// The built-in profile that the file starts from; empty if it says everything itself.
+// The built-in profile that the file is based on; null if the file has no base.
 const DeviceProfile* base_of(const json& document, const std::string& file) {
     if (!document.contains("base")) return nullptr;
     const std::string name = text(document, "base", longest_name, file);
@@ -201,7 +200,7 @@ std::vector<std::string> open_of(const json& document, const std::string& file) 
 }  // namespace
 
 std::string to_json(const DeviceProfile& profile, std::span<const std::string> open) {
-    // The order of the keys is that of the fields, so the same profile is the same text; a built-in one can be
+    // The keys are in the order of the fields, so the same profile gives the same text; a built-in profile can be
     // printed, changed and read back.
     ordered_json document;
     document["name"] = profile.name;
@@ -222,7 +221,7 @@ std::string to_json(const DeviceProfile& profile, std::span<const std::string> o
 DeviceProfile parse_profile(const std::string& document_text, const std::string& file) {
     const json document = parse_strict_json(document_text, file, "a profile in JSON");
     check_keys(document, keys(false), file, "/");
-    // A document without `raster` is one whose raster fields are all left out.
+    // A document without `raster` omits all raster fields.
     const json none = json::object();
     const json& raster = document.contains("raster") ? document["raster"] : none;
     check_keys(raster, keys(true), file, "/raster");
@@ -230,8 +229,8 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
     const DeviceProfile* const base = base_of(document, file);
     DeviceProfile profile = base != nullptr ? *base : DeviceProfile{};
     profile.name = text(document, "name", longest_name, file);
-    // A file always has a name of its own, so that a picture's attributes do not claim the base's.
-    // It stands in tables and sentences: a line's end or a zero would break them.
+    // A file always has its own name, so that an image's attributes do not name the base. The name is printed in tables
+    // and messages, so line breaks and zero bytes are not allowed.
     const bool breaks = std::ranges::any_of(profile.name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     if (profile.name.empty() || breaks)
         throw InputError(file, "/name", "a name without control characters", shown(document["name"]));
@@ -250,8 +249,8 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
 DeviceProfile load_profile(const std::string& name_or_path) {
     if (const DeviceProfile* builtin = pipeline::find_profile(name_or_path)) return *builtin;
     std::error_code error;
-    // A built-in name wins over a file of that name; a path that looks like one is read even if it is not
-    // there, so that the error says so.
+    // A built-in name takes precedence over a file of that name. A text that looks like a path is read even if there is
+    // no such file, so that the error says so.
     const bool looks_like_file = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
     if (looks_like_file || std::filesystem::exists(name_or_path, error))
         return parse_profile(read_text_file(name_or_path), name_or_path);

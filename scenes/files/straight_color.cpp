@@ -1,8 +1,9 @@
-// scenes/files/straight_color.cpp - 8-bit straight colours: the one picture that every program shows.
+// scenes/files/straight_color.cpp - converts targets to 8-bit colours that are not premultiplied, which every program
+// can show.
 //
-// Rule     A target of 8-bit codes in the encoded space goes out byte for byte. Else value / alpha where the target is
-//          premultiplied (0 where alpha is not above 0), then clamp and 255 x rounded half up; in the linear space
-//          encode_srgb8 instead.
+// Rule     A target of 8-bit codes in the encoded space that is not premultiplied is copied. Otherwise value / alpha if
+//          the target is premultiplied (0 if alpha is not above 0), then clamp, and 255 x rounded half up; in the
+//          linear space encode_srgb8 instead.
 #include <algorithm>
 #include <cassert>
 
@@ -19,22 +20,21 @@ using pipeline::ColorSpace;
 using pipeline::Format;
 using pipeline::Image;
 
-// 255 c / a to the nearest code, a half goes up.
-// c and a are at most 255, so that every product is below 2^18. A premultiplied colour above its alpha gives
-// 255.
+// 255 c / a rounded to the nearest code, halves up. c and a are at most 255, so every product is below 2^18. A
+// premultiplied colour above its alpha gives 255.
 std::uint32_t divided_by_alpha(std::uint32_t c, std::uint32_t a) noexcept {
     return a == 0 ? 0 : std::min((2 * 255 * c + a) / (2 * a), 255u);
 }
 
-// The integer road: codes in, codes out, no float on the way. A straight target is copied.
+// The conversion of codes with integers alone. A target that is not premultiplied is copied.
 void convert_codes(const std::uint32_t* from, std::uint32_t* to, bool premultiplied) noexcept {
     const std::uint32_t alpha = from[3];
     for (int c = 0; c < 3; ++c) to[c] = premultiplied ? divided_by_alpha(from[c], alpha) : from[c];
     to[3] = alpha;
 }
 
-// The road over values, for half and binary32 targets and for the linear space. Alpha is never encoded: it is a
-// share, not light.
+// The conversion of values, for half and binary32 targets and for the linear space. Alpha is a coverage and never
+// sRGB-encoded.
 void convert_values(const std::uint32_t* from, std::uint32_t* to, ChannelType type, const OutputColor& image) noexcept {
     const float alpha = channel_value(type, from[3]);
     for (int c = 0; c < 3; ++c) {
@@ -52,10 +52,10 @@ Image as_straight_rgba8(const OutputColor& image) {
     const Image& color = image.color;
     assert(color.channels() == 4 && color.samples == 1);
     const ChannelType type = pipeline::info(color.format).type;
-    // An rgba8 target of a linear frame holds linear codes and must be encoded like any other.
+    // An rgba8 target of a linear frame has linear codes and must be encoded like any other.
     const bool copies_codes = type == ChannelType::unorm8 && image.space == ColorSpace::encoded;
     Image result{Format::rgba8, color.width, color.height};
-    // Pixel by pixel: red, green, blue and alpha are four codes in a row.
+    // Red, green, blue and alpha are four consecutive codes per pixel.
     for (std::size_t i = 0; i < color.codes.size(); i += 4) {
         if (copies_codes)
             convert_codes(&color.codes[i], &result.codes[i], image.premultiplied);

@@ -14,12 +14,12 @@ using nlohmann::json;
 
 constexpr int most_levels = 64;
 
-// What the parser tells of the objects that it is in.
+// Tracks the keys of the objects that the parser is in.
 class Keys {
   public:
     explicit Keys(const std::string& file) : file_{file} {}
 
-    // False would leave a value out: every one is kept.
+    // Returning false would drop a value; all are kept.
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
         if (depth > most_levels) throw InputError(file_, place(), "at most 64 levels of arrays and objects", "more");
         if (event == json::parse_event_t::object_start) levels_.emplace_back();
@@ -40,7 +40,7 @@ class Keys {
         if (!level.names.insert(name).second) throw InputError(file_, place(), "each key once", "this one twice");
     }
 
-    // The keys of the objects around; the positions in arrays are not known here.
+    // The path of keys of the enclosing objects; array positions are not known here.
     [[nodiscard]] std::string place() const {
         std::string text;
         for (const Level& level : levels_) text += "/" + level.last;
@@ -53,7 +53,7 @@ class Keys {
 
 }  // namespace
 
-// The library's own words are left out: they name no file and differ between its versions.
+// The library's own message is not used: it names no file and differs between its versions.
 json parse_strict_json(const std::string& text, const std::string& file, const std::string& what) {
     Keys keys{file};
     try {

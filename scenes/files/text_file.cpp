@@ -1,5 +1,5 @@
-// scenes/files/text_file.cpp - reads a whole file; the checks come before the read, for a device or a pipe could give
-// bytes without end.
+// scenes/files/text_file.cpp - reads a whole file. The checks come before the read, because a device or a pipe could
+// deliver endless bytes.
 #include "scenes/files/text_file.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::size_t size_of_file(const std::string& path, std::size_t max_bytes) {
                          std::filesystem::is_directory(status) ? "is a folder, not a file" : "is no file but a device");
     const auto size = std::filesystem::file_size(path, error);
     if (error) throw InputError(path, "cannot be read: " + error.message());
-    // The limit is compared before memory is asked for.
+    // The limit is checked before memory is allocated.
     if (size > max_bytes)
         throw InputError(path, "has " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_bytes));
     return static_cast<std::size_t>(size);
@@ -44,7 +44,7 @@ std::size_t size_of_file(const std::string& path, std::size_t max_bytes) {
 std::string read_begin_of_file(const std::string& path, std::size_t bytes) {
     std::string text(std::min(size_of_file(path, std::numeric_limits<std::size_t>::max()), bytes), '\0');
     std::ifstream file(path, std::ios::binary);
-    // A file that shrank since its size was asked is refused too: the read comes up short.
+    // A file that shrank after its size was read is rejected, too: the read is short.
     if (!file || !file.read(text.data(), static_cast<std::streamsize>(text.size())))
         throw InputError(path, "cannot be read");
     if (is_lfs_pointer(text)) throw InputError(path, lfs_pointer_found);
@@ -52,7 +52,7 @@ std::string read_begin_of_file(const std::string& path, std::size_t bytes) {
 }
 
 std::string read_text_file(const std::string& path, std::size_t max_bytes) {
-    // The limit is compared before memory is asked for.
+    // The limit is checked before memory is allocated.
     return read_begin_of_file(path, size_of_file(path, max_bytes));
 }
 

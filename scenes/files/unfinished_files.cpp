@@ -17,9 +17,9 @@
 namespace strata::scenes {
 namespace {
 
-// A path where a signal handler may read it: fixed storage and lock-free flags.
-// A path is written while its slot is `claimed`, when the handler passes it over, and read only while `active`.
-// 16 slots: a run writes a few files at a time.
+// A path that a signal handler can read: fixed storage and lock-free flags. A path is written while its slot is
+// `claimed`, when the handler skips it, and read only while `active`. 16 slots suffice, because a run writes a few
+// files at a time.
 struct Slot {
     std::atomic<int> state{empty};
     bool is_folder = false;
@@ -28,12 +28,12 @@ struct Slot {
 };
 Slot slots[16];
 static_assert(std::atomic<int>::is_always_lock_free);
-std::atomic<int> group{0};           // a process group of ours, 0: none
-std::atomic<bool> is_ending{false};  // a handler removes files: other threads must not make new ones
+std::atomic<int> group{0};           // the process group to kill; 0: none
+std::atomic<bool> is_ending{false};  // set when a handler removes files: other threads must not create new ones
 
-// Without the C library's directory streams, which allocate. What other processes put there meanwhile is seen in a
-// further round. The deepest folder of ours is scene/ in a pack in a suite; what a command of the user's leaves there
-// may be deeper.
+// Does not use the C library's directory streams, which allocate. Entries that other processes add meanwhile are found
+// in another round. The deepest folder that we write is scene/ in a pack in a suite; a command run by the user may
+// create deeper ones.
 void remove_tree(int parent, const char* name, int levels) noexcept {
     if (::unlinkat(parent, name, 0) == 0 || levels == 0) return;
     const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -66,7 +66,7 @@ int enter(const std::string& path, bool is_folder) {
     throw SystemError(path, "write", "too many files are being written at once");
 }
 
-// Two sentences in turn: one is written while the handler may read the other.
+// Two messages: one can be written while the handler reads the other.
 struct Sentence {
     std::size_t size = 0;
     char text[1000] = {};
@@ -75,7 +75,7 @@ Sentence sentences[2];
 std::atomic<int> current{0};
 bool starts_line = false;  // standard error is a terminal
 
-// A new line first, where a terminal has "^C" or a bar on its line.
+// Prints a line end first on a terminal, which may show "^C" or a progress bar on the line.
 void say_interrupted() noexcept {
     const Sentence& sentence = sentences[current];
     const bool is_empty = sentence.size == 0;
@@ -88,15 +88,15 @@ void say_interrupted() noexcept {
     put("\n", 1);
 }
 
-// Async-signal-safe calls alone: kill, write, unlinkat, openat, the system's getdents64 and _exit. 128 + the signal is
-// what a shell reports for a process that a signal ended.
+// Only async-signal-safe calls: kill, write, unlinkat, openat, the system call getdents64 and _exit. A shell reports
+// 128 + signal for a process ended by a signal.
 extern "C" void on_interrupt(int signal) {
     remove_unfinished_files();
     if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) say_interrupted();
     ::_exit(128 + signal);
 }
 
-// SA_RESETHAND has put the system's own handler back: it ends the process once this one returns.
+// SA_RESETHAND has restored the system's default action, which ends the process when this handler returns.
 extern "C" void on_fault(int signal) {
     remove_unfinished_files();
     ::raise(signal);
@@ -109,7 +109,7 @@ void handle(int signal, void (*handler)(int), int flags) noexcept {
     ::sigaction(signal, &action, nullptr);
 }
 
-// SA_SIGINFO marks a handler of another signature, which is neither of the system's two.
+// SA_SIGINFO means a handler of another type, which is neither SIG_DFL nor SIG_IGN.
 bool is_at(int signal, void (*handler)(int)) noexcept {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);

@@ -24,7 +24,7 @@ AccessorReader::AccessorReader(const tinygltf::Model& model, std::size_t accesso
     const tinygltf::Accessor& a = model.accessors[accessor];
     size_ = components_ * component_bytes(type_);
     stride_ = size_;
-    // The check has shown that the whole range lies in the view, so no read below looks at its end.
+    // check.h has verified that the whole range is inside the view, so the reads below need no bounds check.
     if (a.bufferView >= 0) {
         const auto view = static_cast<std::size_t>(a.bufferView);
         base_ = buffers.view(view).subspan(a.byteOffset);
@@ -40,7 +40,7 @@ void AccessorReader::prepare_sparse(const tinygltf::Accessor& a, Buffers& buffer
                           .subspan(static_cast<std::size_t>(a.sparse.indices.byteOffset));
     sparse_values_ = buffers.view(static_cast<std::size_t>(a.sparse.values.bufferView))
                          .subspan(static_cast<std::size_t>(a.sparse.values.byteOffset));
-    // Contents are not covered by check.h, which sees no buffer: the indices are checked here, once.
+    // Contents are not covered by check.h, which reads no buffer: the indices are checked here, once.
     const Place indices = place.under("sparse").under("indices");
     for (std::size_t k = 0; k < sparse_count_; ++k) {
         if (sparse_index(k) >= count_)
@@ -58,7 +58,7 @@ std::uint32_t AccessorReader::sparse_index(std::size_t k) const {
 
 const std::byte* AccessorReader::at(std::size_t i) const {
     assert(i < count_ && "the caller compares with count()");
-    // A binary search, for the indices increase. Sparse values are packed: element lo is lo * size_ bytes in.
+    // A binary search: the indices are ascending. Sparse values are packed: element lo is at byte lo * size_.
     std::size_t lo = 0, hi = sparse_count_;
     while (lo < hi) {
         const std::size_t middle = (lo + hi) / 2;
@@ -93,7 +93,7 @@ std::uint32_t AccessorReader::restart_index() const {
 
 const AccessorReader& Accessors::operator[](int accessor) {
     const auto index = static_cast<std::size_t>(accessor);
-    // Primitives share accessors: sparse indices are then checked once, not once a primitive.
+    // Primitives share accessors, so sparse indices are checked once per accessor, not once per primitive.
     const auto found = readers_.find(accessor);
     if (found != readers_.end()) return found->second;
     return readers_.emplace(accessor, AccessorReader{model_, index, buffers_, document_.at("accessors", index).place()})

@@ -1,4 +1,4 @@
-// scenes/gltf/accessor.h - reading the elements of a checked accessor, one by one, sparse changes applied.
+// scenes/gltf/accessor.h - reads the elements of a checked accessor one by one, with sparse values applied.
 //
 // Rule     An accessor without a bufferView is zero everywhere; sparse values replace elements; sparse indices strictly
 //          increase. Source   glTF 2.0, 3.6.2. What a component's bits mean: element.h. Tests
@@ -13,40 +13,39 @@
 
 namespace strata::scenes {
 
-// Looks into the document's buffers, which must outlive it. Indices run from 0 to count() - 1, which the caller
-// sees to.
+// Refers to the document's buffers, which must outlive it. The caller must keep indices in 0 to count() - 1.
 class AccessorReader {
   public:
     AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const Place& place);
 
     [[nodiscard]] std::size_t count() const { return count_; }
-    [[nodiscard]] std::size_t components() const { return components_; }  // 1 to 4: no reader asks for a matrix
-    [[nodiscard]] std::array<float, 4> element(std::size_t i) const;      // what it does not have is 0
-    [[nodiscard]] std::uint32_t index(std::size_t i) const;               // of a scalar of unsigned integers
-    [[nodiscard]] std::uint32_t restart_index() const;                    // the type's largest value: not allowed
+    [[nodiscard]] std::size_t components() const { return components_; }  // 1 to 4; matrices are not read
+    [[nodiscard]] std::array<float, 4> element(std::size_t i) const;      // missing components are 0
+    [[nodiscard]] std::uint32_t index(std::size_t i) const;               // for a scalar of unsigned integers
+    [[nodiscard]] std::uint32_t restart_index() const;                    // the type's largest value: not a valid index
 
   private:
     [[nodiscard]] const std::byte* at(std::size_t i) const;  // null: zero
     [[nodiscard]] std::uint32_t sparse_index(std::size_t k) const;
     void prepare_sparse(const tinygltf::Accessor& accessor, Buffers& buffers, const Place& place);
 
-    // stride_ and size_ in bytes: from one element to the next, and of one element.
+    // stride_: bytes from one element to the next; size_: bytes of an element.
     std::size_t count_, components_, stride_ = 0, size_;
     ComponentType type_;
     bool is_normalized_;
-    Bytes base_;  // empty: zeros
+    Bytes base_;  // empty: all elements are 0
     std::size_t sparse_count_ = 0;
     ComponentType sparse_type_ = ComponentType::u8;
     Bytes sparse_indices_, sparse_values_;
 };
 
-// The readers of a document, made when first asked for.
+// The readers of a document, created on first use.
 class Accessors {
   public:
     Accessors(const Document& document, const tinygltf::Model& model, Buffers& buffers)
         : document_{document}, model_{model}, buffers_{buffers} {}
 
-    // The reference stays valid: a map does not move what it holds.
+    // The reference stays valid: a map does not move its elements.
     const AccessorReader& operator[](int accessor);
 
   private:

@@ -1,5 +1,4 @@
-// scenes/gltf/check.cpp - the document as a whole: asset, extensions, features that nothing here draws. See
-// check.h.
+// scenes/gltf/check.cpp - checks of the whole document: asset, extensions, unsupported features. See check.h.
 #include "scenes/gltf/check.h"
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 namespace strata::scenes {
 namespace {
 
-// Extensions that a file may require. An extension that is used without being required may be ignored, with a warning.
+// Extensions that a file may require. An extension that is used without being required is ignored with a warning.
 constexpr std::array implemented{"EXT_mesh_gpu_instancing", "KHR_materials_unlit", "KHR_mesh_quantization",
                                  "KHR_texture_transform"};
 
@@ -16,7 +15,7 @@ bool is_implemented(const std::string& name) {
     return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
 }
 
-// How a user gets rid of an extension that a file needs; "" where we know of no way.
+// How a user can remove an extension that a file requires; "" if no way is known.
 std::string way_out_of(const std::string& extension) {
     if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
         return " (gltf-transform copy IN.glb OUT.glb unpacks it)";
@@ -42,8 +41,7 @@ Version version(const JsonAt& at) {  // ^[0-9]+\.[0-9]+$, in range of an int
     return {std::stoul(text.substr(0, dot)), std::stoul(text.substr(dot + 1))};
 }
 
-// glTF 2.0, 3.2: the major version must be 2; a higher minor version is read as 2.0 unless minVersion asks for
-// more.
+// glTF 2.0, 3.2: the major version must be 2; a higher minor version is read as 2.0 unless minVersion is higher.
 void check_asset(const JsonAt& root) {
     const JsonAt asset = root.member("asset").object();
     const JsonAt written = asset.member("version");
@@ -55,7 +53,7 @@ void check_asset(const JsonAt& root) {
     if (needed.minor > 0) least->fail("UNKNOWN_ASSET_MINOR_VERSION", "a reader of glTF 2.0 to be enough");
 }
 
-void check_every_name(const JsonAt& root, Faults& faults) {  // of the objects that reach the scene
+void check_every_name(const JsonAt& root, Faults& faults) {  // of the objects that are used in the scene
     for (const char* kind : {"accessors", "bufferViews", "buffers", "cameras", "images", "materials", "meshes", "nodes",
                              "samplers", "scenes", "textures"})
         faults.collect_each(root, kind, [](const JsonAt& object) {
@@ -93,7 +91,7 @@ void check_extensions(const JsonAt& root, Warnings& warnings, Faults& faults) {
     });
 }
 
-// Each part counts on those before it: accessors on the lengths of the views, meshes on the formats of the
+// Each check relies on the previous ones: accessors on the lengths of the views, meshes on the formats of the
 // accessors.
 void check_document(const JsonAt& root, Warnings& warnings) {
     (void)root.object();
@@ -105,7 +103,7 @@ void check_document(const JsonAt& root, Warnings& warnings) {
     check_accessors(root, of_data);
     check_images(root, of_data);
     check_materials(root, warnings, of_data);
-    // A primitive is compared with what its accessors and its material say.
+    // A primitive is compared with its accessors and its material.
     if (of_data.empty()) check_meshes(root, warnings, of_data);
     faults.add(of_data);
     check_cameras(root, faults);

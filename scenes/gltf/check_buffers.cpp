@@ -13,7 +13,8 @@ std::uint64_t byte_offset(const JsonAt& at) {
     return offset ? offset->integer(0, max_bytes) : 0;
 }
 
-// A view lies in its buffer's declared length. Whether the buffer has that many bytes is known when it is read.
+// A view must be inside its buffer's declared length. Whether the buffer really has that many bytes is checked when it
+// is read.
 void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::uint64_t>& buffer_lengths) {
     const std::size_t buffer = view.member("buffer").index(root.size("buffers"));
     const JsonAt length = view.member("byteLength");
@@ -22,18 +23,18 @@ void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::u
         length.place().fail("BUFFER_VIEW_TOO_LONG",
                             "an end within the buffer's " + std::to_string(buffer_lengths[buffer]) + " bytes",
                             "one at " + std::to_string(end));
-    // A stride is from 4 to 252 and a multiple of 4: glTF's bounds.
+    // glTF's bounds for a stride: 4 to 252 and a multiple of 4.
     const auto stride = view.find("byteStride");
     if (stride && stride->integer(4, 252) % 4 != 0) stride->fail("VALUE_MULTIPLE_OF", "a multiple of 4");
 }
 
-// The part of a bufferView that an accessor, or one half of its sparse part, reads: count elements of `size` bytes.
+// The part of a bufferView that an accessor, or one half of its sparse part, reads: `count` elements of `size` bytes.
 struct Range {
     std::uint64_t count, size, component_size;
 };
 
-// glTF 2.0, 3.6.2.4: offsets are multiples of the component's size, in the view and in the buffer. The last
-// element needs no padding behind it, hence stride * (count - 1) + size; count is at least 1, and all of it
+// glTF 2.0, 3.6.2.4: offsets are multiples of the component's size, in the view and in the buffer. The last element
+// needs no padding after it, hence stride * (count - 1) + size; count is at least 1, and all of it
 // fits 64 bits (see check.h).
 void check_range(const JsonAt& at, const JsonAt& root, const Range& range) {
     const std::size_t view_index = at.member("bufferView").index(root.size("bufferViews"));
@@ -71,7 +72,7 @@ ElementType element_type(const JsonAt& at) {
     name.fail("VALUE_NOT_IN_LIST", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
 }
 
-// Sparse indices and values are packed, glTF 2.0, 3.6.2.3: a stride has no meaning there.
+// Sparse indices and values are packed, glTF 2.0, 3.6.2.3: a stride is not allowed.
 void check_sparse_half(const JsonAt& half, const JsonAt& root, const Range& range) {
     const std::size_t view = half.member("bufferView").index(root.size("bufferViews"));
     if (root.json()["bufferViews"][view].contains("byteStride"))
@@ -79,7 +80,7 @@ void check_sparse_half(const JsonAt& half, const JsonAt& root, const Range& rang
     check_range(half, root, range);
 }
 
-// `base` is the accessor's own range; the values have its element, the indices a type of their own.
+// `base` is the accessor's own range; the values have its element type, the indices a type of their own.
 void check_sparse(const JsonAt& sparse, const JsonAt& root, const Range& base) {
     const JsonAt count = sparse.member("count");
     const std::uint64_t changed = count.integer(1, max_bytes);
@@ -101,7 +102,7 @@ void check_accessor(const JsonAt& accessor, const JsonAt& root) {
     const auto normalized = accessor.find("normalized");
     if (normalized && normalized->boolean() && (component == ComponentType::f32 || component == ComponentType::u32))
         normalized->fail("ACCESSOR_NORMALIZED_INVALID", "normalized integers of 8 or 16 bits");
-    // An accessor without a view is all zeros: an offset into nothing is a mistake of the file.
+    // An accessor without a view is all zeros; a byteOffset without a view is an error of the file.
     if (accessor.has("bufferView"))
         check_range(accessor, root, range);
     else if (const auto offset = accessor.find("byteOffset"))
@@ -114,11 +115,11 @@ void check_accessor(const JsonAt& accessor, const JsonAt& root) {
 void check_buffers(const JsonAt& root, Faults& faults) {
     std::vector<std::uint64_t> lengths;
     faults.collect_each(root, "buffers", [&](const JsonAt& buffer) {
-        lengths.push_back(max_bytes);  // of a buffer that does not say it: its views have no further fault
+        lengths.push_back(max_bytes);  // for a buffer without a valid length: its views get no further fault
         lengths.back() = buffer.member("byteLength").integer(1, max_bytes);
         if (const auto uri = buffer.find("uri")) (void)uri->string();
     });
-    // The views come second: each is compared with the length of its buffer.
+    // The views are checked second, because each is compared with the length of its buffer.
     faults.collect_each(root, "bufferViews", [&](const JsonAt& view) { check_view(view, root, lengths); });
 }
 

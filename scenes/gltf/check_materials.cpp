@@ -8,7 +8,7 @@
 namespace strata::scenes {
 namespace {
 
-// An optional integer that must be one of `list`: codes of OpenGL.
+// An optional integer that must be one of `list`, which are OpenGL enum values.
 void check_listed(const JsonAt& owner, const char* key, std::initializer_list<int> list, const char* expected) {
     const auto value = owner.find(key);
     if (!value) return;
@@ -18,7 +18,7 @@ void check_listed(const JsonAt& owner, const char* key, std::initializer_list<in
     value->fail("VALUE_NOT_IN_LIST", expected);
 }
 
-// glTF 2.0, 3.8.3: the bytes come from one place, and in a buffer they need a type beside them.
+// glTF 2.0, 3.8.3: the image has exactly one of uri and bufferView, and with a bufferView it needs a mimeType.
 void check_image(const JsonAt& image, const JsonAt& root) {
     const bool has_uri = image.has("uri"), has_view = image.has("bufferView");
     if (has_uri == has_view)
@@ -42,7 +42,7 @@ void check_texture_transform(const JsonAt& info) {
     if (const auto set = transform->find("texCoord")) (void)set->integer(0, max_bytes);
 }
 
-// The only texture that reaches a picture, and so the only one that must have an image we can read.
+// The only texture that is drawn, and so the only one whose image must be readable.
 void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     const std::size_t texture = info.member("index").index(root.size("textures"));
     if (const auto set = info.find("texCoord")) (void)set->integer(0, max_bytes);
@@ -68,8 +68,7 @@ void check_metallic_roughness(const JsonAt& pbr, const JsonAt& root, Warnings& w
             warnings.add(ignored->place().pointer, "metallic and roughness are ignored: lighting is diffuse");
 }
 
-// Features that the renderer ignores get a warning and no check: a fault in a normal map does not keep the scene from
-// being drawn.
+// Ignored features get a warning and no check: a fault in a normal map does not prevent the scene from being drawn.
 void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnings) {
     if (const auto pbr = material.find("pbrMetallicRoughness")) check_metallic_roughness(pbr->object(), root, warnings);
     if (const auto mode = material.find("alphaMode")) {

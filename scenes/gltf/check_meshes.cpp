@@ -5,15 +5,15 @@
 namespace strata::scenes {
 namespace {
 
-// The fields of an accessor that the rules for primitives look at.
+// The fields of an accessor that the rules for primitives use.
 struct AccessorFormat {
     ElementType type;
     ComponentType component;
     bool is_normalized;
-    std::uint64_t count, offset, stride;  // offset: the accessor's; stride 0: not given
+    std::uint64_t count, offset, stride;  // offset: the accessor's; stride 0: absent
 };
 
-AccessorFormat format(const Json& root, std::size_t accessor) {  // of an accessor that check_accessors has passed
+AccessorFormat format(const Json& root, std::size_t accessor) {  // for an accessor that check_accessors has accepted
     const Json& a = root["accessors"][accessor];
     const bool has_stride =
         a.contains("bufferView") && root["bufferViews"][a["bufferView"].get<std::size_t>()].contains("byteStride");
@@ -26,7 +26,7 @@ AccessorFormat format(const Json& root, std::size_t accessor) {  // of an access
         has_stride ? root["bufferViews"][a["bufferView"].get<std::size_t>()]["byteStride"].get<std::uint64_t>() : 0};
 }
 
-// The integers of 8 and 16 bits, which KHR_mesh_quantization admits.
+// The 8- and 16-bit integers that KHR_mesh_quantization allows.
 bool is_small_integer(const AccessorFormat& f) {
     return f.component != ComponentType::f32 && f.component != ComponentType::u32;
 }
@@ -34,7 +34,8 @@ bool is_signed(const AccessorFormat& f) {
     return f.component == ComponentType::i8 || f.component == ComponentType::i16;
 }
 
-// glTF 2.0, 3.7.2.1, and what KHR_mesh_quantization adds. Attributes that nothing here reads are not looked at.
+// The formats of glTF 2.0, 3.7.2.1, and those added by KHR_mesh_quantization. Attributes that are not read are not
+// checked.
 bool is_allowed(const std::string& name, const AccessorFormat& f, bool is_quantized) {
     const bool is_float = f.component == ComponentType::f32;
     const bool is_unorm = f.is_normalized && is_small_integer(f) && !is_signed(f);
@@ -48,7 +49,7 @@ bool is_allowed(const std::string& name, const AccessorFormat& f, bool is_quanti
     return true;
 }
 
-// POSITION, NORMAL, TANGENT, NAME_n, or the application's own with an underscore in front.
+// POSITION, NORMAL, TANGENT, NAME_n, or an application-specific name with a leading underscore.
 bool is_attribute_name(const std::string& name) {
     if (name.starts_with('_') || name == "POSITION" || name == "NORMAL" || name == "TANGENT") return true;
     for (const std::string_view set : {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"}) {
@@ -60,13 +61,13 @@ bool is_attribute_name(const std::string& name) {
     return false;
 }
 
-// `accessors` and `materials` are the lengths of the document's arrays, which indices are compared with.
+// `accessors` and `materials` are the lengths of the document's arrays, for checking indices.
 struct MeshChecker {
     const JsonAt& root;
     bool is_quantized;
     std::size_t accessors, materials;
 
-    // `count` is that of the attributes before, nothing for the first: all must have the same.
+    // `count` is that of the previous attributes, empty for the first: all must be equal.
     void check_attribute(const JsonAt& attribute, const std::string& name, std::optional<std::uint64_t>& count) const {
         if (!is_attribute_name(name))
             attribute.place().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
@@ -97,10 +98,10 @@ struct MeshChecker {
         const std::size_t index = indices.index(accessors);
         if (!root.json()["accessors"][index].contains("bufferView"))
             indices.fail("UNDEFINED_PROPERTY",
-                         "an accessor with a bufferView");  // indices made of zeros: tinygltf has none
+                         "an accessor with a bufferView");  // tinygltf does not support indices without a bufferView
     }
 
-    // The set that the material's texture reads, if it has one.
+    // The texture coordinate set of the material's texture, if it has one.
     [[nodiscard]] std::optional<std::uint64_t> texcoord_set(const JsonAt& primitive) const {
         const auto material = primitive.find("material");
         if (!material) return std::nullopt;
@@ -114,7 +115,8 @@ struct MeshChecker {
                                           : texture.value("texCoord", std::uint64_t{0});
     }
 
-    // A file that only uses Draco must bring plain data too; without, the accessors would read as zeros.
+    // A file that uses Draco without requiring it must contain plain data, too; without them the accessors would read
+    // as zeros.
     void check_draco(const JsonAt& primitive, const JsonAt& attributes) const {
         const auto extensions = primitive.find("extensions");
         if (!extensions || !extensions->find("KHR_draco_mesh_compression")) return;
@@ -138,7 +140,7 @@ struct MeshChecker {
         if (set && attributes.has("POSITION") && !attributes.has("TEXCOORD_" + std::to_string(*set)))
             primitive.place().fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
                                    "TEXCOORD_" + std::to_string(*set) + " for the material's texture", "none");
-        // A primitive is drawn as it is stored: no target is blended in.
+        // A primitive is drawn as stored; morph targets are not applied.
         if (primitive.has("targets"))
             warnings.add(primitive.place().under("targets").pointer, "morph targets are ignored");
         for (const auto& item : attributes.json().items())

@@ -1,4 +1,4 @@
-// scenes/gltf/check_nodes.cpp - cameras, nodes, scenes: a forest of transforms. See check.h.
+// scenes/gltf/check_nodes.cpp - checks cameras, nodes and scenes, and that the nodes form a forest. See check.h.
 #include <cmath>
 #include <set>
 
@@ -9,16 +9,16 @@
 namespace strata::scenes {
 namespace {
 
-// No index of a node: indices are below 2^31.
+// Not a valid node index: indices are below 2^31.
 constexpr std::size_t no_parent = static_cast<std::size_t>(-1);
 
-// The number, once it is known to be above 0.
+// Returns the number after checking that it is above 0.
 double positive(const JsonAt& at) {
     if (!(at.number() > 0)) at.fail("VALUE_NOT_IN_RANGE", "a number above 0");
     return at.number();
 }
 
-// glTF 2.0, 3.10.3: yfov below pi, znear above 0, zfar, if there is one, beyond it.
+// glTF 2.0, 3.10.3: yfov below pi, znear above 0, zfar, if present, greater than znear.
 void check_perspective(const JsonAt& camera) {
     const JsonAt yfov = camera.member("yfov");
     if (positive(yfov) >= pi) yfov.fail("VALUE_NOT_IN_RANGE", "an angle below pi");
@@ -43,7 +43,7 @@ void check_rotation(const JsonAt& rotation) {
     rotation.numbers(4);
     double square = 0;
     for (const JsonAt& part : rotation.elements()) square += part.number() * part.number();
-    constexpr double threshold = 0.00769;  // the validator's: four signed normalised bytes can do no better
+    constexpr double threshold = 0.00769;  // the validator's threshold: the accuracy of four signed normalised bytes
     if (!(std::abs(std::sqrt(square) - 1) <= threshold))
         rotation.fail("NODE_ROTATION_NON_UNIT", "a quaternion of length 1");
 }
@@ -64,7 +64,7 @@ void check_transform(const JsonAt& node) {
     if (const auto rotation = node.find("rotation")) check_rotation(*rotation);
 }
 
-// Each child once, with one parent.
+// Each child is listed once and has one parent.
 void check_children(const JsonAt& node, std::size_t index, std::vector<std::size_t>& parents) {
     for (const JsonAt& child_at : node.elements("children")) {
         const std::size_t child = child_at.index(parents.size());
@@ -74,23 +74,23 @@ void check_children(const JsonAt& node, std::size_t index, std::vector<std::size
     }
 }
 
-// With one parent each, the nodes that the roots do not reach form loops.
+// With at most one parent each, the nodes that no root reaches form loops.
 void check_loops(const JsonAt& root, const std::vector<std::size_t>& parents) {
     enum : char { unknown, on_the_way, rooted };
     std::vector<char> known(parents.size(), unknown);
     for (std::size_t start = 0; start < parents.size(); ++start) {
         std::size_t node = start;
-        // Upwards until a root, a node that is known, or one of this very walk: the last is a loop.
+        // Walks up to a root, a known node, or a node of this walk; the last case is a loop.
         for (; node != no_parent && known[node] == unknown; node = parents[node]) known[node] = on_the_way;
         if (node != no_parent && known[node] == on_the_way)
             root.place().under("nodes").under(node).fail("NODE_LOOP", "a tree of nodes",
                                                          "a node that is its own ancestor");
-        // The second walk marks the way as done, so that every node is walked twice at most.
+        // A second walk marks the path as known, so that every node is visited at most twice.
         for (node = start; node != no_parent && known[node] == on_the_way; node = parents[node]) known[node] = rooted;
     }
 }
 
-// A scene lists roots, each once: else a node could be drawn twice.
+// A scene lists roots, each once; otherwise a node could be drawn twice.
 void check_scenes(const JsonAt& root, const std::vector<std::size_t>& parents, Faults& faults) {
     faults.collect_each(root, "scenes", [&](const JsonAt& scene) {
         std::set<std::size_t> seen;

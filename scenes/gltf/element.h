@@ -1,4 +1,4 @@
-// scenes/gltf/element.h - an accessor's elements: their types, sizes, and what one component means as a number.
+// scenes/gltf/element.h - an accessor's elements: their types and sizes, and the value of a component.
 //
 // Rule     Normalised integers: c / 255, c / 65535, max(c / 127, -1), max(c / 32767, -1), one correctly rounded
 //          division in binary32. Others: the integer itself, which binary32 holds exactly (8 and 16 bits).
@@ -40,7 +40,7 @@ enum class ElementType : std::uint8_t { scalar, vec2, vec3, vec4, mat2, mat3, ma
     return 1;  // unreachable: the enum is closed
 }
 
-// Bytes of an element without padding at its end; each column of a matrix begins at a multiple of 4.
+// The size of an element in bytes, without padding at its end; each column of a matrix begins at a multiple of 4.
 [[nodiscard]] constexpr std::uint64_t element_bytes(ElementType type, ComponentType component) noexcept {
     const auto n = static_cast<std::uint64_t>(type);
     if (type <= ElementType::vec4) return (n + 1) * component_bytes(component);
@@ -52,7 +52,7 @@ enum class ElementType : std::uint8_t { scalar, vec2, vec3, vec4, mat2, mat3, ma
     return type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
 }
 
-// A component from its little-endian bits.
+// The value of a component given by its little-endian bits.
 [[nodiscard]] constexpr float component_value(std::uint32_t bits, ComponentType type, bool is_normalized) noexcept {
     const auto i8 = static_cast<float>(static_cast<std::int8_t>(bits & 0xff));
     const auto i16 = static_cast<float>(static_cast<std::int16_t>(bits & 0xffff));

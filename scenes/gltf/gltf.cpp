@@ -1,4 +1,5 @@
-// scenes/gltf/gltf.cpp - a glTF file to a scene: container, JSON, check, then meshes, materials, instances and cameras.
+// scenes/gltf/gltf.cpp - loads a glTF file as a scene: container, JSON, checks, then meshes, materials, instances and
+// cameras.
 #include "scenes/gltf/gltf.h"
 
 #include <algorithm>
@@ -21,8 +22,8 @@
 namespace strata::scenes {
 namespace {
 
-// Walks the nodes of one scene and makes what they show. The order of the members matters: each is made from
-// those above it.
+// Visits the nodes of one scene and adds their meshes and cameras. The order of the members matters: each is
+// constructed from those above it.
 class SceneBuilder {
   public:
     SceneBuilder(const Document& document, const SceneOptions& options, const GltfLimits& limits, Warnings& warnings)
@@ -52,7 +53,7 @@ class SceneBuilder {
     }
 
   private:
-    // --scene N, else the file's own, else 0; a file without scenes shows every root node.
+    // The scene of --scene N, else the file's default, else 0; for a file without scenes, all root nodes.
     std::vector<int> choose_roots() {
         const int count = scene_.scene_count;
         scene_.scene_index = options_.scene.value_or(std::max(model_.defaultScene, 0));
@@ -71,13 +72,13 @@ class SceneBuilder {
         return roots;
     }
 
-    // A primitive that holds triangles, as indices into the draw list.
+    // A primitive with triangles, as indices into the draw list.
     struct Drawable {
         std::uint32_t mesh, material;
     };
 
-    // A mesh is loaded when the first node shows it; each further node adds instances alone. Instances multiply
-    // work at no cost to the file, so their corners have a limit of their own.
+    // A mesh is loaded for the first node that uses it; further nodes only add instances. Instances multiply work
+    // without enlarging the file, so their corners have a separate limit.
     void add_instances(int mesh, const PlacedNode& placed) {
         const auto found = drawables_.find(mesh);
         const std::vector<Drawable>& drawables =
@@ -107,8 +108,8 @@ class SceneBuilder {
         }
     }
 
-    // One mesh of the draw list for each primitive that has a triangle; the name says which primitive it was if
-    // there are several.
+    // One mesh of the draw list per primitive that has a triangle; if there are several, the name includes the
+    // primitive's index.
     std::vector<Drawable> load_mesh(int index) {
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
         const Place place = document_.at("meshes", static_cast<std::size_t>(index)).place().under("primitives");
@@ -127,9 +128,9 @@ class SceneBuilder {
         return drawables;
     }
 
-    // `base`, or else the first of base#2, base#3 ... that no camera before this one has: --camera NAME finds each.
+    // `base`, or the first of base#2, base#3 ... that no previous camera has, so that --camera NAME can select each.
     std::string unique_name(const std::string& base) {
-        int& number = camera_names_[base];  // the last one tried: a thousand cameras of one name take a thousand steps
+        int& number = camera_names_[base];  // the last number tried: keeps many equal names cheap
         std::string name;
         do {
             ++number;
@@ -171,14 +172,14 @@ class SceneBuilder {
     std::set<std::string> taken_names_;
 };
 
-// `file` names the source in errors, `name` is the scene's; without a folder no uri but data: is followed.
+// `file` names the source in errors, `name` is the scene's; without a folder only data: uris are allowed.
 struct Source {
     Bytes bytes;
     std::string file, name;
     std::optional<std::filesystem::path> folder;
 };
 
-// Nothing is read from a buffer or an image before check_document() has passed the whole document.
+// No buffer or image is read before check_document() has accepted the whole document.
 Scene load(const Source& source, const SceneOptions& options, const GltfLimits& limits) {
     const FloatEnvironment environment;
     const Container container = split_container(source.bytes, source.file);

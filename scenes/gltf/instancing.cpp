@@ -15,7 +15,7 @@ constexpr Attribute attributes[]{{"TRANSLATION", ElementType::vec3, false},
                                  {"ROTATION", ElementType::vec4, true},
                                  {"SCALE", ElementType::vec3, false}};
 
-// Of the one attribute that is there; the check has seen that all have as many.
+// The reader of an attribute, or null; the check has verified that all attributes have the same count.
 const AccessorReader* reader_of(const JsonAt& instancing, const char* name, Accessors& accessors) {
     const auto at = instancing.member("attributes").find(name);
     return at ? &accessors[static_cast<int>(at->json().get<std::size_t>())] : nullptr;

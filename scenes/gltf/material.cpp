@@ -16,7 +16,7 @@ namespace {
 
 using pipeline::AlphaMode;
 
-// An absent mode has become OPAQUE, glTF's default.
+// An absent mode has been set to OPAQUE, glTF's default.
 AlphaMode alpha_mode(const std::string& name) {
     if (name == "MASK") return AlphaMode::mask;
     return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
@@ -28,7 +28,7 @@ pipeline::TextureWrap wrap(int code) {
                                                          : pipeline::TextureWrap::repeat;
 }
 
-// From the checked JSON: tinygltf keeps whole numbers of extensions as int, which would cut large ones.
+// From the checked JSON: tinygltf stores whole numbers of extensions as int, which would truncate large ones.
 std::optional<TextureTransform> texture_transform(const JsonAt& info) {
     const auto extensions = info.find("extensions");
     const auto at = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
@@ -41,7 +41,7 @@ std::optional<TextureTransform> texture_transform(const JsonAt& info) {
     return t;
 }
 
-// The transform may name a set of its own, which then counts instead of the texture's (KHR_texture_transform).
+// The transform may name its own texture coordinate set, which overrides the texture's (KHR_texture_transform).
 int texcoord_set(const JsonAt& info, int written) {
     const auto extensions = info.find("extensions");
     const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
@@ -92,12 +92,12 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     const tinygltf::Material& m = c_.model.materials[material];
     made.name = m.name.empty() ? "material " + std::to_string(material) : m.name;
     made.alpha_mode = alpha_mode(m.alphaMode);
-    made.alpha_cutoff = static_cast<float>(std::min(m.alphaCutoff, 2.0));  // above 1 nothing passes
+    made.alpha_cutoff = static_cast<float>(std::min(m.alphaCutoff, 2.0));  // with a cutoff above 1 nothing passes
     made.double_sided = m.doubleSided;
     const auto& factor = m.pbrMetallicRoughness.baseColorFactor;
     for (std::size_t i = 0; i < 4; ++i) made.front[i] = static_cast<float>(factor[i]);
     const JsonAt at = c_.document.at("materials", material);
-    // No vertex colour and no texture raises it.
+    // Neither vertex colours nor textures can raise it.
     if (made.alpha_mode == AlphaMode::mask && made.front[3] < made.alpha_cutoff)
         c_.warnings.add(at.place().pointer, "its alpha is below its cutoff: nothing of it is drawn");
     if (made.alpha_mode == AlphaMode::blend && made.front[3] == 0)
@@ -114,7 +114,7 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     loaded.transform = texture_transform(info_at);
 }
 
-// Glass lets light through without being blended, which is no alpha: it is drawn as its alpha mode says.
+// Transmission lets light through without blending and is not alpha: the material is drawn with its alpha mode.
 void Materials::warn_of_transmission(const JsonAt& extensions, const pipeline::Material& made) {
     const auto transmission = extensions.find("KHR_materials_transmission");
     const auto factor = transmission ? transmission->find("transmissionFactor") : std::nullopt;
@@ -160,7 +160,7 @@ std::vector<std::uint8_t> Materials::load_image(int image, pipeline::Texture& in
     const JsonAt at = c_.document.at("images", static_cast<std::size_t>(image));
     if (const auto name = at.find("name"); name && into.name.empty()) into.name = name->string();
     const auto uri = at.find("uri");
-    // A uri's bytes are held here until they are decoded; a view's stay in the buffer.
+    // A uri's bytes are kept here until they are decoded; a view's remain in the buffer.
     const Resource held =
         uri ? read_uri(uri->json().get_ref<const std::string&>(), c_.document.folder, uri->place()) : Resource{};
     const Bytes bytes =
@@ -169,11 +169,11 @@ std::vector<std::uint8_t> Materials::load_image(int image, pipeline::Texture& in
     const ImageHeader header = read_image_header(bytes, place);
     const std::string found = header.kind == ImageKind::png ? "image/png" : "image/jpeg";
     const auto media_type = at.find("mimeType");
-    // The image's mimeType and the type of a data: uri must both agree with what the bytes are.
+    // The image's mimeType and the type of a data: uri must both agree with the bytes.
     for (const std::string& said :
          {media_type ? media_type->string() : found, held.media_type.empty() ? found : held.media_type})
         if (said != found) place.fail("IMAGE_MIME_TYPE_INVALID", "data of type " + in_quotes(said), found);
-    // Paid by the header's word, before the decoder asks for memory.
+    // Charged by the header's size, before the decoder allocates memory.
     c_.budget.pay_texels(std::uint64_t{header.width} * header.height, place);
     into.width = static_cast<int>(header.width);
     into.height = static_cast<int>(header.height);

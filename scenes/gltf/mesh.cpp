@@ -13,8 +13,8 @@ namespace {
 using Indices = std::vector<std::uint32_t>;
 using pipeline::Vec3;
 
-// The vertices in drawing order: the index accessor's elements, or 0, 1, 2 ...
-// The budget is paid first: an accessor without a view may claim 2^31 elements in a file of 200 bytes.
+// The vertices in drawing order: the index accessor's elements, or 0, 1, 2 ... The budget is charged first: an accessor
+// without a view may claim 2^31 elements in a file of 200 bytes.
 Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
     if (s.primitive.indices < 0) {
         s.budget.pay_elements(vertex_count, s.place);
@@ -37,7 +37,7 @@ Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
     return order;
 }
 
-// Three corners a triangle. Vertices left over are ignored, as glTF asks.
+// Three corners per triangle. Remaining vertices are ignored, as glTF requires.
 Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
     const std::size_t n = order.size();
     const bool is_list = mode == TINYGLTF_MODE_TRIANGLES;
@@ -48,7 +48,7 @@ Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
     if (n < 3) return all;
     all.reserve(3 * (n - 2));
     for (std::size_t i = 0; i + 2 < n; ++i) {
-        // Every second triangle of a strip has two corners exchanged, which keeps all windings alike.
+        // Every second triangle of a strip has two corners exchanged, so that all have the same winding.
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
             all.insert(all.end(), {order[i + 1], order[i + 2], order[0]});
         else
@@ -62,7 +62,7 @@ struct Selection {
     Indices vertices, indices;
 };
 
-// Vertices that triangles name, in the file's order and each once; the corners are then places in that list.
+// Vertices that triangles use, in the file's order and each once; the corners become indices into that list.
 Selection select_used(Indices corners) {
     Indices used = corners;
     std::sort(used.begin(), used.end());
@@ -72,14 +72,14 @@ Selection select_used(Indices corners) {
     return {std::move(used), std::move(corners)};
 }
 
-// Every corner becomes a vertex of its own, so that each triangle can have its flat normal.
+// Every corner becomes its own vertex, so that each triangle can have its flat normal.
 Selection select_unshared(Indices corners) {
     Indices indices(corners.size());
     std::iota(indices.begin(), indices.end(), 0u);
     return {std::move(corners), std::move(indices)};
 }
 
-// Calls take(vertex) for each selected vertex of the attribute and refuses what is not finite.
+// Calls take(vertex) for each selected vertex of the attribute and rejects values that are not finite.
 template <class Take>
 void read_finite(const PrimitiveSource& s, const std::string& name, const Indices& vertices, Take&& take) {
     const int accessor = s.primitive.attributes.at(name);
@@ -99,8 +99,7 @@ std::vector<pipeline::Rgba> read_colors(const PrimitiveSource& s, const Indices&
     colors.reserve(vertices.size());
     bool is_clamped = false;
     read_finite(s, "COLOR_0", vertices, [&](std::array<float, 4> value, std::size_t components) {
-        // A colour without alpha has alpha 1, glTF 2.0, 3.7.2.1; an opaque material ignores what is stored
-        // there.
+        // A colour without alpha has alpha 1, glTF 2.0, 3.7.2.1; for an opaque material stored alpha is ignored.
         if (components == 3 || s.material.is_opaque) value[3] = 1;
         is_clamped |= std::any_of(value.begin(), value.end(), [](float f) { return f < 0 || f > 1; });
         colors.push_back(frame_color({value[0], value[1], value[2], value[3]}, s.color_space));

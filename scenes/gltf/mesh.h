@@ -1,10 +1,10 @@
-// scenes/gltf/mesh.h - a glTF primitive to a mesh of triangles.
+// scenes/gltf/mesh.h - converts a glTF primitive to a triangle mesh.
 //
 // Rule     Triangles take their corners in the order of glTF 3.7.2.1: strips (i, i+1+i%2, i+2-i%2), fans (i+1, i+2, 0).
-//          Vertices that no triangle names are left out; the others keep their order.
-//          Without NORMAL a lit primitive is flat: each triangle has vertices of its own, and their normal is the cross
-//          product of its sides, in binary64, normalised, rounded once. A triangle without area gets (0, 0, 1).
-//          Positions may be NaN or infinite (the rasterizer counts and drops them); other attributes may not.
+//          Vertices that no triangle uses are left out; the others keep their order. Without NORMAL a lit primitive is
+//          flat: each triangle has its own vertices, whose normal is the cross product of its sides, in binary64,
+//          normalised, rounded once. A triangle without area gets (0, 0, 1). Positions may be NaN or infinite (the
+//          rasterizer counts and drops them); other attributes may not.
 // Source   glTF 2.0, 3.7.2; KHR_mesh_quantization.
 // Tests    tests/scenes/gltf/gltf_mesh_test.cpp
 #pragma once
@@ -25,7 +25,7 @@ struct PrimitiveSource {
     pipeline::ColorSpace color_space;
 };
 
-// Nothing if it holds no triangle.
+// Empty if the primitive has no triangle.
 [[nodiscard]] std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& source);
 
 }  // namespace strata::scenes

@@ -8,7 +8,7 @@ void erase(Json& object, std::initializer_list<const char*> keys) {
     for (const char* key : keys) object.erase(key);
 }
 
-// Erases all of a material but name, alpha mode, cutoff, sides, base colour factor and texture.
+// Erases all of a material except name, alpha mode, cutoff, doubleSided, base colour factor and texture.
 void reduce_material(Json& material) {
     erase(material, {"extras", "extensions", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"});
     if (!material.contains("pbrMetallicRoughness")) return;
@@ -46,8 +46,8 @@ Json reduced(const Json& document) {
 }  // namespace
 
 tinygltf::Model to_model(const Document& document) {
-    // Back to text, for tinygltf reads nothing else. The text is below 2^32 bytes: a number grows to a few
-    // times its length in the document's 2^28 bytes at most.
+    // Converted back to text, because tinygltf reads only text. The text is below 2^32 bytes: a number grows to at most
+    // a few times its length in the document's 2^28 bytes.
     const std::string text = reduced(document.json).dump();
     tinygltf::Model model;
     tinygltf::TinyGLTF parser;

@@ -1,9 +1,8 @@
 // scenes/gltf/model.h - a checked document as tinygltf's structs, with glTF's default values filled in.
 //
-// Rule     tinygltf sees what the scene needs and nothing else: buffers, images, extras, extensions and ignored
-//          features are taken out first, so it opens no file, decodes nothing and meets no shape that check.h has not
-//          passed.
-// Source   tinygltf 2.7 checks little itself: a uri that is a folder, or deep nesting, ends the process.
+// Rule     tinygltf parses only what the scene needs: buffers, images, extras, extensions and ignored features are
+//          removed first, so it opens no file, decodes nothing and gets no structure that check.h has not accepted.
+// Source   tinygltf 2.7 checks little itself: a uri that is a folder, or deep nesting, crashes the process.
 #pragma once
 #include <tiny_gltf.h>
 

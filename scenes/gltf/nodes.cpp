@@ -13,10 +13,10 @@ namespace {
 using pipeline::Matrix;
 Vec3d column(const Matrix& m, std::size_t c) { return {m[c].x, m[c].y, m[c].z}; }
 
-// The vector over its length; InputError if it is 0 or not finite.
+// The vector divided by its length; InputError if that is 0 or not finite.
 Vec3d unit(const Vec3d& v, const Place& place) {
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    const Vec3d scaled = divided(v, largest);  // so that no square over- or underflows
+    const Vec3d scaled = divided(v, largest);  // so that no square overflows or underflows
     const double length = std::sqrt(dot_product(scaled, scaled));
     if (!(largest > 0) || !std::isfinite(length))
         place.fail("VALUE_NOT_IN_RANGE", "a camera with a direction", "a transform that flattens it");
@@ -32,7 +32,7 @@ std::array<double, n> values_or(const std::vector<double>& given, const std::arr
 
 }  // namespace
 
-// The quaternion x y z w as it is written: the check has allowed it to be off unit length by little.
+// The quaternion x y z w as stored: the check allows a small deviation from unit length.
 Matrix transform_of(const std::array<double, 3>& t, const std::array<double, 4>& q,
                     const std::array<double, 3>& s) noexcept {
     const auto [x, y, z, w] = q;
@@ -43,7 +43,7 @@ Matrix transform_of(const std::array<double, 3>& t, const std::array<double, 4>&
             c2[0] * s[2], c2[1] * s[2], c2[2] * s[2], 0, t[0],         t[1],         t[2],         1};
 }
 
-// A node has either a matrix or parts (check_nodes.cpp); what it leaves out is the identity's.
+// A node has either a matrix or TRS properties (check_nodes.cpp); absent ones are the identity's.
 Matrix local_transform(const tinygltf::Node& node) noexcept {
     if (node.matrix.size() == 16) return matrix_of(values_or<16>(node.matrix, {}));
     return transform_of(values_or<3>(node.translation, {0, 0, 0}), values_or<4>(node.rotation, {0, 0, 0, 1}),
@@ -52,8 +52,8 @@ Matrix local_transform(const tinygltf::Node& node) noexcept {
 
 std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots, const std::string& file) {
     std::vector<PlacedNode> placed, waiting;
-    // A stack gives back the last first: roots and children go in from the end, so that they come out in the
-    // file's order.
+    // A stack returns the last element first, so roots and children are pushed in reverse to come out in the file's
+    // order.
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, pipeline::identity});
     while (!waiting.empty()) {
         PlacedNode next = waiting.back();  // `world` is still the parent's
@@ -70,9 +70,8 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
     return placed;
 }
 
-// The camera's axes made orthonormal: z is kept, x is turned at right angles to it, y completes a right-handed
-// frame, which drops scale, shear and mirroring. The inverse of such a frame is its transpose and the turned
-// eye.
+// The camera's axes made orthonormal: z is kept, x is made perpendicular to it, y completes a right-handed frame, which
+// drops scale, shear and mirroring. The inverse of such a frame is its transpose and the rotated, negated eye.
 Matrix view_of(const Matrix& world, const Place& place) {
     const Vec3d z = unit(column(world, 2), place);
     const Vec3d right = unit(column(world, 0), place);

@@ -1,8 +1,8 @@
 // scenes/gltf/nodes.h - the transforms of a scene's nodes, and the views of its cameras.
 //
 // Rule     Binary64. local = matrix, or translation * rotation * scale; world = parent * local, each element
-//          ((a0 b0 + a1 b1) + a2 b2) + a3 b3. A mirrored matrix stays as it is: the machine sees the determinant.
-//          A camera looks along -z of its world frame; scale, shear and mirroring of that frame count for nothing.
+//          ((a0 b0 + a1 b1) + a2 b2) + a3 b3. A mirrored matrix is unchanged: the pipeline uses the determinant's sign.
+//          A camera looks along -z of its world frame; scale, shear and mirroring of that frame are ignored.
 // Source   glTF 2.0, 3.5.3 (transformations), 3.10 (cameras).
 // Tests    tests/scenes/gltf/gltf_node_test.cpp
 #pragma once
@@ -19,7 +19,7 @@ struct PlacedNode {
     pipeline::Matrix world = pipeline::identity;
 };
 
-// Depth first, parents before children, in the file's order. A walk without recursion: any depth will do.
+// Depth first, parents before children, in the file's order. Iterative, so any depth is possible.
 [[nodiscard]] std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots,
                                                   const std::string& file);
 
@@ -29,7 +29,7 @@ struct PlacedNode {
                                             const std::array<double, 3>& scale) noexcept;
 [[nodiscard]] pipeline::Matrix local_transform(const tinygltf::Node& node) noexcept;
 
-// The rigid inverse of a camera node's world transform; InputError if it has no direction left.
+// The rigid inverse of a camera node's world transform; InputError if its axes are degenerate.
 [[nodiscard]] pipeline::Matrix view_of(const pipeline::Matrix& world, const Place& place);
 
 }  // namespace strata::scenes

@@ -1,4 +1,4 @@
-// scenes/images/decode.cpp - a PNG or JPEG in memory to 8-bit RGBA; files/image_decode.h states the rule.
+// scenes/images/decode.cpp - decodes a PNG or JPEG in memory to 8-bit RGBA (rule: files/image_decode.h).
 #include <memory>
 #include <stdexcept>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Codes = std::vector<std::uint8_t>;
 
-// A size that no file of so many bytes can have is refused before memory is asked for its pixels.
+// A size that is impossible for a file of so many bytes is rejected before memory for its pixels is allocated.
 void check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const Place& place) {
     const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
     if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(max_image_side) ||
@@ -26,12 +26,12 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
     std::unique_ptr<OIIO::ImageInput> reader = OIIO::ImageInput::create(picture.reader);
     if (!reader) throw std::runtime_error(std::string("OpenImageIO has no reader named ") + picture.reader);
     OIIO::ImageSpec spec, how;
-    // Straight alpha: the reader would multiply the colours by it.
+    // By default the reader would multiply the colours by alpha.
     how.attribute("oiio:UnassociatedAlpha", 1);
     reader->set_ioproxy(&memory);
     if (!reader->open(std::string("image.") + picture.reader, spec, how))
         place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
-    // The memory budget was paid for the header's size: a decoder that finds another size is stopped before it
+    // The memory budget was charged for the header's size: a decoder that finds another size is stopped before it
     // writes.
     if (picture.width != 0 && (spec.width != picture.width || spec.height != picture.height))
         place.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
@@ -42,11 +42,11 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
     return reader;
 }
 
-// All channels as the file has them, 8 bits each.
+// All channels as stored, 8 bits each.
 Codes read(OIIO::ImageInput& reader, const Place& place) {
     const OIIO::ImageSpec& spec = reader.spec();
     const std::size_t count = static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels;
-    // 16-bit channels are read as they are: the reader's own way to 8 bits would round by a rule of its own.
+    // 16-bit channels are read unchanged: the reader's own conversion to 8 bits has another rounding rule.
     const bool is_wide = spec.format == OIIO::TypeDesc::UINT16;
     std::vector<std::uint16_t> wide(is_wide ? count : 0);
     Codes codes(is_wide ? 0 : count);
@@ -55,12 +55,12 @@ Codes read(OIIO::ImageInput& reader, const Place& place) {
         place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
     if (!is_wide) return codes;
     codes.reserve(count);
-    // c / 257 to the nearest code, for 65535 = 255 * 257. The sum stays below 2^17 in int.
+    // c / 257 to the nearest code, as 65535 = 255 * 257. The sum is below 2^17 and fits an int.
     for (const std::uint16_t c : wide) codes.push_back(static_cast<std::uint8_t>((c + 128) / 257));
     return codes;
 }
 
-// 1, 2, 3 or 4 channels; grey fills red, green and blue, and a missing alpha is 255.
+// 1, 2, 3 or 4 channels; grey is copied to red, green and blue, and a missing alpha is 255.
 Codes to_rgba(const Codes& codes, std::size_t channels) {
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
     Codes texels;
@@ -85,7 +85,7 @@ Codes decode(const EncodedPicture& picture, const Place& place) {
 
 namespace {
 
-// All codes as unsigned words of their own width.
+// All codes as unsigned integers of their own width.
 template <class Word>
 void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const Place& place, StoredCodes& to) {
     const OIIO::ImageSpec& spec = reader.spec();
@@ -95,7 +95,7 @@ void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const Place& plac
     to.codes.assign(words.begin(), words.end());
 }
 
-// The fourth byte of a BMP's pixel is alpha in some files and 0 in others: 0 everywhere is no alpha.
+// The fourth byte of a BMP's pixel is alpha in some files and 0 in others: if it is 0 everywhere, there is no alpha.
 void drop_empty_alpha(StoredCodes& stored) {
     for (std::size_t i = 3; i < stored.codes.size(); i += 4)
         if (stored.codes[i] != 0) return;

@@ -1,4 +1,4 @@
-// scenes/images/openimageio.h - the module's own functions, and what they have in common.
+// scenes/images/openimageio.h - functions of the image module that its files share.
 #pragma once
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -13,8 +13,8 @@
 namespace strata::scenes {
 namespace {
 
-// What libpng's functions find behind their pointer. libpng jumps out of an error, so nothing that needs a destructor
-// lives in a function that it may jump over, and no exception passes through it.
+// The data behind the pointer that libpng passes to callbacks. libpng leaves errors with longjmp, so a function that
+// may be jumped over has no object with a destructor, and no exception may pass through libpng.
 struct Writing {
     const PngPicture& picture;
     const std::function<bool(const void*, std::size_t)>& put;
@@ -33,7 +33,7 @@ struct Writing {
 
 void warned(png_structp, png_const_charp) {}
 
-// Runs what may throw or answer false, and ends in libpng's way.
+// Runs a call that may throw or return false, and reports failure by libpng's error function.
 template <class Call>
 void guarded(png_structp png, Writing& writing, Call call) {
     bool done = false;

@@ -8,7 +8,7 @@ namespace {
 
 bool is_blank(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// The next number behind blanks and comments; nothing where there is none.
+// The next number after whitespace and comments; empty if there is none.
 std::optional<std::uint32_t> take_number(std::string_view& text) {
     while (!text.empty() && (is_blank(text[0]) || text[0] == '#'))
         text.remove_prefix(text[0] == '#' ? std::min(text.find('\n'), text.size()) : 1);

@@ -1,9 +1,10 @@
-// scenes/images/scaled_pnm.h - PNM files whose greatest sample is not 255: OpenImageIO 2.4 rounds their samples down,
-// 16-bit ones too.
+// scenes/images/scaled_pnm.h - reads PNM files whose maxval is not 255: OpenImageIO 2.4 rounds their samples down, also
+// 16-bit ones.
 //
-// Rule     A sample s of greatest value m is the code s c / m to the nearest, halves up; c is 255 where m < 256, else
+// Rule     A sample s of maxval m becomes the code s c / m rounded to nearest, halves up; c is 255 if m < 256, else
 //          65535.
-// Source   Netpbm's pages pgm and ppm: P2, P3 in decimals, P5, P6 in bytes or big-endian words behind one blank.
+// Source   Netpbm's pages pgm and ppm: P2, P3 in decimals, P5, P6 in bytes or big-endian words after one whitespace
+//          character.
 // Tests    tests/tools/oracle/read_picture_test.cpp
 #pragma once
 #include <optional>
@@ -14,8 +15,8 @@
 
 namespace strata::scenes::images {
 
-// Of a picture that OpenImageIO has found sound, with that many channels; nothing for other kinds of PNM, and where the
-// greatest sample is 255.
+// For an image that OpenImageIO has accepted, with that many channels; empty for other kinds of PNM and if maxval is
+// 255.
 [[nodiscard]] std::optional<StoredCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels);
 
 }  // namespace strata::scenes::images

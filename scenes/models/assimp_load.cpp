@@ -1,5 +1,5 @@
-// scenes/models/assimp_load.cpp - an OBJ, PLY, STL or OFF file by Assimp: triangles and materials, without a change to
-// a number.
+// scenes/models/assimp_load.cpp - reads an OBJ, PLY, STL or OFF file with Assimp: triangles and materials, with
+// unchanged numbers.
 #include "scenes/models/assimp_load.h"
 
 #include <assimp/config.h>
@@ -17,7 +17,7 @@ namespace strata::scenes::models {
 
 namespace {
 
-// A file in memory, which Assimp reads as it would one on disk.
+// A file in memory, which Assimp reads like one on disk.
 class Bytes : public Assimp::IOStream {
   public:
     explicit Bytes(std::vector<std::byte> bytes) : bytes_{std::move(bytes)} {}
@@ -44,7 +44,8 @@ class Bytes : public Assimp::IOStream {
     size_t at_ = 0;
 };
 
-// Nothing but what `read` gives; says whether a file beside the model was opened. Assimp owns it.
+// Gives Assimp only the files that `read` returns, and records whether a file other than the model was opened. Assimp
+// owns it.
 class Beside : public Assimp::IOSystem {
   public:
     Beside(const ReadBeside& read, std::string model, bool& has_library)
@@ -86,7 +87,7 @@ ModelMesh mesh_of(const aiMesh& from) {
     return mesh;
 }
 
-// Assimp makes a grey one where an OBJ file names none, or one that no file defines.
+// Assimp creates a grey material if an OBJ file names none, or one that no file defines.
 ModelMaterial material_of(const aiMaterial& from, bool has_library) {
     ModelMaterial material;
     aiString text;
@@ -120,7 +121,7 @@ LoadedModel load(const std::string& name, const ReadBeside& read) {
         model.failure = importer.GetErrorString();
         return model;
     }
-    // Formats without a tree have one node that shows each mesh once, as it is.
+    // Formats without a scene graph have one node, which uses each mesh once, without a transform.
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) model.meshes.push_back(mesh_of(*scene->mMeshes[i]));
     for (unsigned i = 0; i < scene->mNumMaterials; ++i)
         model.materials.push_back(material_of(*scene->mMaterials[i], model.has_library));

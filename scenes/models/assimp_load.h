@@ -1,4 +1,4 @@
-// scenes/models/assimp_load.h - the module's own function; model_module.h states the rule.
+// scenes/models/assimp_load.h - the function of the model module (rule: model_module.h).
 #pragma once
 #include "scenes/models/model_module.h"
 

@@ -8,7 +8,7 @@ const ModelModule& model_module() {
     static constexpr ModuleFile file{STRATA_MODEL_MODULE, model_module_symbol, "load the model module",
                                      "OBJ, PLY, STL and OFF files need it; it is built where Assimp is installed "
                                      "(Debian: libassimp-dev)"};
-    // Once a process, and safe from several threads; a failure is tried again by the next call.
+    // Once per process and thread-safe; after a failure the next call tries again.
     static const ModelModule& module = [&]() -> const ModelModule& {
         const ModelModule& found = *reinterpret_cast<ModelModuleEntry>(module_function(file))();
         check_version(file, found.version);

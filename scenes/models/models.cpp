@@ -31,12 +31,12 @@ using pipeline::AlphaMode;
 
 constexpr std::size_t max_bytes = std::size_t{1} << 32;
 
-// The file's folder, and what may be opened in it: the names that the model gives, as long as they lead nowhere else.
+// The model's folder, and the files in it that the model may open: those whose names do not lead out of it.
 class ModelFolder {
   public:
     explicit ModelFolder(const std::string& path) : path_{path}, folder_{fs::path(path).parent_path()} {}
 
-    // Errors in the model itself are told; another file that is missing or not a file is nothing.
+    // Errors in the model itself throw; for another file that is missing or no regular file the result is empty.
     [[nodiscard]] std::vector<std::byte> read(const std::string& name) const {
         const fs::path relative = fs::path(name).lexically_normal();
         if (relative == fs::path(path_).filename()) return bytes_of(path_);
@@ -80,7 +80,7 @@ class ModelScene {
   private:
     [[nodiscard]] bool has_materials() const { return has_ending(path_, ".obj"); }
 
-    // Errors of reading go round the library, which would swallow them.
+    // Read errors bypass the library, which would discard them.
     LoadedModel loaded(const std::string& name) {
         std::exception_ptr failure;
         std::set<std::string> missing;
@@ -119,7 +119,7 @@ class ModelScene {
         scene_.list.materials.push_back(made);
     }
 
-    // -1, with a warning, for a texture that cannot be drawn.
+    // -1, with a warning, for a texture that cannot be read.
     int texture(const std::string& name) {
         if (const auto known = textures_.find(name); known != textures_.end()) return known->second;
         int& number = textures_[name] = -1;
@@ -146,7 +146,7 @@ class ModelScene {
         return number;
     }
 
-    // A mesh with an alpha below 1 makes its material blended, for all that share it.
+    // A mesh with an alpha below 1 makes its material blended for all meshes that share it.
     void add_mesh(ModelMesh&& from) {
         if (from.indices.empty()) return;
         pipeline::Material& material = scene_.list.materials.at(from.material);
@@ -160,7 +160,7 @@ class ModelScene {
         }
         if (material.texture >= 0) {
             for (const auto& t : from.texcoords) mesh.texcoords.push_back({t[0], 1.0f - t[1]});
-            mesh.texcoords.resize(mesh.positions.size(), {0, 1});  // of a mesh without any: the texture's first texel
+            mesh.texcoords.resize(mesh.positions.size(), {0, 1});  // without coordinates: the texture's first texel
         }
         mesh.indices = std::move(from.indices);
         if (material.unlit)

@@ -14,8 +14,7 @@ using rasterizer::fast_two_sum;
 using rasterizer::two_product;
 using rasterizer::two_sum;
 
-// Sums both parts exactly, then folds the rounding errors in from the small end; the last step leaves high as
-// the rounded sum.
+// Adds both parts exactly, then the rounding errors from the smallest up; the last step makes high the rounded sum.
 [[nodiscard]] constexpr DoubleDouble add(DoubleDouble a, DoubleDouble b) noexcept {
     const DoubleDouble high = two_sum(a.high, b.high), low = two_sum(a.low, b.low);
     const DoubleDouble sum = fast_two_sum(high.high, high.low + low.high);
@@ -24,13 +23,13 @@ using rasterizer::two_sum;
 
 [[nodiscard]] constexpr DoubleDouble negated(DoubleDouble a) noexcept { return {-a.high, -a.low}; }
 
-// The product of the low parts is left out: it is below the error that the rule allows.
+// The product of the low parts is omitted: it is smaller than the error that the rule allows.
 [[nodiscard]] constexpr DoubleDouble mul(DoubleDouble a, DoubleDouble b) noexcept {
     const DoubleDouble product = two_product(a.high, b.high);
     return fast_two_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
-// The quotient's three leading digits, each the rounded quotient of what is left.
+// Three quotients, each the rounded quotient of the remainder.
 [[nodiscard]] constexpr DoubleDouble div(DoubleDouble a, DoubleDouble b) noexcept {
     const double first = a.high / b.high;
     const DoubleDouble rest = add(a, negated(mul(b, {first, 0})));

@@ -16,11 +16,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Reduced {
     int quadrant = 0;   // modulo 4
-    DoubleDouble rest;  // radians, within pi/4 and a rounding
+    DoubleDouble rest;  // radians, at most pi/4 in magnitude, except for rounding
 };
 
-// x - k pi/2. pi/2 in four parts (Cody and Waite): the first three have at most 33 bits and |k| < 2^20, so that their
-// products are exact; what is cut off is below 2^-132, and no binary64 number up to 10^6 is nearer than 2^-64 to a
+// x - k pi/2. pi/2 in four parts (Cody and Waite): the first three have at most 33 bits and |k| < 2^20, so their
+// products are exact; the omitted part is below 2^-132, and no binary64 number up to 10^6 is nearer than 2^-64 to a
 // multiple of pi/2.
 Reduced reduce(double x) noexcept {
     constexpr double part[4] = {0x1.921fb544p+0, 0x0.42d18469p-32, 0x0.898cc517p-64, 0x1.b839a252049c1p-104};
@@ -42,7 +42,7 @@ DoubleDouble alternating_series(DoubleDouble x, int first) noexcept {
     return sum;
 }
 
-// The quadrant turns the angle by k pi/2: odd ones exchange sine and cosine, the upper two change the sign.
+// The quadrant adds k pi/2 to the angle: odd ones exchange sine and cosine, the upper two change the sign.
 DoubleDouble sine(Reduced angle) noexcept {
     const DoubleDouble series = alternating_series(angle.rest, angle.quadrant % 2 == 0 ? 1 : 0);
     return angle.quadrant < 2 ? series : negated(series);
@@ -61,7 +61,7 @@ double power_of_two(int exponent) noexcept {
 
 // ln(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)) with x = 2^e m, m between sqrt(1/2) and sqrt(2).
 DoubleDouble logarithm(double x) noexcept {
-    // A denormal has no implicit leading bit: scaled by 2^54 it is normal, and the exponent takes the 54 back.
+    // A denormal has no implicit leading bit: scaled by 2^54 it is normal, and the exponent is reduced by 54.
     const bool denormal = x < 0x1p-1022;
     const auto bits = std::bit_cast<std::uint64_t>(denormal ? x * 0x1p54 : x);
     int exponent = static_cast<int>(bits >> 52) - 1023 - (denormal ? 54 : 0);
@@ -80,8 +80,8 @@ DoubleDouble logarithm(double x) noexcept {
     return add(mul(ln2, {static_cast<double>(exponent), 0}), {2 * sum.high, 2 * sum.low});
 }
 
-// e^x with x = k ln 2 + rest. Above 709.79 the result exceeds the largest binary64, below -745.2 half the
-// smallest.
+// e^x with x = k ln 2 + rest. Above 709.79 the result exceeds the largest binary64; below -745.2 it is less than half
+// the smallest.
 double exponential(DoubleDouble x) noexcept {
     if (x.high > 709.79) return infinity;
     if (x.high < -745.2) return 0;
@@ -92,7 +92,7 @@ double exponential(DoubleDouble x) noexcept {
         term = div(mul(term, rest), {static_cast<double>(n), 0});
         sum = add(sum, term);
     }
-    // Two factors, for 2^exponent alone may lie outside the range of a normal number where the result does not.
+    // Two factors, because 2^exponent may be outside the range of normal numbers when the result is not.
     const int exponent = static_cast<int>(k), half = exponent / 2;
     return sum.high * power_of_two(half) * power_of_two(exponent - half);
 }
@@ -118,7 +118,7 @@ double pow(double base, double exponent) noexcept {
     if (exponent == 0 || base == 1) return 1;
     if (base == 0) return exponent > 0 ? 0 : infinity;
     const DoubleDouble log = logarithm(base);
-    if (exponent * log.high > 710) return infinity;  // before the exact product, which must not overflow
+    if (exponent * log.high > 710) return infinity;  // checked before the exact product, which must not overflow
     if (exponent * log.high < -746) return 0;
     return exponential(mul(log, {exponent, 0}));
 }

@@ -1,9 +1,9 @@
 // scenes/numbers/elementary.h - sin, cos, tan and pow with the same bits on every machine.
 //
-// Rule     Binary64, a fixed order of + - * /; of the C library only floor, which is exact. Error below 0.501 units in
-//          the last place. Angles up to 10^6 radians; beyond, and for NaN, the answer is NaN.
-// Source   scenes.md 8: the C library's own differ between processors. double_double.h names its sources.
-// Cost     About a microsecond a call: for cameras, procedural scenes and colour factors, never for fragments.
+// Rule     Binary64 with a fixed order of + - * /; of the C library only floor is used, which is exact. The error is
+//          below 0.501 units in the last place. Angles up to 10^6 radians; beyond that, and for NaN, the result is NaN.
+// Source   scenes.md 8: the C library's functions differ between processors. double_double.h names its sources.
+// Cost     About a microsecond per call: for cameras, procedural scenes and colour factors, never for fragments.
 // Tests    tests/scenes/numbers/elementary_test.cpp against MPFR
 #pragma once
 
@@ -16,8 +16,8 @@ inline constexpr double max_angle = 1e6;  // radians
 [[nodiscard]] double cos(double radians) noexcept;
 [[nodiscard]] double tan(double radians) noexcept;
 
-// base^exponent for base >= 0 and finite operands; else NaN. Infinity above the range; below 2^-1022 rounded a second
-// time.
+// base^exponent for base >= 0 and finite operands; else NaN. Infinity above the range; results below 2^-1022 are
+// rounded a second time.
 [[nodiscard]] double pow(double base, double exponent) noexcept;
 
 // degrees * pi / 180, the product first.

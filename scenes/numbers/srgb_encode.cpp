@@ -57,7 +57,7 @@ constexpr std::array<float, 255> threshold{
 // A NaN is not above 0 and gives 0.
 float clamped(float x) noexcept { return x > 0 ? std::min(x, 1.0f) : 0.0f; }
 
-// Red, green and blue alone: alpha is a share, not light.
+// Only red, green and blue: alpha is a coverage and never encoded.
 template <class Transfer>
 pipeline::Rgba with_rgb(pipeline::Rgba color, Transfer transfer) noexcept {
     for (std::size_t i = 0; i < 3; ++i) color[i] = transfer(color[i]);
@@ -80,8 +80,8 @@ float decode_srgb(float encoded) noexcept {
 
 std::uint8_t encode_srgb8(float linear) noexcept {
     if (!(linear > 0)) return 0;  // negative and NaN
-    // The code is the number of thresholds that are not above the value: 255 steps, searched in 8 comparisons,
-    // without a power that could round the other way.
+    // The code is the number of thresholds not above the value: 255 steps in 8 comparisons, without a power that could
+    // round differently.
     return static_cast<std::uint8_t>(std::upper_bound(threshold.begin(), threshold.end(), linear) - threshold.begin());
 }
 

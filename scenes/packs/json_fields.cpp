@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 std::string bits_of(float value) { return fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)); }
 std::string bits_of(double value) { return fmt::format("{:016x}", std::bit_cast<std::uint64_t>(value)); }
 
-// JSON has neither infinities nor NaN: null in the decimals.
+// JSON has neither infinities nor NaN: the decimals contain null instead.
 template <class Real>
 ordered_json decimal_and_bits(std::span<const Real> values) {
     ordered_json decimals = ordered_json::array(), bits = ordered_json::array();
@@ -51,7 +51,7 @@ bool says(const json& decimal, double value) {
            std::signbit(decimal.get<double>()) == std::signbit(value);
 }
 
-// One list alone is enough.
+// Either of the two lists suffices.
 template <class Real, class Bits>
 bool fill(const json& both, std::span<Real> values) {
     if (!both.is_object()) return false;
@@ -72,7 +72,7 @@ bool fill(const json& both, std::span<Real> values) {
     return true;
 }
 
-// dump recurses: not into what may be nested deeply.
+// dump recurses, so it must not be called for deeply nested values.
 std::string shown(const json& value) {
     return value.is_structured() ? value.type_name()
                                  : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);

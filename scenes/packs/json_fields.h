@@ -1,9 +1,8 @@
-// scenes/packs/json_fields.h - an object of a manifest, field by field: one text says what is written and what is read.
+// scenes/packs/json_fields.h - reads and writes an object of a manifest field by field, with one function for both.
 //
 // Rule     A function template `x_fields(io, x)` names every field once, for JsonWriter and for JsonReader.
-//          Floating-point numbers stand as {"decimal": [...], "bits": ["..."]}; where the two disagree, and for a field
-//          that is missing, unknown or of another kind, JsonReader throws InputError with the file and the JSON
-//          pointer.
+//          Floating-point numbers are written as {"decimal": [...], "bits": ["..."]}. If the two disagree, or a field
+//          is missing, unknown or of another type, JsonReader throws InputError with the file and the JSON pointer.
 // Tests    tests/scenes/packs/json_fields_test.cpp
 #pragma once
 #include <cstdint>
@@ -29,7 +28,7 @@ class JsonWriter {
     void whole(const std::string& key, Integer value, Integer, Integer) {
         object[key] = value;
     }
-    // 64 bits do not fit a JSON number of every reader.
+    // Not every reader supports 64-bit JSON numbers.
     void text(const std::string& key, std::uint64_t value) { object[key] = std::to_string(value); }
     void texts(const std::string& key, const std::vector<std::string>& values) { object[key] = values; }
     void reals(const std::string& key, std::span<const float> values) { object[key] = both(values); }
@@ -42,7 +41,7 @@ class JsonWriter {
     void choice(const std::string& key, const Enum& value, std::span<const std::string_view> names = enum_names<Enum>) {
         object[key] = names[static_cast<std::size_t>(value)];
     }
-    // null, or what `fill(io, key, value)` writes.
+    // Writes null, or what `fill(io, key, value)` writes.
     template <class T, class Fill>
     void optional(const std::string& key, const std::optional<T>& value, Fill fill) {
         if (value)
@@ -50,7 +49,7 @@ class JsonWriter {
         else
             object[key] = nullptr;
     }
-    // Left out where there is none.
+    // Omitted if empty.
     template <class T, class Write>
     void if_any(const std::string& key, const std::optional<T>& value, Write write) {
         if (value) write(*this, key, *value);
@@ -78,7 +77,7 @@ class JsonWriter {
 
 class JsonReader {
   public:
-    // Both outlive the reader. InputError unless `value` is an object.
+    // `value` and `file` must outlive the reader. InputError unless `value` is an object.
     JsonReader(const nlohmann::json& value, const std::string& file, std::string pointer);
 
     void flag(const std::string& key, bool& value);
@@ -128,12 +127,12 @@ class JsonReader {
         }
     }
 
-    // The value of a key that must be there; it counts as read.
+    // The value of a required key, which is marked as read.
     [[nodiscard]] const nlohmann::json& at(const std::string& key);
     [[nodiscard]] bool is_null(const std::string& key) { return at(key).is_null(); }
     [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
     [[nodiscard]] std::string pointer_of(const std::string& key) const { return pointer_ + "/" + key; }
-    // InputError for a key that was not read.
+    // InputError if there is a key that was not read.
     void end() const;
 
   private:

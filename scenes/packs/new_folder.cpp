@@ -15,7 +15,7 @@ void check_new_folder(const std::string& path) {
 
 NewFolder::NewFolder(const std::string& path) : path_{path} {
     check_new_folder(path);
-    // An absolute path: the name stays the same folder's.
+    // The absolute path stays valid if the current folder changes.
     slot_ = enter_unfinished_folder(std::filesystem::absolute(path_).string());
     try {
         std::filesystem::create_directories(path_);

@@ -1,4 +1,4 @@
-// scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written; a signal that ends the
+// scenes/packs/new_folder.h - a folder that is kept only if all of its files were written; a signal that ends the
 // process removes it, too.
 //
 // Tests    tests/tools/probe/pack_test.cpp
@@ -9,16 +9,16 @@
 
 namespace strata::scenes {
 
-// InputError if there is something at the path that is no empty folder: before the work whose result goes there.
+// InputError if the path exists and is not an empty folder. Call it before the work whose result is written there.
 void check_new_folder(const std::string& path);
 
 class NewFolder {
   public:
-    // InputError as check_new_folder.
+    // InputError under the same conditions.
     explicit NewFolder(const std::string& path);
     NewFolder(const NewFolder&) = delete;
     NewFolder& operator=(const NewFolder&) = delete;
-    // Removes the folder with everything in it unless it is to be kept.
+    // Removes the folder with its contents unless it was marked to be kept.
     ~NewFolder();
 
     // `name` is a path within the folder, with slashes.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 32, most_header_bytes = std::size_t{1} << 17;
 constexpr std::string_view npy_magic = "\x93NUMPY";
 
-// As NumPy's `descr` has it, in the order of the enum.
+// The values of NumPy's `descr`, in the order of the enum.
 constexpr std::array<std::string_view, 6> descriptions{"|u1", "<u2", "<u4", "<i4", "<f2", "<f4"};
 static_assert(descriptions.size() == enum_values<Element>.size());
 
@@ -27,7 +27,7 @@ std::uint32_t little_endian(std::string_view bytes) noexcept {
     return word;
 }
 
-// What stands behind 'key': up to one of `ends`.
+// The text after 'key', up to one of `ends`.
 std::string_view entry(std::string_view header, std::string_view key, std::string_view ends) {
     const std::size_t at = header.find(fmt::format("'{}':", key));
     if (at == std::string_view::npos) return "";
@@ -43,7 +43,7 @@ Element element_of(std::string_view header, const std::string& file) {
     throw InputError(file, "descr", "elements |u1, <u2, <u4, <i4, <f2 or <f4", one_line(std::string{found}));
 }
 
-// "(480, 640, 4" as sides.
+// Parses a shape such as "(480, 640, 4".
 std::vector<std::size_t> shape_of(std::string_view header, const std::string& file) {
     const std::string_view text = entry(header, "shape", ")");
     const auto fail = [&] {
@@ -69,13 +69,13 @@ std::vector<std::size_t> shape_of(std::string_view header, const std::string& fi
     return shape;
 }
 
-// All but the numbers, and the bytes before those.
+// The header's content, and the offset of the numbers.
 struct Header {
     NumberArray array{};
     std::size_t bytes = 0;
 };
 
-// `begin` is the file's begin, at least its header; `size` the whole file's.
+// `begin` is the beginning of the file, at least its header; `size` is that of the whole file.
 Header header_of(std::string_view begin, std::size_t size, const std::string& file) {
     if (!begin.starts_with(npy_magic) || begin.size() < 12) throw InputError(file, "file", "a .npy file", "another");
     const std::size_t length_bytes = begin[6] == 1 ? 2 : 4, before = 8 + length_bytes;
@@ -127,7 +127,7 @@ void NumberArray::append(std::uint32_t word) {
 std::string to_npy(const NumberArray& array) {
     std::string sides;
     for (const std::size_t side : array.shape) sides += fmt::format("{}, ", side);
-    if (array.shape.size() > 1) sides.resize(sides.size() - 2);  // a tuple of one keeps its comma
+    if (array.shape.size() > 1) sides.resize(sides.size() - 2);  // a tuple of one element keeps its comma
     if (array.shape.size() == 1) sides.resize(sides.size() - 1);
     std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
                                      descriptions[static_cast<std::size_t>(array.element)], sides);
@@ -145,7 +145,7 @@ NumberArray parse_npy(std::string_view bytes, const std::string& file) {
     return std::move(header.array);
 }
 
-// The header first: no memory is asked for what a file is too short or too long to hold.
+// Reads the header first: no memory is allocated for a file that is too short or too long.
 NumberArray read_npy(const std::string& path) {
     const std::size_t size = size_of_file(path, most_bytes);
     static_cast<void>(header_of(read_begin_of_file(path, most_header_bytes), size, path));

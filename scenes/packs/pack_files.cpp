@@ -6,7 +6,7 @@ namespace strata::scenes {
 
 namespace {
 
-// 2^61 - 1, a prime: a difference of weighted sums is divided by a byte's difference.
+// 2^61 - 1, a prime, so that a difference of weighted sums can be divided by a byte's difference.
 constexpr std::uint64_t prime = (std::uint64_t{1} << 61) - 1;
 
 constexpr std::uint64_t reduced(std::uint64_t x) noexcept { return x >= prime ? x - prime : x; }
@@ -25,7 +25,7 @@ std::string digest_of_bytes(std::string_view bytes) {
     return text;
 }
 
-// The weight of a byte is at most 2^32 and its product 2^40: one subtraction reduces each sum.
+// The weight of a byte is at most 2^32 and its product 2^40, so one subtraction reduces each sum.
 ByteSums sums_of(std::string_view bytes) noexcept {
     ByteSums sums;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -36,8 +36,8 @@ ByteSums sums_of(std::string_view bytes) noexcept {
     return sums;
 }
 
-// One byte changed by d at position i changes the sums by d and (i + 1) d. Both are small beside the prime, so that
-// their quotient is one of integers.
+// One byte changed by d at index i changes the sums by d and (i + 1) d. Both are small compared with the prime, so
+// their quotient is that of integers.
 std::optional<ChangedByte> changed_byte(std::string_view bytes, const ByteSums& sums) noexcept {
     const ByteSums found = sums_of(bytes);
     const bool has_grown = difference(found.plain, sums.plain) < 256;

@@ -29,7 +29,7 @@ using pipeline::Texture;
 constexpr std::size_t most_manifest_bytes = std::size_t{1} << 28;
 constexpr int most_texels_a_side = 16384;
 
-// Sixteen numbers, column by column.
+// Sixteen numbers in column-major order.
 void matrix(JsonWriter& io, const std::string& key, const pipeline::Matrix& value) {
     const auto entries = entries_of(value);
     io.reals(key, std::span<const double>{entries});
@@ -88,7 +88,7 @@ void view_fields(Io& io, V& view) {
     io.choice("vertex_path", view.vertex_path, std::span<const std::string_view>{pipeline::vertex_path_names});
 }
 
-// Vectors of a mesh, one a row.
+// Vectors of a mesh, one per row.
 template <class Vector>
 NumberArray rows_of(const std::vector<Vector>& vectors) {
     NumberArray array{.element = Element::f4, .shape = {vectors.size(), static_cast<std::size_t>(Vector::length())}};
@@ -114,12 +114,12 @@ NumberArray triples_of(const std::vector<std::uint32_t>& indices) {
     return array;
 }
 
-// Reads the arrays that a manifest names.
+// Reads the arrays named in a manifest.
 class Arrays {
   public:
     Arrays(const std::string& folder, const std::string& file) : folder_{folder}, file_{file} {}
 
-    // Of `width` columns; empty where the manifest has null.
+    // An array with `width` columns; empty if the manifest has null.
     NumberArray rows(JsonReader& io, const std::string& key, Element element, std::size_t width) const {
         NumberArray array = any(io, key);
         if (array.shape.empty()) return array;

@@ -55,7 +55,7 @@ Mesh mesh_of_npy(const std::string& path, std::optional<pipeline::View>& view) {
     return mesh;
 }
 
-// A row of a list: `count` numbers that `Number` can hold.
+// A row of a list: `count` numbers in the range of `Number`.
 template <class Number>
 std::vector<Number> row_of(const json& row, std::size_t count, const std::string& file, const std::string& place) {
     const auto fail = [&](const std::string& found) {
@@ -74,7 +74,7 @@ std::vector<Number> row_of(const json& row, std::size_t count, const std::string
     return numbers;
 }
 
-// Calls `take` with every row of the list.
+// Calls `take` for every row of the list.
 template <class Number, class Take>
 void for_each_row(JsonReader& io, const std::string& key, std::size_t count, const std::string& file, Take take) {
     const json& list = io.at(key);

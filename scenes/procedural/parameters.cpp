@@ -1,5 +1,5 @@
-// scenes/procedural/parameters.cpp - keys and values as text first, numbers and choices when a scene asks for
-// them. Whatever is wrong is found before anything is made.
+// scenes/procedural/parameters.cpp - splits the text into keys and values; numbers and choices are parsed when a scene
+// requests them. All errors are found before the scene is built.
 #include "scenes/procedural/parameters.h"
 
 #include <fmt/format.h>
@@ -16,11 +16,11 @@ std::string scene_name(const std::string& spec) { return spec.substr(0, spec.fin
 
 Parameters::Parameters(std::string spec, std::span<const std::string_view> keys) : spec_{std::move(spec)} {
     const std::size_t colon = spec_.find(':');
-    // A bare name takes every default.
+    // A bare name uses all defaults.
     if (colon == std::string::npos) return;
     std::string_view rest = std::string_view{spec_}.substr(colon + 1);
-    // One item a turn, up to the next comma or the end. "name:" has one empty item, and "name:a=1," ends in
-    // one: both lack an equals sign and are refused.
+    // One item per iteration, up to the next comma or the end. "name:" has one empty item, and "name:a=1," ends with
+    // one: both lack an equals sign and are rejected.
     while (true) {
         const std::string_view item = rest.substr(0, rest.find(','));
         const std::size_t equals = item.find('=');
@@ -31,11 +31,11 @@ Parameters::Parameters(std::string spec, std::span<const std::string_view> keys)
             throw InputError(spec_, "parameters", fmt::format("one of {}", fmt::join(keys, ", ")),
                              quoted_with_suggestion(key, keys));
         }
-        // A repeated key would make the result depend on which of them wins.
+        // With a repeated key the result would depend on which of them is used.
         if (find(key) != nullptr) throw InputError(spec_, std::string{key}, "one value", "two");
-        // The value may hold further equals signs; it is compared or parsed as a whole later.
+        // The value may contain further equals signs; it is compared or parsed as a whole later.
         values_.emplace_back(key, item.substr(equals + 1));
-        // The last item is the one without a comma behind it.
+        // The last item has no comma after it.
         if (item.size() == rest.size()) return;
         rest.remove_prefix(item.size() + 1);
     }
@@ -52,8 +52,8 @@ std::uint64_t Parameters::integer(std::string_view key, std::uint64_t low, std::
     if (text == nullptr) return absent;
     std::uint64_t value = 0;
     const char* const last = text->data() + text->size();
-    // std::from_chars reads no sign, blank or locale; a number too large for 64 bits is an error like a letter
-    // behind the digits.
+    // std::from_chars accepts no sign, whitespace or locale; a number too large for 64 bits is an error, like a letter
+    // after the digits.
     const auto [end, error] = std::from_chars(text->data(), last, value);
     if (error == std::errc{} && end == last && value >= low && value <= high) return value;
     throw InputError(spec_, std::string{key}, fmt::format("a whole number from {} to {}", low, high),

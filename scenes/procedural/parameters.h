@@ -1,4 +1,4 @@
-// scenes/procedural/parameters.h - the text of a procedural scene, "name:key=value,key=value", taken apart.
+// scenes/procedural/parameters.h - parses the text of a procedural scene, "name:key=value,key=value".
 #pragma once
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@ namespace strata::scenes {
 
 class Parameters {
   public:
-    // InputError for anything that is not key=value, for a key that occurs twice or is not among `keys`.
+    // InputError for an item that is not key=value, and for a key that occurs twice or is not among `keys`.
     Parameters(std::string spec, std::span<const std::string_view> keys);
 
     // The value of `key` or the default; InputError unless it is a whole number from `low` to `high`.
@@ -21,7 +21,7 @@ class Parameters {
     [[nodiscard]] std::size_t choice(std::string_view key, std::span<const std::string_view> choices) const;
 
   private:
-    // The text behind the key's equals sign, or null if the key is absent.
+    // The text after the key's equals sign, or null if the key is absent.
     [[nodiscard]] const std::string* find(std::string_view key) const;
 
     // The whole text: errors quote it as the file's name.

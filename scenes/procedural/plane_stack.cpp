@@ -9,8 +9,8 @@
 namespace strata::scenes {
 namespace {
 
-// Appends plane i. The grid has cells + i squares a side, so two planes share no edge: where they nearly
-// coincide, their depths come from different triangles and round differently, which is the point of the scene.
+// Appends plane i. The grid has cells + i squares per side, so two planes share no edge: where they nearly coincide,
+// their depths come from different triangles and round differently, which is the purpose of the scene.
 void add_plane(pipeline::Mesh& mesh, const PlaneStack& stack, int i, const pipeline::Rgba& color) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const int cells = stack.cells + i;
@@ -26,7 +26,7 @@ void add_plane(pipeline::Mesh& mesh, const PlaneStack& stack, int i, const pipel
             mesh.colors.push_back(color);
         }
     }
-    // Vertices a row: one more than squares.
+    // Vertices per row: one more than squares.
     const auto width = static_cast<std::uint32_t>(cells) + 1;
     // Both triangles of a square run counterclockwise seen from +z and share the diagonal from a to d.
     for (std::uint32_t row = 0; row + 1 < width; ++row)

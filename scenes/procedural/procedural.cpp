@@ -1,5 +1,4 @@
-// scenes/procedural/procedural.cpp - scenes that come from a formula: names, parameters, and the choice between them
-// and files.
+// scenes/procedural/procedural.cpp - procedural scenes: names, parameters, and the choice between them and files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +24,8 @@ namespace {
 
 using Keys = std::vector<std::string_view>;
 
-// The functions below give each parameter its range and default. procedural_scenes() says the same in words. A
-// cell is two triangles: 256 makes 4.2 million of them over the 32 patches.
+// The functions below give each parameter its range and default, as described in procedural_scenes(). A cell is two
+// triangles: 256 makes 4.2 million of them over the 32 patches.
 Scene teapot(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"tessellation"}};
     return make_teapot(options, static_cast<int>(parameters.integer("tessellation", 1, 256, 16)));
@@ -35,13 +34,13 @@ Scene teapot(const std::string& spec, const SceneOptions& options) {
 Scene volume_beam(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"slices", "order"}};
     const auto slices = static_cast<int>(parameters.integer("slices", 1, 65536, 32));
-    // The first choice is the default, so `far` stands first.
+    // The first choice is the default, hence `far` first.
     const bool from_near = parameters.choice("order", Keys{"far", "near"}) == 1;
     return make_volume_beam(options, slices, from_near ? BeamOrder::near : BeamOrder::far);
 }
 
-// 10 million triangles take 960 MB of positions, colours and indices; the limit keeps a slip of the hand from
-// taking the machine.
+// 10 million triangles take 960 MB of positions, colours and indices; the limit prevents a typing error from exhausting
+// the memory.
 Scene random_soup(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"seed", "triangles"}};
     const auto triangles = static_cast<std::uint32_t>(parameters.integer("triangles", 0, 10'000'000, 1000));
@@ -55,7 +54,7 @@ Scene plane_stack(const std::string& spec, const SceneOptions& options) {
                                       .gap = static_cast<double>(parameters.integer("gap", 0, 1u << 20, 1u << 16))});
 }
 
-// An empty list of keys: any parameter is refused.
+// The list of keys is empty: every parameter is rejected.
 Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{}};
     return make_shadow_demo(options);
@@ -74,8 +73,7 @@ Scene hard_case(const std::string& spec, const SceneOptions& options) {
     return make_hard_case(options, hard_cases()[parameters.choice("case", cases)]);
 }
 
-// The table that names, choice and suggestions come from. A new scene is a line here, and one in
-// procedural_scenes().
+// The table of names and functions. A new scene is a line here and one in procedural_scenes().
 struct Maker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
@@ -90,7 +88,7 @@ Keys names() {
     return result;
 }
 
-// Endings count in either case, letters of ASCII alone: the locale has no say.
+// Endings are compared in either case, for ASCII letters, independently of the locale.
 bool is_gltf_path(const std::string& spec) {
     std::string tail = spec.substr(spec.size() - std::min<std::size_t>(spec.size(), 5));
     std::ranges::transform(tail, tail.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
@@ -135,18 +133,18 @@ Scene make_procedural(const std::string& spec, const SceneOptions& options) {
         throw InputError(spec, "scene", fmt::format("one of {}", fmt::join(names(), ", ")),
                          quoted_with_suggestion(scene_name(spec), names()));
     }
-    // --scene N chooses among the scenes of a file; a formula makes one.
+    // --scene N selects one of the scenes of a file; a procedural scene has only one.
     if (options.scene.value_or(0) != 0)
         throw InputError(spec, "--scene", "0, the only one", std::to_string(*options.scene));
-    // The maker runs under the environment set above, so that a caller's rounding mode reaches no vertex.
+    // The function runs in the floating-point environment set above, so that a caller's rounding mode affects no
+    // vertex.
     return maker->make(spec, options);
 }
 
 namespace {
 
 Scene loaded(const std::string& spec, const SceneOptions& options) {
-    // The name decides first: "teapot:x.gltf" is the teapot with a wrong parameter, "./teapot:x.gltf" is a
-    // file.
+    // The name decides first: "teapot:x.gltf" is the teapot with a wrong parameter, "./teapot:x.gltf" is a file.
     if (is_procedural(spec)) return make_procedural(spec, options);
     if (spec == "-" || is_gltf_path(spec)) return load_gltf(spec, options);
     if (is_pack(spec)) return load_pack(spec, options);

@@ -1,4 +1,4 @@
-// scenes/procedural/random_soup.cpp - triangles on a grid of integers, from one sequence of random numbers.
+// scenes/procedural/random_soup.cpp - triangles on an integer grid, from one sequence of random numbers.
 #include "scenes/procedural/random_soup.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace strata::scenes {
 namespace {
 
-// Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": integers alone, so the soup has
-// the same bits everywhere, which the standard library's distributions do not promise.
+// Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": uses only integers, so the soup has the
+// same bits everywhere, which the standard library's distributions do not guarantee.
 class SplitMix64 {
   public:
     explicit SplitMix64(std::uint64_t seed) noexcept : state_{seed} {}
@@ -29,17 +29,17 @@ class SplitMix64 {
     std::uint64_t state_;
 };
 
-// Coordinates are integers until the end: each is k / 8192 with |k| <= 8192 and thus exact in binary32, so
-// equal corners and points on a plane tie exactly.
-constexpr int one = 8192;  // grid steps in a unit
+// Coordinates are integers until the end: each is k / 8192 with |k| <= 8192 and thus exact in binary32, so equal
+// corners and points on a plane tie exactly.
+constexpr int one = 8192;  // grid steps per unit
 using Corner = std::array<int, 3>;
 using Triangle = std::array<Corner, 3>;
 
 // Even coordinates, so that a midpoint of two corners is on the grid.
 int even_in_range(int x) noexcept { return std::clamp(x, -one / 2, one / 2) * 2; }
 
-// The corners lie in a box round the center whose half side is one of seven powers of two, 1 down to 1/64 in
-// the units of the scene: one soup has large triangles and small ones.
+// The corners are in a box around the center whose half side is one of seven powers of two, 1 down to 1/64 in units of
+// the scene, so that a soup has large triangles and small ones.
 Triangle new_triangle(SplitMix64& random) noexcept {
     const int half_side = (one / 2) >> random.below(7);
     Corner center{};
@@ -60,7 +60,7 @@ Triangle flattened(Triangle triangle, int z) noexcept {
     return triangle;
 }
 
-// The corner triangle at the first corner, half the size.
+// The triangle at the first corner with sides of half the length.
 Triangle nested(const Triangle& outer) noexcept {
     Triangle inner = outer;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -70,9 +70,9 @@ Triangle nested(const Triangle& outer) noexcept {
     return inner;
 }
 
-// `last` is the last new triangle; the first triangle of all is new whatever the dice say.
-// Of 16 triangles, on average, one repeats the last new one, one repeats it with the opposite winding, one lies
-// inside it and one is flat at one of 17 depths: the ties that peeling has to get right.
+// `last` is the last new triangle; the first triangle is always new. Of 16 triangles, on average, one repeats the last
+// new one, one repeats it with the opposite winding, one is inside it and one is flat at one of 17 depths: the ties
+// that peeling has to handle.
 Triangle next_triangle(SplitMix64& random, Triangle& last, bool first) noexcept {
     const int kind = random.below(16);
     if (!first) {
@@ -85,8 +85,8 @@ Triangle next_triangle(SplitMix64& random, Triangle& last, bool first) noexcept 
     return last;
 }
 
-// One triangle in eight is opaque. Alpha is never 0: a step of 2^-24 is added. The random numbers are all drawn
-// before the choice, so that each colour takes as many and the sequence behind it does not shift.
+// One triangle in eight is opaque. Alpha is never 0: a step of 2^-24 is added. All random numbers are drawn before the
+// choice, so that each colour consumes the same number of them.
 pipeline::Rgba next_color(SplitMix64& random) noexcept {
     pipeline::Rgba color{};
     for (std::size_t i = 0; i < 3; ++i) color[i] = random.unit();

@@ -1,4 +1,4 @@
-// scenes/procedural/shadow_demo.cpp - the numbers of shadow_demo.h as a draw list.
+// scenes/procedural/shadow_demo.cpp - builds the draw list of shadow_demo.h.
 #include "scenes/procedural/shadow_demo.h"
 
 #include "scenes/bounds.h"
@@ -20,7 +20,7 @@ pipeline::Mesh quad(const char* name, const std::array<pipeline::Vec3, 4>& corne
     return mesh;
 }
 
-// The colour is given encoded and is converted to the frame's space. Both sides look the same: --no-light makes
+// The colour is given encoded and converted to the frame's space. Both sides have the same colour; --no-light makes
 // every material unlit.
 pipeline::Material material(const char* name, pipeline::Rgba color, pipeline::AlphaMode mode,
                             const SceneOptions& options) {
@@ -39,8 +39,8 @@ Scene make_shadow_demo(const SceneOptions& options) {
     using pipeline::AlphaMode;
     Scene scene;
     scene.name = "shadow-demo";
-    // The teapot's own ground is left behind: this scene's is larger and opaque. The ground lies a little below
-    // y = 0, where the pot's bottom would tie with it.
+    // The teapot's ground is left out: this scene's is larger and opaque. It is a little below y = 0, where the pot's
+    // bottom would tie with it.
     scene.list.meshes = {
         std::move(make_teapot(options, 16).list.meshes[0]),
         quad("ground", {{{-4.3f, -0.01f, 4.5f}, {4.7f, -0.01f, 4.5f}, {4.7f, -0.01f, -4.5f}, {-4.3f, -0.01f, -4.5f}}},
@@ -52,8 +52,8 @@ Scene make_shadow_demo(const SceneOptions& options) {
                             material("pane", {0.2f, 0.5f, 0.9f, 0.4f}, AlphaMode::blend, options)};
     // The ground is drawn first, then the pot, then the pane: opaque surfaces before transparent ones.
     scene.list.instances = {{.mesh = 1, .material = 1}, {.mesh = 0, .material = 0}, {.mesh = 2, .material = 2}};
-    // The light's image is square, hence aspect 1. Near and far enclose the scene closely, for the map's depths
-    // are spread over that range.
+    // The light's image is square, hence aspect 1. Near and far enclose the scene closely, because the map's depths are
+    // spread over that range.
     const pipeline::View light =
         look_at({.eye = {-5.5, 6.5, 3}, .center = {0.2, 0.8, 0}, .fovy_degrees = 75, .near = 2, .far = 18}, 1);
     scene.list.light = pipeline::ShadowLight{.view = light.view,

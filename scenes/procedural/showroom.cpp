@@ -1,4 +1,4 @@
-// scenes/procedural/showroom.cpp - the numbers of showroom.h as a draw list.
+// scenes/procedural/showroom.cpp - builds the draw list of showroom.h.
 #include "scenes/procedural/showroom.h"
 
 #include "scenes/bounds.h"
@@ -19,7 +19,7 @@ struct Place {
     double x = 0, y = 0, w = 1;
 };
 
-// Where the view shows a place, in space.
+// The position in space that the view shows at a window position.
 pipeline::Vec3 seen(const Place& p) {
     static const CaseScene frame{.width = side, .height = side};
     return hard::seen_at(frame, p.x, p.y, p.w);
@@ -38,7 +38,7 @@ class Builder {
   public:
     explicit Builder(const SceneOptions& options) : options_{options} {}
 
-    // A mesh, a material and an instance of their own. Corners run counterclockwise as the window shows them.
+    // Adds a mesh with its own material and instance. Corners are counterclockwise in the window.
     Mesh& add(const char* name, const Look& look) {
         Material material{.name = name,
                           .front = encoded(look.front),
@@ -54,7 +54,7 @@ class Builder {
         return list.meshes.back();
     }
 
-    // Fan of `places`; `colors` are the corners' own, or one for all, or none.
+    // A fan over `places`; `colors` has one per corner, one for all, or none.
     void polygon(Mesh& mesh, const std::vector<Place>& places, const std::vector<Rgba>& colors = {},
                  Facing facing = Facing::eye) const {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -69,7 +69,7 @@ class Builder {
                 mesh.indices.insert(mesh.indices.end(), {first, first + i, first + i - 1});
     }
 
-    // A rectangle of the window, `left` and `right` away at its sides.
+    // A rectangle in the window whose left and right sides are at the distances `left` and `right`.
     void pane(Mesh& mesh, const hard::Box& box, double left, double right, const std::vector<Rgba>& colors = {},
               Facing facing = Facing::eye) const {
         polygon(mesh,
@@ -87,7 +87,7 @@ class Builder {
     const SceneOptions& options_;
 };
 
-// 4 x 4 texels, no two rows or columns alike; every third texel of alpha 51 is below the mask's cutoff.
+// 4 x 4 texels, all rows and columns different; every third texel has alpha 51, below the mask's cutoff.
 pipeline::Texture sign_texture(const SceneOptions& options) {
     pipeline::Texture texture;
     texture.name = "sign";
@@ -129,7 +129,7 @@ void add_panes(Builder& b) {
     glass.texcoords = {{-0.25f, 0}, {-0.25f, 1}, {1, 1}, {1, 0}};
 }
 
-// Planes that meet, nearly meet, or meet what the machine does with depths and edges.
+// Planes that meet, nearly meet, or test the device's rules for depths and edges.
 void add_meetings(Builder& b) {
     const Look plain;
     Mesh& ties = b.add("ties", plain);

@@ -1,4 +1,4 @@
-// scenes/procedural/teapot.cpp - Bezier patches to triangles, with normals that point outwards.
+// scenes/procedural/teapot.cpp - tessellates Bezier patches into triangles with normals that point outwards.
 #include "scenes/procedural/teapot.h"
 
 #include <cmath>
@@ -14,8 +14,8 @@ namespace {
 // The four weights of a cubic at one parameter.
 using Basis = std::array<double, 4>;
 
-// The cubic Bernstein polynomials at t = i / n. t and 1 - t are both quotients, so that walking an edge from its other
-// end gives the same bits: neighbouring patches close without cracks.
+// The cubic Bernstein polynomials at t = i / n. t and 1 - t are both quotients, so evaluating an edge from its other
+// end gives the same bits: neighbouring patches join without cracks.
 Basis bernstein(int i, int n) noexcept {
     const double t = static_cast<double>(i) / n, s = static_cast<double>(n - i) / n;
     return {s * s * s, 3 * (s * s) * t, 3 * (t * t) * s, t * t * t};
@@ -31,8 +31,8 @@ double weighted_sum(const Basis& w, double a, double b, double c, double d) noex
     return (w[0] * a + w[3] * d) + (w[1] * b + w[2] * c);
 }
 
-// The point of a bicubic patch: rows over v first, then the rows' results over u. With the derivative's basis
-// in place of u or v it gives that derivative.
+// The point of a bicubic patch: rows over v first, then the rows' results over u. With the derivative's basis for u or
+// v it is that partial derivative.
 Vec3d evaluate(const std::uint16_t (&patch)[16], const Basis& u, const Basis& v) noexcept {
     Vec3d result;
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,8 +46,8 @@ Vec3d evaluate(const std::uint16_t (&patch)[16], const Basis& u, const Basis& v)
     return result;
 }
 
-// The table has z up; a turn about x by -90 degrees, without arithmetic that could round, and then the one
-// rounding to binary32.
+// The table has z up. A rotation about x by -90 degrees, without arithmetic that could round, and the single rounding
+// to binary32.
 pipeline::Vec3 y_up(const Vec3d& p) noexcept {
     return {static_cast<float>(p[0]), static_cast<float>(p[2]), static_cast<float>(-p[1])};
 }
@@ -59,22 +59,22 @@ Vec3d outward_normal(const std::uint16_t (&patch)[16], int i, int j, int n) noex
     const Basis du = bernstein_derivative(i, n), dv = bernstein_derivative(j, n);
     const Vec3d a = evaluate(patch, du, v);
     Vec3d b = evaluate(patch, u, dv);
-    // The table's coordinates are of size 1: a derivative that is not 0 is far above this bound, and one that
-    // should be 0 is rounding noise below it.
+    // The table's coordinates are of magnitude 1: a nonzero derivative is far above this bound, and one that should be
+    // 0 is rounding noise below it.
     if (dot_product(b, b) < 1e-20) b = evaluate(patch, du, dv);
     const Vec3d c = cross_product(b, a);
     return divided(c, std::sqrt(dot_product(c, c)));
 }
 
-// Leaves out what has two equal corners.
+// Omits triangles with two equal corners.
 void add_triangle(pipeline::Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const auto& p = mesh.positions;
     if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;  // at a collapsed row
     mesh.indices.insert(mesh.indices.end(), {a, b, c});
 }
 
-// Each patch brings its own vertices: neighbours share positions bit for bit along their edges, but not normals
-// where the surface has a crease.
+// Each patch has its own vertices: neighbours share positions bit for bit along their edges, but not normals where the
+// surface has a crease.
 void add_patch(pipeline::Mesh& mesh, const std::uint16_t (&patch)[16], int n) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i <= n; ++i) {
@@ -93,7 +93,8 @@ void add_patch(pipeline::Mesh& mesh, const std::uint16_t (&patch)[16], int n) {
     }
 }
 
-// A square a little below the pot's bottom, which would else touch it in depth ties; the pot's middle is at x = 0.2.
+// A square slightly below the pot's bottom, which would otherwise have depth ties with it; the pot's middle is at x =
+// 0.2.
 pipeline::Mesh ground_plane() {
     constexpr float half = 3.6f, x = 0.2f, y = -0.01f;
     pipeline::Mesh mesh;
@@ -104,7 +105,7 @@ pipeline::Mesh ground_plane() {
     return mesh;
 }
 
-// `front` and `back` are encoded colours with straight alpha.
+// `front` and `back` are encoded colours, not premultiplied.
 pipeline::Material material(const char* name, pipeline::Rgba front, pipeline::Rgba back, const SceneOptions& options) {
     return {.name = name,
             .front = from_encoded(front, options.color_space),

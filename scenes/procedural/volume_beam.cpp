@@ -1,4 +1,4 @@
-// scenes/procedural/volume_beam.cpp - the planes and the cone of volume_beam.h, vertex by vertex.
+// scenes/procedural/volume_beam.cpp - builds the planes and the cone of volume_beam.h.
 #include "scenes/procedural/volume_beam.h"
 
 #include <cmath>
@@ -11,13 +11,12 @@
 namespace strata::scenes {
 namespace {
 
-// The one rounding of each vertex.
+// The single rounding of each vertex.
 pipeline::Vec3 rounded(double x, double y, double z) noexcept {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-// Appends slice i of the stack; 0 is the one farthest from a viewer on +z, at the middle of its share of [-1,
-// 1].
+// Appends slice i of the stack, in the middle of its share of [-1, 1]; 0 is the farthest from a viewer at +z.
 void add_slice(pipeline::Mesh& mesh, int i, int slices, pipeline::ColorSpace space) {
     const double t = (i + 0.5) / slices;
     const double z = -1 + 2 * (i + 0.5) / slices;
@@ -36,20 +35,20 @@ void add_slice(pipeline::Mesh& mesh, int i, int slices, pipeline::ColorSpace spa
 pipeline::Mesh planes(int slices, BeamOrder order, pipeline::ColorSpace space) {
     pipeline::Mesh mesh;
     mesh.name = "planes";
-    // The order of the mesh is the order of drawing; a slice's place and colour depend on i alone, so both
-    // orders draw the same slices.
+    // The order of the mesh is the drawing order; a slice's position and colour depend on i alone, so both orders draw
+    // the same slices.
     for (int i = 0; i < slices; ++i) add_slice(mesh, order == BeamOrder::far ? i : slices - 1 - i, slices, space);
     return mesh;
 }
 
-// Bands along the axis, and segments round it; 5,000 triangles.
+// Bands along the axis, and segments around it; 5,000 triangles.
 constexpr int rings = 50, segments = 50;
 
 // Ring j of the truncated cone about the y axis: from radius 0.02 at y = 0.9 to radius 0.85 at y = -0.9.
 void add_ring(pipeline::Mesh& mesh, int j, const pipeline::Rgba& color) {
     const double s = j / double{rings};
     const double y = 0.9 - 1.8 * s, radius = 0.02 + 0.83 * s;
-    // How much the radius grows for each unit downwards; the normal leans upwards by it.
+    // The increase of the radius per unit downwards; the normal is tilted upwards by it.
     constexpr double slope = 0.83 / 1.8;
     const double length = std::sqrt(1 + slope * slope);
     for (int k = 0; k < segments; ++k) {
@@ -68,7 +67,7 @@ pipeline::Mesh cone(pipeline::ColorSpace space) {
     constexpr std::uint32_t row = segments;
     for (std::uint32_t j = 0; j < rings; ++j) {
         for (std::uint32_t k = 0; k < row; ++k) {
-            // The last segment closes on the ring's first vertex: no seam of doubled vertices.
+            // The last segment ends at the ring's first vertex: no vertices are duplicated.
             const std::uint32_t a = j * row + k, b = j * row + (k + 1) % row;
             const std::uint32_t c = a + row, d = b + row;
             mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
@@ -87,8 +86,8 @@ Scene make_volume_beam(const SceneOptions& options, int slices, BeamOrder order)
         scene.list.materials.push_back(
             {.name = name, .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = !options.light});
     }
-    // Drawn from the near end, the planes come nearest first at every pixel as seen from +z; from the far end
-    // they do not.
+    // Drawn from the near end, the planes are in front-to-back order at every pixel as seen from +z; drawn from the far
+    // end they are not.
     scene.list.instances = {{.mesh = 0, .material = 0, .arrives_sorted = order == BeamOrder::near},
                             {.mesh = 1, .material = 1}};
     scene.bounds = bounds_of(scene.list);

@@ -1,4 +1,4 @@
-// scenes/procedural/wave.h - the colour wheel of stacks: red, green and blue are waves a third of a turn apart.
+// scenes/procedural/wave.h - the colour wheel of stacks: red, green and blue are cosines a third of a period apart.
 #pragma once
 #include "scenes/numbers/elementary.h"
 

@@ -7,7 +7,7 @@ namespace strata::scenes {
 namespace {
 
 constexpr std::uint64_t elements_per_byte =
-    16;  // 1 is what unshared data needs; the rest is for primitives that share vertices
+    16;  // 1 suffices for unshared data; the rest is for primitives that share vertices
 
 void check_media_type(const Resource& resource, const Place& place) {
     const std::string& type = resource.media_type;
@@ -46,7 +46,7 @@ Bytes Buffers::buffer(std::size_t index) {
     return known_[index] = bytes;
 }
 
-// Exactly the declared length.
+// Returns exactly the declared number of bytes.
 Bytes Buffers::read(std::size_t index) {
     const JsonAt at = document_.at("buffers", index);
     const auto declared = at.json()["byteLength"].get<std::size_t>();

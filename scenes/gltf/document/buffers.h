@@ -1,4 +1,4 @@
-// scenes/gltf/document/buffers.h - the bytes behind a checked document, each buffer read when it is first needed.
+// scenes/gltf/document/buffers.h - the bytes of a checked document's buffers, each read when first needed.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -11,13 +11,13 @@
 
 namespace strata::scenes {
 
-// A checked document and what it stands on.
+// A checked document and the data it refers to.
 struct Document {
     std::string file;
     Json json;
-    std::optional<Bytes> bin;                     // of a .glb; the file's bytes outlive the document
-    std::optional<std::filesystem::path> folder;  // where uris lead; none: data: alone
-    std::size_t size = 0;                         // the file's, in bytes
+    std::optional<Bytes> bin;                     // the BIN chunk of a .glb; the file's bytes must outlive the document
+    std::optional<std::filesystem::path> folder;  // base folder of uris; empty: only data: uris are allowed
+    std::size_t size = 0;                         // of the file, in bytes
 
     [[nodiscard]] JsonAt root() const { return {json, {file, ""}}; }
     [[nodiscard]] JsonAt at(const char* kind, std::size_t index) const {  // of a checked document
@@ -25,9 +25,9 @@ struct Document {
     }
 };
 
-// The budget that a file may unfold to: elements (vertices and indices of all meshes) and texels. Sharing may multiply
-// what a file holds, zero-filled accessors and compressed images too, so each is paid for before memory is asked for
-// it.
+// The limits on the expanded size of a file: elements (vertices and indices of all meshes) and texels. Sharing,
+// zero-filled accessors and compressed images can multiply the content of a file, so each use is charged before memory
+// is allocated.
 class Budget {
   public:
     Budget(std::uint64_t elements, std::uint64_t texels) : elements_{elements}, texels_{texels} {}
@@ -40,8 +40,8 @@ class Budget {
     std::uint64_t elements_, texels_;
 };
 
-// Views are cut from buffers whose ranges check_buffers.cpp has passed. The bytes live as long as this object,
-// or the file for a .glb's own chunk.
+// Views are spans of buffers whose ranges check_buffers.cpp has accepted. The bytes live as long as this object; those
+// of a .glb's own chunk as long as the file's bytes.
 class Buffers {
   public:
     Buffers(const Document& document, Budget& budget) : document_{document}, budget_{budget} {}

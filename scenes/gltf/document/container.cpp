@@ -8,10 +8,10 @@
 namespace strata::scenes {
 namespace {
 
-// The four letters as little-endian words, glTF 2.0, 4.4.
+// The three four-character codes as little-endian words, glTF 2.0, 4.4.
 constexpr std::uint32_t magic = 0x46546c67, json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;  // "glTF", "JSON", "BIN\0"
 constexpr std::size_t header_size = 12, chunk_header_size = 8;
-// The tree takes many times the text's size.
+// The parsed tree takes many times the text's size.
 constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
 
 std::uint32_t word(Bytes bytes, std::size_t at) {  // little endian
@@ -27,7 +27,7 @@ struct Chunk {
     Bytes data;
 };
 
-// One pass over the chunks. It compares a length with what is left before it cuts a span, so no read passes the
+// One pass over the chunks. A length is compared with the remaining bytes before a span is made, so no read passes the
 // end.
 class ChunkReader {
   public:
@@ -61,8 +61,8 @@ class ChunkReader {
     }
 
   private:
-    // Older exporters did not count the padding of a chunk, or made none. Where only one of the two leads to the file's
-    // end or to a BIN chunk that fits, the file is clear.
+    // Older exporters did not count the padding of a chunk in its length, or did not pad. If only one of the two
+    // interpretations leads to the file's end or to a BIN chunk that fits, it is used.
     std::size_t behind_odd(std::uint32_t length) {
         const std::size_t bare = at_ + chunk_header_size + length, padded = (bare + 3) / 4 * 4;
         const auto leads_on = [&](std::size_t to) {
@@ -109,8 +109,7 @@ Container split_container(Bytes bytes, const std::string& file) {
     if (bytes.empty()) start.fail("INVALID_JSON", "a glTF file", "an empty one");
     const bool is_glb = bytes.size() >= 4 && word(bytes, 0) == magic;
     const auto first = std::to_integer<unsigned char>(bytes[0]);
-    // Blanks and a byte order mark (0xef begins it) may stand before the first brace; the parser judges the
-    // rest.
+    // Whitespace and a byte order mark (it begins with 0xef) may precede the first brace; the parser checks the rest.
     const bool may_be_json =
         first == '{' || first == ' ' || first == '\t' || first == '\n' || first == '\r' || first == 0xef;
     if (!is_glb && !may_be_json)

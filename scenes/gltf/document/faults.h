@@ -1,5 +1,5 @@
-// scenes/gltf/document/faults.h - all faults of a document, not the first alone: a part that is wrong does not keep the
-// others from being looked at.
+// scenes/gltf/document/faults.h - collects all faults of a document instead of stopping at the first: a faulty part
+// does not prevent the others from being checked.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -13,8 +13,7 @@ namespace strata::scenes {
 
 class Faults {
   public:
-    // Runs the check of one part; its fault is kept, and the next part's turn comes. A part that is reached by two ways
-    // counts once.
+    // Runs the check of one part and keeps its fault. The same fault found in two ways is kept once.
     void collect(auto&& check) {
         try {
             check();
@@ -24,7 +23,7 @@ class Faults {
                 sentences_.emplace_back(fault.what());
         }
     }
-    // check(element) of each element of an array that may be absent.
+    // Runs check(element) for each element of an array that may be absent.
     void collect_each(const JsonAt& owner, const char* key, auto&& check) {
         collect([&] {
             for (const JsonAt& element : owner.elements(key)) collect([&] { check(element); });
@@ -35,7 +34,7 @@ class Faults {
         sentences_.insert(sentences_.end(), further.sentences_.begin(), further.sentences_.end());
     }
     [[nodiscard]] bool empty() const noexcept { return sentences_.empty(); }
-    // InputErrors with all of them, if there is any.
+    // Throws InputErrors with all faults, if there are any.
     void report() const {
         if (first_) throw InputErrors{*first_, sentences_};
     }

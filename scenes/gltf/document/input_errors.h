@@ -1,4 +1,4 @@
-// scenes/gltf/document/input_errors.h - several faults of one file: `main` prints a line each.
+// scenes/gltf/document/input_errors.h - several faults of one file; `main` prints one line per fault.
 #pragma once
 #include <string>
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace strata::scenes {
 
-// what() has the first fault and the number of the others.
+// what() is the first fault and the number of the others.
 struct InputErrors : InputError {
     InputErrors(const InputError& first, std::vector<std::string> all)
         : InputError(first), sentences(std::move(all)), text_(first.what()) {
@@ -16,7 +16,7 @@ struct InputErrors : InputError {
     }
     [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
 
-    std::vector<std::string> sentences;  // the first one, too
+    std::vector<std::string> sentences;  // including the first
 
   private:
     std::string text_;

@@ -6,8 +6,8 @@
 namespace strata::scenes {
 namespace {
 
-// A walk over the text before it becomes a tree: refuses what the parser itself would take, deep nesting and repeated
-// keys. (The parser's own callback would do, but it takes quadratic time on long arrays of objects.)
+// A pass over the text before parsing: rejects deep nesting and repeated keys, which the parser itself accepts. (The
+// parser's own callback takes quadratic time on long arrays of objects.)
 class Guard {
   public:
     explicit Guard(const Place& place) : place_{place} {}
@@ -47,7 +47,7 @@ class Guard {
     }
 
     const Place& place_;
-    std::vector<std::set<std::string>> keys_;  // of the objects that are open; an array's stay empty
+    std::vector<std::set<std::string>> keys_;  // of the open objects; the set of an array stays empty
 };
 
 std::string escaped(std::string_view key) {  // RFC 6901
@@ -72,7 +72,7 @@ Json parse_json(std::string_view text, const std::string& file) {
     return Json::parse(text.begin(), text.end());
 }
 
-// Objects and arrays are not written out, so that the sentence stays short.
+// Objects and arrays are not written out, so that the message stays short.
 std::string JsonAt::shown() const {
     switch (json_->type()) {
         case Json::value_t::object: return "an object";
@@ -118,7 +118,7 @@ std::size_t JsonAt::size(const std::string& key) const {
     return array->json_->size();
 }
 
-// The readers of single values refuse a value of another type.
+// The readers of single values reject a value of another type.
 bool JsonAt::boolean() const {
     if (!json_->is_boolean()) fail("TYPE_MISMATCH", "true or false");
     return json_->get<bool>();

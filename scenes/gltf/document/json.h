@@ -1,7 +1,8 @@
-// scenes/gltf/document/json.h - JSON text to a tree that is safe to walk, and a cursor that knows where it stands.
+// scenes/gltf/document/json.h - parses JSON text into a tree that is safe to traverse; JsonAt is a value with its JSON
+// pointer.
 //
 // Rule     Nesting is at most 100 deep, a key occurs once in its object, numbers are finite, text is UTF-8.
-//          An integer is written as one: 3.0 is no index.
+//          An integer must be written without a fraction: 3.0 is not an index.
 // Tests    tests/scenes/gltf/gltf_bad_document_test.cpp
 #pragma once
 #include <cstdint>
@@ -17,29 +18,29 @@ namespace strata::scenes {
 
 using Json = nlohmann::json;
 
-// Deep enough for any document of glTF; without a limit a recursive walk over the tree could exhaust the stack.
+// Deep enough for any glTF document; without a limit a recursive traversal could exhaust the stack.
 inline constexpr std::size_t max_json_depth = 100;
 
 [[nodiscard]] Json parse_json(std::string_view text, const std::string& file);
 
-// A value of the tree. Every reader checks before it answers and throws InputError with the JSON pointer.
+// A value of the tree. Every accessor checks the type first and throws InputError with the JSON pointer.
 class JsonAt {
   public:
     JsonAt(const Json& json, Place place) : json_{&json}, place_{std::move(place)} {}
 
     [[nodiscard]] const Place& place() const { return place_; }
     [[nodiscard]] const Json& json() const { return *json_; }
-    [[nodiscard]] std::string shown() const;  // the value in a few words, for `found`
+    [[nodiscard]] std::string shown() const;  // the value in short form, for the `found` part of an error
 
-    // has() and find() answer for a member that may be absent; a key with the value null is there.
+    // has() and find() are for members that may be absent; a member with the value null is present.
     [[nodiscard]] bool has(const std::string& key) const { return json_->is_object() && json_->contains(key); }
-    [[nodiscard]] std::optional<JsonAt> find(const std::string& key) const;  // an absent member is nothing
-    [[nodiscard]] JsonAt member(const std::string& key) const;               // an absent member is UNDEFINED_PROPERTY
+    [[nodiscard]] std::optional<JsonAt> find(const std::string& key) const;  // empty if the member is absent
+    [[nodiscard]] JsonAt member(const std::string& key) const;               // if absent: UNDEFINED_PROPERTY
 
-    [[nodiscard]] const JsonAt& object() const;          // itself, if it is one
+    [[nodiscard]] const JsonAt& object() const;          // *this, if it is an object
     [[nodiscard]] std::vector<JsonAt> elements() const;  // of an array
     [[nodiscard]] std::vector<JsonAt> elements(
-        const std::string& key) const;                             // of an array that may be absent: then none
+        const std::string& key) const;                             // of an array that may be absent: then empty
     [[nodiscard]] std::size_t size(const std::string& key) const;  // of an array that may be absent
 
     [[nodiscard]] bool boolean() const;

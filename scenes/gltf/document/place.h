@@ -1,4 +1,4 @@
-// scenes/gltf/document/place.h - where in a glTF file something stands, and the one way to say that it is wrong.
+// scenes/gltf/document/place.h - a position in a glTF file, and the function that throws an error there.
 #pragma once
 #include <string>
 #include <string_view>
@@ -7,8 +7,7 @@
 
 namespace strata::scenes {
 
-// `code` is the issue code that the Khronos glTF validator gives the same fault (its ISSUES.md), where it knows the
-// fault.
+// `code` is the Khronos glTF validator's issue code for the same fault (its ISSUES.md), if it has one.
 struct Place {
     std::string file;
     std::string pointer;  // JSON pointer (RFC 6901), or "byte N" in a .glb
@@ -16,12 +15,13 @@ struct Place {
     [[noreturn]] void fail(std::string_view code, const std::string& expected, const std::string& found) const {
         throw InputError(file, pointer.empty() ? "/" : pointer, expected, found + " [" + std::string(code) + "]");
     }
-    // `key` stands in the pointer as it is: a key from the file is escaped by the caller (RFC 6901).
+    // `key` is inserted unchanged: the caller escapes a key from the file (RFC 6901).
     [[nodiscard]] Place under(std::string_view key) const { return {file, pointer + "/" + std::string(key)}; }
     [[nodiscard]] Place under(std::size_t index) const { return under(std::to_string(index)); }
 };
 
-// Text from a file, fit for one line of a terminal: control characters become '?', and it ends after 160 bytes.
+// Makes text from a file printable on one line of a terminal: control characters become '?', and it is truncated after
+// 160 bytes.
 [[nodiscard]] inline std::string one_line(std::string_view text) {
     std::string line;
     for (const char c : text.substr(0, 160)) line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int base64_value(char c) {  // -1: not of the alphabet
+int base64_value(char c) {  // -1: not in the alphabet
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
     if (c >= '0' && c <= '9') return c - '0' + 52;
@@ -21,8 +21,8 @@ int base64_value(char c) {  // -1: not of the alphabet
     return c == '/' ? 63 : -1;
 }
 
-// RFC 4648, 4: six bits a letter, with or without the padding. One letter over whole groups of four cannot hold
-// a byte.
+// RFC 4648, 4: six bits per letter, with or without the padding. A single letter beyond whole groups of four cannot
+// encode a byte.
 std::vector<std::byte> decode_base64(std::string_view text, const Place& place) {
     for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i) text.remove_suffix(1);
     if (text.size() % 4 == 1)
@@ -43,7 +43,7 @@ std::vector<std::byte> decode_base64(std::string_view text, const Place& place) 
     return bytes;
 }
 
-// RFC 2397. Parameters of the type, such as a charset, are left out; "data:" is 5 bytes long.
+// RFC 2397. Parameters of the type, such as a charset, are ignored; "data:" is 5 bytes long.
 Resource read_data_uri(std::string_view uri, const Place& place) {
     const std::size_t comma = uri.find(',');
     if (comma == uri.npos) place.fail("INVALID_URI", "a comma before the data", in_quotes(uri));
@@ -54,8 +54,8 @@ Resource read_data_uri(std::string_view uri, const Place& place) {
     return {std::string(head.substr(0, head.find(';'))), decode_base64(uri.substr(comma + 1), place)};
 }
 
-// RFC 3986, 4.2: a colon before the first slash ends a scheme, even one of a single letter, which some systems
-// take for a drive.
+// RFC 3986, 4.2: a colon before the first slash ends a scheme, even one of a single letter, which some systems treat as
+// a drive.
 bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find_first_of(":/");
     return colon != uri.npos && uri[colon] == ':';
@@ -82,12 +82,12 @@ std::string percent_decoded(std::string_view uri, const Place& place) {
     return path;
 }
 
-// A path that by its text alone cannot leave the folder it is taken from.
+// Converts to a path whose text alone guarantees that it does not leave its folder.
 fs::path relative_path(std::string_view uri, const Place& place) {
     const std::string inside = "a relative uri inside the scene's folder";
     if (has_scheme(uri) || uri.starts_with('/')) place.fail("NON_RELATIVE_URI", inside, in_quotes(uri));
     if (uri.empty() || uri.find_first_of("?#") != uri.npos) place.fail("INVALID_URI", inside, in_quotes(uri));
-    // The tests that follow look at the decoded text: "%2e%2e" must not pass as a name.
+    // The checks below use the decoded text: "%2e%2e" must not pass as a name.
     const std::string decoded = percent_decoded(uri, place);
     const auto is_forbidden = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\\' || c == 0x7f; };
     if (std::any_of(decoded.begin(), decoded.end(), is_forbidden)) place.fail("INVALID_URI", inside, in_quotes(uri));

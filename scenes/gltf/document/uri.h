@@ -1,9 +1,9 @@
-// scenes/gltf/document/uri.h - what a uri may lead to: bytes inside the document (data:), or a plain file in the
-// scene's own folder.
+// scenes/gltf/document/uri.h - resolves a uri to bytes inside the document (data:) or to a regular file in the scene's
+// folder.
 //
-// Rule     No scheme but data:, no absolute path, no "..", no backslash, no query; what is left is percent-decoded,
-//          links are followed, and the file at their end must be a regular one inside the folder of the scene. data:
-//          must be base64. Nothing is opened, and nothing allocated, before all this holds.
+// Rule     No scheme but data:, no absolute path, no "..", no backslash, no query; the rest is percent-decoded, links
+//          are followed, and their target must be a regular file inside the folder of the scene. data: must be base64.
+//          Nothing is opened or allocated before all of this has been checked.
 // Source   glTF 2.0, 2.8 (URIs), 3.6.1.1; RFC 2397, RFC 3986, RFC 4648.
 // Tests    tests/scenes/gltf/gltf_bad_uri_test.cpp
 #pragma once
@@ -18,18 +18,18 @@
 
 namespace strata::scenes {
 
-inline constexpr std::uintmax_t max_file_bytes = 0xffffffff;  // a .glb says its length in 32 bits
+inline constexpr std::uintmax_t max_file_bytes = 0xffffffff;  // the length field of a .glb has 32 bits
 
 struct Resource {
-    std::string media_type;  // of a data: uri, else empty
+    std::string media_type;  // of a data: uri, otherwise empty
     std::vector<std::byte> bytes;
 };
 
-// `folder`: where the scene stands; none: only data: uris are followed.
+// `folder`: the scene's folder; if empty, only data: uris are allowed.
 [[nodiscard]] Resource read_uri(std::string_view uri, const std::optional<std::filesystem::path>& folder,
                                 const Place& place);
 
-// A regular file of at most max_file_bytes, whole.
+// Reads a whole regular file of at most max_file_bytes.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path, const Place& place);
 
 }  // namespace strata::scenes

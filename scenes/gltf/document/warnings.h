@@ -1,5 +1,5 @@
-// scenes/gltf/document/warnings.h - what a file asks for and does not get: one sentence a feature, with the first place
-// that asks.
+// scenes/gltf/document/warnings.h - warnings about features of a file that are not supported: one message per feature,
+// with the JSON pointer of its first use.
 #pragma once
 #include <map>
 #include <string>
@@ -9,13 +9,13 @@ namespace strata::scenes {
 
 class Warnings {
   public:
-    // A sentence that is already known only counts one place more.
+    // If the message is already known, only its count increases.
     void add(const std::string& pointer, const std::string& sentence) {
         const auto [known, is_new] = index_.emplace(sentence, kinds_.size());
         if (is_new) kinds_.push_back({sentence, pointer});
         ++kinds_[known->second].places;
     }
-    // A line for each sentence, in the order of their first places.
+    // One line per message, in the order of their first uses.
     [[nodiscard]] std::vector<std::string> sentences() const {
         std::vector<std::string> lines;
         for (const Kind& k : kinds_) {
@@ -30,7 +30,7 @@ class Warnings {
         std::string sentence, pointer;
         std::size_t places = 0;
     };
-    std::vector<Kind> kinds_;  // in the order of their first places
+    std::vector<Kind> kinds_;  // in the order of their first uses
     std::map<std::string, std::size_t> index_;
 };
 

@@ -1,4 +1,4 @@
-// scenes/procedural/hard_cases/alpha.cpp - alphas that vanish, saturate or fall between two codes of 8 bits.
+// scenes/procedural/hard_cases/alpha.cpp - alphas that round to 0, saturate or are between two 8-bit codes.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {

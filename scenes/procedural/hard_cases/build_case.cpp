@@ -35,7 +35,7 @@ Quad quad_of(const CaseScene& scene, const Box& box, const Tilt& depth) noexcept
             corner(box.right, box.bottom)};
 }
 
-// Counterclockwise as the window shows them.
+// Counterclockwise in the window.
 void add_corners(pipeline::Mesh& mesh, const Quad& q, const pipeline::Rgba& color, Diagonal diagonal) {
     if (diagonal == Diagonal::falling) {
         add(mesh, {q[0], q[2], q[3]}, color);
@@ -88,7 +88,7 @@ void add_facing_quad(CaseScene& scene, double w, const pipeline::Rgba& color) {
 }
 
 pipeline::Rgba color_of(int number, float alpha) noexcept {
-    // Eighths: exact in every format but UNORM8, which rounds them all alike on every machine.
+    // Eighths: exact in every format except UNORM8, which rounds them the same way on every machine.
     const auto eighth = [](int n) { return static_cast<float>(n % 8 + 1) * 0.125f; };
     return {eighth(3 * number), eighth(5 * number + 2), eighth(7 * number + 5), alpha};
 }

@@ -1,9 +1,9 @@
-// scenes/procedural/hard_cases/build_case.h - the words in which hard cases are written: corners in pixels, quads,
-// planes, colours.
+// scenes/procedural/hard_cases/build_case.h - functions that build hard cases from corners in pixels, quads, planes and
+// colours.
 //
 // Numbers  A corner's clip coordinates are 2 x / width - 1, 1 - 2 y / height and 2 depth - 1, computed in binary64 and
 //          rounded once. Frames have sides that are powers of two, so all three are exact for the pixels and depths
-//          that the cases name.
+//          that the cases use.
 #pragma once
 #include <array>
 
@@ -11,12 +11,12 @@
 
 namespace strata::scenes::hard {
 
-// A corner of the window: pixels from the left and from the top, and window depth over the range 0 to 1.
+// A corner in the window: x and y in pixels from the left and the top, and window depth in 0 to 1.
 struct Corner {
     double x = 0, y = 0, depth = 0.5;
 };
 
-// Window depth as a plane: its value at the window's top left corner, and its steps a pixel.
+// Window depth as a plane: its value at the window's top left corner, and its slopes per pixel.
 struct Tilt {
     double start = 0.5, right = 0, down = 0;
     [[nodiscard]] double at(double x, double y) const noexcept { return start + right * x + down * y; }
@@ -26,7 +26,7 @@ struct Box {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-// Which two corners of a quad its triangles share.
+// The diagonal along which a quad is split into triangles.
 enum class Diagonal : std::uint8_t { falling, rising };
 
 [[nodiscard]] Box whole(const CaseScene& scene) noexcept;
@@ -34,26 +34,26 @@ enum class Diagonal : std::uint8_t { falling, rising };
 
 // Adds one triangle to the transparent mesh.
 void add(CaseScene& scene, const std::array<Corner, 3>& corners, const pipeline::Rgba& color);
-// Adds one triangle with the positions as they are.
+// Adds one triangle with the given positions.
 void add(pipeline::Mesh& mesh, const std::array<pipeline::Vec3, 3>& positions, const pipeline::Rgba& color);
 // Adds two triangles that cover the box.
 void add_quad(CaseScene& scene, const Box& box, const Tilt& depth, const pipeline::Rgba& color,
               Diagonal diagonal = Diagonal::falling);
 void add_opaque_quad(CaseScene& scene, const Box& box, const Tilt& depth, const pipeline::Rgba& color);
 
-// A view whose w is the distance from the eye, with no far plane: window depth is 1 - near / w.
+// A view whose w is the distance from the eye, without far plane: window depth is 1 - near / w.
 [[nodiscard]] pipeline::View perspective_view(double near);
-// The same with a far plane: (1 - near / w) far / (far - near).
+// The same with a far plane: window depth is (1 - near / w) far / (far - near).
 [[nodiscard]] pipeline::View perspective_view(double near, double far);
-// The position that such a view shows at this place of the window, `w` away.
+// The position that such a view shows at window position (x, y) and distance `w`.
 [[nodiscard]] pipeline::Vec3 seen_at(const CaseScene& scene, double x, double y, double w) noexcept;
-// A quad over the whole frame, `w` away everywhere.
+// A quad over the whole frame at distance `w`.
 void add_facing_quad(CaseScene& scene, double w, const pipeline::Rgba& color);
 
-// Colours of the wheel, alpha 0.5: neighbours in number differ in every channel.
+// Colours of the wheel, alpha 0.5: consecutive ones differ in every channel.
 [[nodiscard]] pipeline::Rgba color_of(int number, float alpha = 0.5f) noexcept;
 
-// The cases of each file of this folder.
+// The cases of the files of this folder.
 [[nodiscard]] std::span<const HardCase> plane_cases();
 [[nodiscard]] std::span<const HardCase> order_cases();
 [[nodiscard]] std::span<const HardCase> sliver_cases();

@@ -1,5 +1,5 @@
-// scenes/procedural/hard_cases/clip.cpp - triangles that leave the view volume: at the eye, near, far, and far beyond
-// the frame.
+// scenes/procedural/hard_cases/clip.cpp - triangles that leave the view volume: at the eye, at the near and far planes,
+// and far outside the frame.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
@@ -12,7 +12,7 @@ void through_the_eye(CaseScene& scene) {
     add(scene.transparent, {pipeline::Vec3{-64, -1, -64}, {64, -1, 64}, {64, -1, -64}}, color_of(2));
 }
 
-// The tip of a wedge lies in the eye's own plane, where w is 0; its sides are the sides of the frame.
+// The tip of a wedge is in the eye's plane, where w is 0; its sides are the sides of the frame.
 void w_zero(CaseScene& scene) {
     scene.view = perspective_view(0.25);
     add(scene.transparent, {pipeline::Vec3{0, -1, 0}, {64, -1, -64}, {-64, -1, -64}}, color_of(1));

@@ -1,11 +1,10 @@
-// scenes/procedural/hard_cases/depth_range.cpp - depths at the ends of a range, and ranges that leave little between
-// them.
+// scenes/procedural/hard_cases/depth_range.cpp - depths at the ends of the depth range, and narrow depth ranges.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
 namespace {
 
-// Squares at the distances 2, 4, 8 and so on, as long as they are nearer than the far plane.
+// Squares at distances 2, 4, 8 and so on up to the far plane.
 void powers_of_two(CaseScene& scene, double far) {
     scene.view = perspective_view(1, far);
     int number = 0;
@@ -88,7 +87,7 @@ std::span<const HardCase> depth_range_cases() {
          .answer = "One layer: equal to the opaque depth is not nearer.",
          .build = clear_equals_depth,
          .counts = {1024, 1, 1, 0}},
-        // Rows 0 to 15 lie before the opaque surface; row 16 lies exactly on it.
+        // Rows 0 to 15 are in front of the opaque surface; row 16 is exactly on it.
         {.name = "opaque-crossing",
          .hard = "A transparent plane crosses the opaque surface along the centres of a row of pixels.",
          .answer = "The 16 rows above that row have a layer, the row itself has none.",

@@ -1,5 +1,5 @@
-// scenes/procedural/hard_cases/frames.cpp - frames of one pixel, of one row or column, and the largest that the older
-// devices have.
+// scenes/procedural/hard_cases/frames.cpp - frames of one pixel, of one row or column, and of the largest size that the
+// older devices support.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
@@ -9,15 +9,15 @@ void three_layers(CaseScene& scene) {
     for (int i = 0; i < 3; ++i) add_quad(scene, whole(scene), {(i + 1) / 4.0, 0, 0}, color_of(i));
 }
 
-// Depths from 1/4 to 3/4 and back.
+// A plane whose depth increases from 1/4 to 3/4, and one whose depth decreases from 3/4 to 1/4.
 void crossing(CaseScene& scene) {
     const double slope = 0.25 / (scene.width > scene.height ? scene.width : scene.height);
     add_quad(scene, whole(scene), {0.25, slope, slope}, color_of(1));
     add_quad(scene, whole(scene), {0.75, -slope, -slope}, color_of(2));
 }
 
-// A row and a column of pixels through the middle, whose depths rise alike from 1/4 on, and two layers of 8 x 8 pixels
-// in each corner: a frame that is large costs little to check.
+// A row and a column of pixels through the middle, whose depths increase equally from 1/4, and two layers of 8 x 8
+// pixels in each corner: a large frame that is cheap to check.
 void cross_and_corners(CaseScene& scene) {
     const double side = scene.width, middle = side / 2, slope = 0.5 / side;
     add_quad(scene, {0, middle, side, middle + 1}, {0.25, slope, 0}, color_of(1));

@@ -28,7 +28,7 @@ const HardCase* find_hard_case(std::string_view name) {
 
 namespace {
 
-// Colours outside of 0 to 1 and NaN have no encoding: in the encoded space they stay as the case has them.
+// Colours outside 0 to 1 and NaN have no encoding: in the encoded space they are unchanged.
 void convert_colors(pipeline::Mesh& mesh, pipeline::ColorSpace space) {
     if (space == pipeline::ColorSpace::encoded) return;
     for (pipeline::Rgba& color : mesh.colors) color = from_encoded(color, space);

@@ -1,5 +1,4 @@
-// scenes/procedural/hard_cases/inputs.cpp - numbers that no scene should hold: infinite, not a number, or far out of
-// range.
+// scenes/procedural/hard_cases/inputs.cpp - numbers that no scene should contain: infinite, NaN, or far out of range.
 #include <limits>
 
 #include "scenes/procedural/hard_cases/build_case.h"
@@ -12,7 +11,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 void sound_quad(CaseScene& scene) { add_quad(scene, whole(scene), {0.5, 0, 0}, color_of(1)); }
 
-// One corner of a triangle in front of the sound square has this coordinate.
+// One corner of a triangle in front of the valid square has this coordinate.
 void bad_corner(CaseScene& scene, float value) {
     sound_quad(scene);
     add(scene.transparent, {pipeline::Vec3{-1, -1, -0.5f}, {1, -1, -0.5f}, {0, value, -0.5f}}, color_of(2));
@@ -32,7 +31,7 @@ void nan_color(CaseScene& scene) {
     add_quad(scene, whole(scene), {0.125, 0, 0}, {0.5f, 0.5f, 0.5f, infinity});
 }
 
-// Four squares meet at the origin of clip space, each with its own signs of zero.
+// Four squares meet at the origin of clip space, each with different signs of zero.
 void minus_zero(CaseScene& scene) {
     const auto quad = [&](float x, float y, float zero_x, float zero_y) {
         const pipeline::Vec3 corner{x, y, -0.0f}, side{zero_x, y, 0.0f}, other{x, zero_y, -0.0f},

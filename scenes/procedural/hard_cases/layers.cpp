@@ -1,11 +1,12 @@
-// scenes/procedural/hard_cases/layers.cpp - pixels as deep as counters, sums and 8-bit blends can bear, and deeper.
+// scenes/procedural/hard_cases/layers.cpp - pixels with as many fragments as counters, sums and 8-bit blending can
+// represent, and more.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
 namespace {
 
 // `count` flat layers over a box, 1/4096 of depth apart, in an order that is neither sorted nor random: 1237 is prime,
-// so every layer comes once.
+// so every layer occurs once.
 void add_stack(CaseScene& scene, const Box& box, int count, float alpha) {
     for (int i = 0; i < count; ++i) {
         const int layer = static_cast<int>(std::int64_t{i} * 1237 % count);
@@ -19,8 +20,8 @@ void layers_129(CaseScene& scene) { add_stack(scene, whole(scene), 129, 0.0625f)
 void layers_256(CaseScene& scene) { add_stack(scene, whole(scene), 256, 0.0625f); }
 void layers_500(CaseScene& scene) { add_stack(scene, whole(scene), 500, 0.015625f); }
 
-// A layer is one triangle over its pixel's corner, whose third side passes between the pixel's centre and its
-// neighbours'.
+// A layer is one triangle over its pixel's corner, whose third side passes between the pixel's centre and the
+// neighbouring centres.
 void add_pixel(CaseScene& scene, double x, double y, int count) {
     for (int i = 0; i < count; ++i) {
         const int layer = static_cast<int>(std::int64_t{i} * 1237 % count);

@@ -1,4 +1,4 @@
-// scenes/procedural/hard_cases/order.cpp - surfaces that no sorting of triangles or objects puts in order.
+// scenes/procedural/hard_cases/order.cpp - surfaces that cannot be ordered by sorting triangles or objects.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
@@ -12,7 +12,7 @@ void cyclic_overlap(CaseScene& scene) {
     add_quad(scene, {0, 0, 8, 32}, {0.25, 0, 1.0 / 64}, color_of(4));
 }
 
-// Two combs of 16 strips each, whose teeth pass each other.
+// Two combs of 16 strips each that pass through each other.
 void woven(CaseScene& scene) {
     for (int i = 0; i < 8; ++i) {
         const double at = i * 4.0;

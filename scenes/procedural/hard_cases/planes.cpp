@@ -1,12 +1,11 @@
-// scenes/procedural/hard_cases/planes.cpp - planes that nearly coincide, coincide, or cross where a pixel's centre
-// lies.
+// scenes/procedural/hard_cases/planes.cpp - planes that nearly coincide, coincide, or cross at pixel centres.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
 namespace {
 
-// A plane whose corners are whole multiples of 2^-24 while its pixel centres are not: they lie on multiples of 2^-30,
-// so every depth format rounds, and two parallel planes round differently from pixel to pixel.
+// A plane whose corners are whole multiples of 2^-24 while its pixel centres are not: they are multiples of 2^-30, so
+// every depth format rounds, and two parallel planes round differently from pixel to pixel.
 constexpr Tilt tilted{0.5 + 0x1p-10, 2731 * 0x1p-29, 1639 * 0x1p-29};
 
 Tilt behind(const Tilt& plane, double distance) noexcept { return {plane.start + distance, plane.right, plane.down}; }
@@ -35,7 +34,7 @@ void coincident_other_diagonal(CaseScene& scene) {
     add_quad(scene, whole(scene), tilted, color_of(2), Diagonal::rising);
 }
 
-// The copy's triangles begin at another corner and turn the other way round.
+// The triangles of the copy begin at another corner and have the opposite winding.
 void duplicated_mesh(CaseScene& scene) {
     add_quad(scene, whole(scene), tilted, color_of(1));
     pipeline::Mesh& mesh = scene.transparent;
@@ -68,7 +67,7 @@ void eight_through_a_line(CaseScene& scene) {
 }
 
 void nearly_edge_on(CaseScene& scene) {
-    // From near to far within one column of pixels: 2^-1 of depth in 1/16 pixel round the centres of column 16.
+    // From near to far within one column of pixels: a depth of 2^-1 over 1/16 pixel around the centres of column 16.
     for (int i = 0; i < 4; ++i)
         add_quad(scene, {16.46875, i * 8.0, 16.53125, i * 8.0 + 8}, {0.5 - 8 * 16.5, 8, 0}, color_of(i));
 }

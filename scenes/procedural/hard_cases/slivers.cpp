@@ -1,4 +1,5 @@
-// scenes/procedural/hard_cases/slivers.cpp - triangles thinner or smaller than a pixel, and sides that hit centres.
+// scenes/procedural/hard_cases/slivers.cpp - triangles thinner or smaller than a pixel, and edges through pixel
+// centres.
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {
@@ -32,14 +33,14 @@ void add_fan(CaseScene& scene, double x, double y, int number) {
     for (int k = 0; k < 32; ++k) add(scene, {Corner{x, y, 0.5}, rim(k), rim(k + 1)}, color_of(number + k));
 }
 
-// The middle of each fan lies on its pixel's centre or up to 1/8 pixel beside it.
+// The middle of each fan is at its pixel's centre or up to 1/8 pixel away.
 void subpixel_fans(CaseScene& scene) {
     for (int i = 0; i < 8; ++i)
         for (int j = 0; j < 8; ++j)
             add_fan(scene, 4 * i + 0.5 + (i % 4 - 2) / 16.0, 4 * j + 0.5 + (j % 4 - 2) / 16.0, i + j);
 }
 
-// The middle vertex of two triangles lies on the long side of the third, which runs through centres.
+// The middle vertex of two triangles is on the long side of the third, which runs through centres.
 void t_junction(CaseScene& scene) {
     const Corner top_left{0, 0}, top_right{32, 0}, bottom_left{0, 32}, bottom_right{32, 32}, middle{16, 16};
     add(scene, {top_left, bottom_left, bottom_right}, color_of(1));
@@ -110,7 +111,7 @@ void million(CaseScene& scene) {
 
 std::span<const HardCase> sliver_cases() {
     static const HardCase cases[]{
-        // The left side lies on the centres and owns them; the second strip begins behind them.
+        // The left edge is on the centres and owns them; the second strip begins to the right of them.
         {.name = "sliver-1-256",
          .hard = "Two strips 1/256 of a pixel wide lie on and next to the centres of a column.",
          .answer = "The first strip covers the 32 pixels of column 16, the second one nothing.",
@@ -122,7 +123,7 @@ std::span<const HardCase> sliver_cases() {
          .build = sliver_1_16,
          .counts = {32, 1, 1, 0},
          .is_moved = true},
-        // The upper side is horizontal, on the centres of row 4, and owns them.
+        // The upper edge is horizontal, on the centres of row 4, and owns them.
         {.name = "needle-16000",
          .hard = "A needle is 16,000 pixels long and 1/256 of a pixel wide at its thick end.",
          .answer = "It covers the 64 pixels of row 4.",
@@ -130,7 +131,7 @@ std::span<const HardCase> sliver_cases() {
          .height = 8,
          .build = needle_16000,
          .counts = {64, 1, 1, 0}},
-        // A fan is a partition of its square, in which lies one centre and no other.
+        // A fan is a partition of its square, which contains exactly one centre.
         {.name = "subpixel-fans",
          .hard = "64 fans of 32 triangles are each half a pixel wide, with sides and corners on pixel centres.",
          .answer = "Each fan covers one pixel exactly once.",
