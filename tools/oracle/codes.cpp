@@ -10,7 +10,7 @@ namespace strata::oracle {
 
 namespace {
 
-// The bits of an integer type; 0 for floats.
+// The bit width of an integer type; 0 for floats.
 constexpr unsigned integer_bits(Code code) noexcept {
     switch (code) {
         case Code::unorm8: return 8;
@@ -27,13 +27,13 @@ constexpr unsigned integer_bits(Code code) noexcept {
 constexpr bool is_float(Code code) noexcept { return code == Code::half || code == Code::single; }
 constexpr bool is_unorm(Code code) noexcept { return !is_float(code) && code != Code::integer; }
 
-// Whether each value of `integer`, rounded to `wide`, is another.
+// True if all values of `integer`, rounded to `wide`, are distinct.
 constexpr bool tells_apart(Code wide, Code integer) noexcept {
     return is_unorm(integer) &&
            (wide == Code::single || (wide == Code::half && (integer == Code::unorm8 || integer == Code::unorm10)));
 }
 
-// Floats in ascending order as integers: neighbours differ by 1, and -0 and +0 are two.
+// Maps floats to integers in ascending order: neighbours differ by 1, and -0 and +0 are distinct.
 std::int64_t ordered(Stored stored) noexcept {
     if (!is_float(stored.code)) return stored.word;
     const std::uint32_t sign = stored.code == Code::half ? 0x8000u : 0x80000000u;
@@ -75,7 +75,7 @@ std::uint32_t nearest(Code code, double v) noexcept {
 
 bool is_equal(Stored reference, Stored candidate) noexcept {
     if (reference.code == candidate.code) return reference.word == candidate.word;
-    // Bare integers, as NumPy has them, are codes.
+    // Plain integers, as from NumPy files, are compared as codes.
     if (reference.code == Code::integer || candidate.code == Code::integer) return reference.word == candidate.word;
     const double r = value(reference.code, reference.word), c = value(candidate.code, candidate.word);
     if (tells_apart(candidate.code, reference.code)) return nearest(candidate.code, r) == candidate.word;

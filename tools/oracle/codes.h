@@ -1,10 +1,11 @@
-// tools/oracle/codes.h - the channels of foreign pictures: how each stores a value, and how far two of them are apart.
+// tools/oracle/codes.h - channel types of images from any program: the value of a code, and the distance between two
+// codes.
 //
 // Rule     Two codes are equal if their values are: integers of one type by their bits, integers of two types as exact
-//          quotients. A float stands for an integer's value if it is that value rounded to it, and the float has the
-//          bits to tell all of the type's values apart (half: 8 and 10 bits; binary32: 8, 10, 16 and 24). A NaN equals
-//          no other bits. The distance counts codes of the reference's type between two values (of floats: units in the
-//          last place), at least 1 where they differ.
+//          quotients. A float equals an integer's value if it is that value rounded to the float type, and that type
+//          has enough bits to distinguish all values of the integer type (half: 8 and 10 bits; binary32: 8, 10, 16 and
+//          24). A NaN equals no other bits. The distance counts codes of the reference's type between two values (of
+//          floats: units in the last place), at least 1 where they differ.
 // Numbers  k / (2^n - 1) for n up to 24 is one division in binary64, which is finer than all codes here.
 // Tests    tests/tools/oracle/codes_test.cpp
 #pragma once
@@ -17,7 +18,7 @@ enum class Code : std::uint8_t { unorm8, unorm10, unorm16, unorm24, half, single
 
 // "unorm8", as in reports.
 [[nodiscard]] std::string_view name(Code code) noexcept;
-// An integer's own; k / (2^n - 1); a float's.
+// The value of a code: an integer itself for plain integers, k / (2^n - 1) for normalised ones, the float for floats.
 [[nodiscard]] double value(Code code, std::uint32_t word) noexcept;
 // The code nearest to `v`, halves to even for floats and up for integers; integers are clamped to their range.
 [[nodiscard]] std::uint32_t nearest(Code code, double v) noexcept;
@@ -28,7 +29,7 @@ struct Stored {
 };
 
 [[nodiscard]] bool is_equal(Stored reference, Stored candidate) noexcept;
-// 0 exactly if they are equal; 2^32 - 1 for a NaN on one side.
+// 0 exactly if they are equal; 2^32 - 1 if only one is NaN.
 [[nodiscard]] std::uint32_t distance(Stored reference, Stored candidate) noexcept;
 
 }  // namespace strata::oracle

@@ -27,8 +27,8 @@ std::string_view name(Kind kind) noexcept {
 
 namespace {
 
-// Beside the distances of all targets, the worst of a pixel's depths and of its other codes, and whether one of them is
-// beyond what its target allows.
+// Over all targets, the worst distance of a pixel's depths and of its other codes, and whether one of them is beyond
+// its target's tolerance.
 struct Distances {
     std::vector<std::uint32_t> color, depth;
     std::vector<bool> is_beyond;
@@ -93,7 +93,7 @@ class Sorter {
         return worst.depth[pixel] != 0 ? Kind::depth : Kind::color;
     }
 
-    // Layers and the background have no tolerance of their own: their colours and depths have.
+    // Layers and the background have no tolerance in codes of their own: their colours and depths have.
     [[nodiscard]] static bool is_forgiven(Kind kind, std::size_t pixel, const Distances& worst) {
         switch (kind) {
             case Kind::background:
@@ -120,7 +120,7 @@ std::array<bool, kind_count> tested_kinds(const std::vector<Pair>& pairs, const 
     return tested;
 }
 
-// Takes a pixel down in the report of its kind. The first pixel is the first that is not forgiven.
+// Adds a pixel to the report of its kind. The first pixel is the first that is not accepted.
 void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width, bool forgiven) {
     KindReport& report = kinds[static_cast<std::size_t>(kind)];
     report.kind = kind;
@@ -132,7 +132,7 @@ void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width
     report.beyond += forgiven ? 0 : 1;
 }
 
-// Pixels of these kinds that no tolerance of codes forgives are paid from the budget, all of them or none.
+// Uses the budget for pixels of these kinds that are beyond the tolerance in codes: for all of them or for none.
 void spend(std::string_view name, const Budget& budget, std::span<const Kind> of, std::vector<KindReport>& kinds,
            Comparison& result) {
     const std::uint64_t allowed =

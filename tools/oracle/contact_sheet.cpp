@@ -16,11 +16,11 @@ namespace {
 using pipeline::ChannelType;
 using pipeline::Image;
 
-// Wide pictures lose pixels, small ones are enlarged: below 96 pixels a column has no room for its name.
+// Larger images are subsampled, smaller ones enlarged: with less than 96 pixels a column has no room for its name.
 constexpr int most_width_px = 160, least_width_px = 96, space_px = 4, letters = 2;
 constexpr int caption_px = letters * letter_height_px + 4, left_px = 128;
 
-// Of sample 0.
+// The value of sample 0.
 double value_of(const Image& image, int x, int y, int c) {
     const std::uint32_t code = image.codes[image.index(x, y, c)];
     const ChannelType type = pipeline::info(image.format).type;
@@ -53,7 +53,7 @@ std::uint32_t byte_of(double v) {
 std::array<std::uint32_t, 3> shown(const Image& image, const Range& range, int x, int y) {
     const auto v = [&](int c) { return value_of(image, x, y, c); };
     if (image.channels() == 4) return {byte_of(v(0)), byte_of(v(1)), byte_of(v(2))};
-    // Cleared min-max depths are (-1, -1): nothing is left, and the pixel is black.
+    // Cleared min-max depths are (-1, -1): nothing is left to peel, and the pixel is black.
     if (image.channels() == 2)
         return v(1) < -v(0) ? std::array{0u, 0u, 0u} : std::array{byte_of(-v(0)), byte_of(v(1)), 0u};
     const double share = range.share(v(0));
@@ -61,7 +61,7 @@ std::array<std::uint32_t, 3> shown(const Image& image, const Range& range, int x
     return {grey, grey, grey};
 }
 
-// Every step-th pixel of every step-th row, or each as a square.
+// Every step-th pixel of every step-th row, or each pixel enlarged to a square.
 Image fitted(const Image& image) {
     const int step = (image.width + most_width_px - 1) / most_width_px;
     const int square =

@@ -1,9 +1,8 @@
-// tools/oracle/contact_sheet.h - all targets after all passes on one page: a row a pass, a column a target.
+// tools/oracle/contact_sheet.h - all targets after all passes in one image: one row per pass, one column per target.
 //
-// Rule     Colours are shown as they are, min-max depths with the near one red and the far one green. Depths, stencils
-//          and single channels are stretched from their least to their greatest value on that picture, depths with the
-//          near end bright. A target that the pass has written has a light frame. Large targets are thinned to a whole
-//          fraction of their size.
+// Rule     Colours are shown unchanged, min-max depths with the near one in red and the far one in green. Depths,
+//          stencils and single channels are scaled to the range of values in that image, depths with near bright. A
+//          target that the pass has written has a light frame. Large targets are subsampled by a whole factor.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,7 +14,7 @@ namespace strata::oracle {
 class ContactSheet {
   public:
     void add(const PassShown& pass);
-    // A row of its own; those named in `framed` have a light frame.
+    // Adds a row; the targets in `framed` have a light frame.
     void add(const std::string& caption, const std::vector<NamedImage>& targets,
              const std::vector<std::string>& framed);
     [[nodiscard]] pipeline::Image image() const;  // rgba8
@@ -32,7 +31,7 @@ class ContactSheet {
     };
     std::vector<std::string> columns_;
     std::vector<Row> rows_;
-    int width_ = 0, height_ = 0;  // of a thumbnail
+    int width_ = 0, height_ = 0;  // of one thumbnail
 };
 
 }  // namespace strata::oracle

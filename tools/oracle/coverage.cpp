@@ -18,7 +18,7 @@ Color color_at(const Target& target, std::size_t pixel) {
     return {first, first + static_cast<std::ptrdiff_t>(channels)};
 }
 
-// The colour that most of these pixels have, if at least half of them do.
+// The commonest colour of these pixels, if at least half of them have it.
 template <class Pixels>
 std::optional<Color> commonest(const Target& target, const Pixels& pixels) {
     std::map<Color, std::size_t> counts;
@@ -50,7 +50,7 @@ Mask where(const Target& target, auto&& holds) {
     return mask;
 }
 
-// The codes that a known background has in a target; unknown channels are those of 0, and alpha 1.
+// The codes of a given background in a target; missing channels are 0, and alpha is 1.
 Color codes_of(const Background& known, const Target& target) {
     Color codes;
     for (std::size_t c = 0; c < static_cast<std::size_t>(target.channels); ++c)
@@ -119,13 +119,13 @@ std::string_view name(CoverageMistake mistake) noexcept {
 
 namespace {
 
-// What happened to the runs of one direction: where they begin and where they end.
+// Changes of the runs in one direction, at their begins and at their ends.
 struct Ends {
     std::uint64_t runs = 0;
-    std::uint64_t begins_gained = 0, begins_lost = 0, ends_gained = 0, ends_lost = 0;  // runs
-    std::int64_t moved = 0;                                                            // pixels, begins and ends added
+    std::uint64_t begins_gained = 0, begins_lost = 0, ends_gained = 0, ends_lost = 0;  // numbers of runs
+    std::int64_t moved = 0;  // pixels, summed over begins and ends
 
-    // A gain at a run's end and a loss at its begin go one way; their opposites go the other.
+    // A gain at a run's end and a loss at its begin are a movement forward; the opposites are a movement backward.
     [[nodiscard]] std::uint64_t forward() const { return ends_gained + begins_lost; }
     [[nodiscard]] std::uint64_t backward() const { return begins_gained + ends_lost; }
     [[nodiscard]] double mean() const {
@@ -145,8 +145,8 @@ std::vector<Run> runs_of(const Mask& mask, std::size_t first, std::size_t step, 
     return runs;
 }
 
-// Lines whose masks have another number of runs, and runs that touch the picture's edge, tell nothing of where a border
-// went.
+// Lines whose masks have different numbers of runs, and runs that touch the image's edge, give no information about a
+// border's movement.
 void follow(const Masks& masks, std::size_t first, std::size_t step, int count, Ends& ends) {
     const auto here = runs_of(masks.reference, first, step, count),
                there = runs_of(masks.candidate, first, step, count);
@@ -163,12 +163,12 @@ void follow(const Masks& masks, std::size_t first, std::size_t step, int count, 
     }
 }
 
-// One direction has at most a fiftieth of the other.
+// True if one direction has at most a fiftieth of the other.
 bool keeps_to_one_way(const Ends& ends) {
     return 50 * std::min(ends.forward(), ends.backward()) <= std::max(ends.forward(), ends.backward());
 }
 
-// Whether all nine pixels around are alike in the reference.
+// True if all nine pixels around are equal in the reference.
 bool is_inner(const Mask& mask, std::size_t x, std::size_t y, std::size_t width, std::size_t height) {
     const bool own = mask[y * width + x];
     for (std::size_t j = y > 0 ? y - 1 : 0; j <= std::min(y + 1, height - 1); ++j)
@@ -180,7 +180,7 @@ bool is_inner(const Mask& mask, std::size_t x, std::size_t y, std::size_t width,
 CoverageMistake mistake_of(const CoverageReport& report, const Ends& rows, const Ends& columns) {
     if (report.gained + report.lost == 0) return CoverageMistake::none;
     const auto is_far = [](double moved) { return moved >= 0.25 || moved <= -0.25; };
-    // A fill rule that counts both edges moves one end alone.
+    // A fill rule that includes both edges moves only one end of the runs.
     const auto moves = [&](const Ends& ends) {
         const std::uint64_t begins = std::max(ends.begins_gained, ends.begins_lost);
         const std::uint64_t stops = std::max(ends.ends_gained, ends.ends_lost);

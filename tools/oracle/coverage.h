@@ -1,12 +1,12 @@
-// tools/oracle/coverage.h - which pixels something was drawn at, and what the difference of two such masks looks like.
+// tools/oracle/coverage.h - masks of the pixels that were drawn, and the kind of difference between two such masks.
 //
-// Rule     Drawn: a depth other than 1 where both pictures have depths; else an alpha above 0 where the reference's
-//          alpha varies; else a colour other than the background's, which is the commonest colour along the reference's
-//          edge if half of the edge has it. The candidate's background is its own commonest colour at those pixels. A
-//          background that the caller knows decides alone. Borders of the masks are followed along rows and columns.
-//          `moved`: both ends of the runs go the same way, by a quarter of a pixel or more; `edge_rule`: gains and
-//          losses each keep to one side, or there are gains or losses alone, at the borders; `snapping`: they mix at
-//          the borders; `surface`: most lie away from the borders.
+// Rule     A pixel is drawn if its depth is not 1, if both images have depths; else if its alpha is above 0, if the
+//          reference's alpha varies; else if its colour is not the background's, which is the commonest colour along
+//          the reference's edge if half of the edge has it. The candidate's background is its own commonest colour at
+//          those pixels. If the caller gives a background, only that is used. Borders of the masks are compared along
+//          rows and columns. `moved`: both ends of the runs move in the same direction, by a quarter of a pixel or
+//          more; `edge_rule`: gains and losses are on opposite sides, or there are only gains or only losses, at the
+//          borders; `snapping`: gains and losses are mixed at the borders; `surface`: most are away from the borders.
 // Tests    tests/tools/oracle/coverage_test.cpp
 #pragma once
 #include <array>
@@ -19,16 +19,16 @@
 
 namespace strata::oracle {
 
-using Mask = std::vector<bool>;  // a pixel an entry
+using Mask = std::vector<bool>;  // one entry per pixel
 
 struct Masks {
     Mask reference, candidate;
 };
 
-// The channels of the reference's background as values; empty: not known.
+// The channels of the reference's background as values; empty: unknown.
 using Background = std::vector<double>;
 
-// Nothing if the pictures do not tell what is background.
+// Empty if the background cannot be determined.
 [[nodiscard]] std::optional<Masks> drawn(std::span<const Pair> pairs, const Background& known = {});
 
 enum class CoverageMistake : std::uint8_t { none, moved, edge_rule, snapping, surface };

@@ -23,7 +23,7 @@ pipeline::Image blank(int width, int height, std::uint32_t grey) {
     return image;
 }
 
-// `color` of each pixel.
+// An image with `color` evaluated at each pixel.
 template <class Color>
 pipeline::Image drawn(const Comparison& comparison, Color color) {
     pipeline::Image image{pipeline::Format::rgba8, comparison.width, comparison.height};
@@ -35,7 +35,7 @@ pipeline::Image drawn(const Comparison& comparison, Color color) {
     return image;
 }
 
-// A square in the colour of each kind that occurs, and its name next to it, as far as there is room.
+// A square in the colour of each kind that occurs, followed by its name, as far as there is room.
 void draw_kinds(pipeline::Image& image, int x, int y, const Comparison& comparison) {
     constexpr int letter_px = 2, square_px = 10, row_px = 12;
     const int left = x;

@@ -1,4 +1,5 @@
-// tools/oracle/drawings.h - a comparison as pictures: how far apart, which kind where, and all side by side.
+// tools/oracle/drawings.h - renders a comparison as images: a heat map of differences, a map of difference kinds, and a
+// side-by-side sheet.
 #pragma once
 #include "pipeline/formats/image.h"
 #include "tools/oracle/compare.h"
@@ -6,24 +7,24 @@
 
 namespace strata::oracle {
 
-// How far each pixel is from the reference's, in codes: black where they are equal, else the colour of a HeatScale up
-// to the greatest distance (heat_scale.h).
+// Per pixel, the difference to the reference in codes: black if equal, else heat_scale(comparison).color(distance).
 [[nodiscard]] pipeline::Image heat_map(const Comparison& comparison);
 // The scale of that map.
 [[nodiscard]] HeatScale heat_scale(const Comparison& comparison);
-// The map with its legend below; at least as wide as the legend.
+// The heat map with the legend below it, padded to least_legend_width_px.
 [[nodiscard]] pipeline::Image heat_map_with_legend(const Comparison& comparison);
 
-// Black where the pictures are equal; else the colour of the kind.
+// Per pixel color_of(kind of difference) (Kind: compare.h); black where the images are equal.
 [[nodiscard]] pipeline::Image kind_map(const Comparison& comparison);
 // 8-bit red, green, blue of a kind.
 [[nodiscard]] std::array<std::uint8_t, 3> color_of(Kind kind) noexcept;
 
-// The target that people look at first: colours before depths; grey for one channel, nearer brighter for depths.
+// The image's first colour target, or the depth if it has none, converted for viewing: one channel as grey, depth
+// inverted (near is bright).
 [[nodiscard]] pipeline::Image as_shown(const Picture& picture);
 
-// Reference, candidate, heat map and map of kinds with a grey line between them; below the maps the scale in codes, and
-// the kinds that there are.
+// Reference, candidate, heat map and map of kinds, separated by grey lines; below the maps the heat map's legend in
+// codes and the legend of the kinds that occur.
 [[nodiscard]] pipeline::Image side_by_side(const Picture& reference, const Picture& candidate,
                                            const Comparison& comparison);
 

@@ -12,9 +12,9 @@ namespace strata::oracle {
 
 namespace {
 
-// The pixel of the reference that shows up at x, y of the candidate.
+// The pixel of the reference that the candidate has at x, y.
 using Moved = std::function<std::optional<std::size_t>(const Target& reference, int x, int y)>;
-// The value that the candidate has in channel c.
+// The candidate's value in channel c.
 using Computed = std::function<double(const Target& reference, std::size_t pixel, int c)>;
 
 struct Mistake {
@@ -39,7 +39,7 @@ bool is_near(Stored candidate, double wanted) noexcept {
     return found == wanted;
 }
 
-// Turned over, or moved by whole pixels.
+// Images that are flipped, or moved by whole pixels.
 std::vector<Mistake> of_places() {
     const auto index = [](const Target& t, int x, int y) -> std::optional<std::size_t> {
         if (x < 0 || y < 0 || x >= t.width || y >= t.height) return std::nullopt;
@@ -79,7 +79,7 @@ std::vector<Mistake> of_places() {
 
 double alpha_of(const Target& t, std::size_t pixel) { return t.channels == 4 ? t.value_at(pixel, 3) : 1.0; }
 
-// The same scene, its numbers stored by another convention.
+// The same scene with values stored by another convention.
 std::vector<Mistake> of_values() {
     const auto color = [](auto of_channel) {
         return [=](const Target& t, std::size_t pixel, int c) {
@@ -152,7 +152,7 @@ bool agrees(const Mistake& mistake, const Pair& pair, std::size_t pixel) {
     if (mistake.moved) {
         const auto width = static_cast<std::size_t>(r.width);
         const auto place = mistake.moved(r, static_cast<int>(pixel % width), static_cast<int>(pixel / width));
-        if (!place) return true;  // came from outside the picture: nothing is known of it
+        if (!place) return true;  // the pixel comes from outside the image and is unknown
         from = *place;
     }
     for (int c = 0; c < pair.channels(); ++c) {
@@ -163,14 +163,14 @@ bool agrees(const Mistake& mistake, const Pair& pair, std::size_t pixel) {
     return true;
 }
 
-// Such a pixel tells nothing of how a value was changed.
+// Such a pixel gives no evidence of how a value was changed.
 bool is_nearly_equal(const Pair& pair, std::size_t pixel) {
     for (int c = 0; c < pair.channels(); ++c)
         if (!is_near(pair.candidate->at(pixel, c), pair.reference->value_at(pixel, c))) return false;
     return true;
 }
 
-// `evidence`: explained pixels that are no mere rounding.
+// `evidence`: explained pixels whose difference is more than rounding.
 void count(const Mistake& mistake, const Pair& pair, Explanation& sum, std::uint64_t& evidence) {
     for (std::size_t pixel = 0; pixel < pair.reference->pixels(); ++pixel) {
         const bool agreed = agrees(mistake, pair, pixel), equal = pair.is_equal_at(pixel);
@@ -189,7 +189,7 @@ std::vector<Explanation> explanations(std::span<const Pair> pairs) {
     std::vector<Explanation> found;
     std::map<std::string, std::uint64_t> evidence;
     for (const Mistake& mistake : mistakes) {
-        // A mistake of places shows in colours and depths alike: one entry sums both.
+        // A movement affects colours and depths alike: one entry sums both.
         if (found.empty() || found.back().mistake != mistake.name) found.push_back({mistake.name, mistake.sentence});
         for (const Pair& pair : pairs)
             if (pair.reference->meaning == mistake.meaning) count(mistake, pair, found.back(), evidence[mistake.name]);

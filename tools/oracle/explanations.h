@@ -1,10 +1,10 @@
-// tools/oracle/explanations.h - mistakes that change a whole picture: does one of them make the candidate out of the
-// reference?
+// tools/oracle/explanations.h - tests whether a mistake that changes the whole image turns the reference into the
+// candidate.
 //
-// Rule     Each mistake says which pixel or which value the candidate would have. A moved pixel agrees if its codes are
-//          equal; a computed value if it is within one code of the candidate's (half: 2^-9 of it, binary32: 2^-18),
-//          because a port may round as it likes. `explained`: differing pixels that agree; `contradicted`: equal pixels
-//          that do not.
+// Rule     Each mistake predicts the candidate's pixel or value. A moved pixel agrees if its codes are equal; a
+//          computed value agrees if it is within one code of the candidate's (half: 2^-9 of it, binary32: 2^-18),
+//          because a port may round differently. `explained`: differing pixels that agree; `contradicted`: equal pixels
+//          that do not agree.
 // Tests    tests/tools/oracle/explanations_test.cpp
 #pragma once
 #include <span>
@@ -17,7 +17,7 @@ namespace strata::oracle {
 
 struct Explanation {
     std::string mistake;   // "flipped_rows"
-    std::string sentence;  // what the candidate then is
+    std::string sentence;  // a description of the candidate
     std::uint64_t explained = 0, of = 0, contradicted = 0;
     [[nodiscard]] bool is_whole() const noexcept { return explained == of && contradicted == 0; }
 };

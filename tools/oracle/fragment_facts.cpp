@@ -23,7 +23,7 @@ pipeline::View first_view(const RunInput& input) {
     return view;
 }
 
-// The same triangles with r and q, which two of the depth paths take.
+// The same triangles with r and q, which two of the depth paths need.
 peeling::PreparedLists prepared(const RunInput& input, pipeline::DepthFormat format) {
     rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     raster.depth_format = format;
@@ -35,7 +35,7 @@ peeling::PreparedLists prepared(const RunInput& input, pipeline::DepthFormat for
                                    .depth = {DepthPath::exact, format, DepthPath::perspective_rq}}};
 }
 
-// window_z and w_buffer are the chip's rules.
+// window_z and w_buffer follow the rules of the NV2A chip.
 bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat format) {
     const bool has_chip_rule = input.profile.raster.window_z == rasterizer::WindowZ::buffer_units;
     if (path != DepthPath::window_z && path != DepthPath::w_buffer) return true;
@@ -43,8 +43,8 @@ bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat forma
     return has_chip_rule && has_w && format != pipeline::DepthFormat::d32f;
 }
 
-// Numbers of the source triangles in the order of submission; empty: as listed. Nothing where the order is the
-// algorithm's own.
+// Indices of the source triangles in submission order; empty vector: as listed. nullopt if the order is the algorithm's
+// own.
 std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, const peeling::Algorithm& algorithm,
                                                      pipeline::Selection selection) {
     const bool sorts = algorithm.order == ListOrder::given && input.options.sort.rule != peeling::SortRule::none;
@@ -58,10 +58,10 @@ std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, cons
         is_reversed != (raster.depth_near > raster.depth_far) ? peeling::NearerZ::greater : peeling::NearerZ::less);
 }
 
-// A fragment has a text of its own: a name of a megabyte would be told for each of them.
+// The name is repeated in each fragment, so a name of a megabyte would be repeated, too.
 constexpr std::size_t longest_name = 200;
 
-// A triangle's mesh by counting through the instances that are drawn.
+// Finds a triangle's mesh by counting through the drawn instances.
 void add_mesh(const RunInput& input, pipeline::Selection drawn, std::uint32_t source, FragmentFact& fact) {
     for (const pipeline::Instance& instance : input.list.instances) {
         const bool is_blended = input.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
@@ -85,7 +85,7 @@ std::int64_t doubled_area(const rasterizer::SubpixelPoint& a, const rasterizer::
            (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
 
-// The pieces of a triangle that was clipped carry its number: the pixel's centre lies in one of them.
+// The pieces of a clipped triangle have its index: the pixel's centre is in one of them.
 void add_barycentric(const Geometry& geometry, const rasterizer::SubpixelPoint& centre, FragmentFact& fact) {
     const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) {
         return t.primitive < primitive;
@@ -105,10 +105,11 @@ void add_barycentric(const Geometry& geometry, const rasterizer::SubpixelPoint& 
     }
 }
 
-// Numbers of source triangles by the order of submission; empty: as listed. Nothing: known to the algorithm alone.
+// Indices of source triangles in submission order; empty vector: as listed. nullopt: only the algorithm knows the
+// order.
 using Order = std::vector<std::uint32_t>;
 
-// A list that was drawn, and the fragments that came of it.
+// A list that was drawn, and its fragments.
 struct DrawnList {
     const Geometry& geometry;
     std::vector<FragmentFact> History::*fragments;

@@ -1,5 +1,5 @@
-// tools/oracle/fragment_facts.h - what is known of a fragment from its triangle alone: whose it is, where in it, and
-// its depth by every path.
+// tools/oracle/fragment_facts.h - facts about a fragment that follow from its triangle alone: its mesh, its barycentric
+// coordinates, and its depth by every path.
 #pragma once
 #include <span>
 

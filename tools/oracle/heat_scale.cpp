@@ -19,14 +19,15 @@ constexpr std::array<std::array<std::uint8_t, 3>, 7> inferno{{{0x56, 0x10, 0x6e}
                                                               {0xf9, 0xc9, 0x32},
                                                               {0xfc, 0xff, 0xa4}}};
 
-// log2 of at least 1, with 16 bits behind the point: straight between powers of two, which is at most 0.09 off.
+// log2 of at least 1, in fixed point with 16 fractional bits, linear between powers of two, with an error of at most
+// 0.09.
 constexpr std::uint64_t log2_of(std::uint32_t value) noexcept {
     const int whole = std::bit_width(value) - 1;
     const std::uint64_t rest = value - (std::uint64_t{1} << whole);
     return (static_cast<std::uint64_t>(whole) << 16) + ((rest << 16) >> whole);
 }
 
-// `share` of 2^16 of the way through the table.
+// The colour at share / 2^16 of the table.
 std::array<std::uint8_t, 3> between_stops(std::uint64_t share) noexcept {
     const std::uint64_t at = share * (inferno.size() - 1);
     const std::size_t stop = std::min<std::size_t>(at >> 16, inferno.size() - 2);
@@ -60,7 +61,7 @@ double HeatScale::position(std::uint32_t distance) const noexcept {
 
 std::vector<std::uint32_t> HeatScale::marks() const {
     const int bits = static_cast<int>(std::bit_width(end_));
-    const int step = bits > 16 ? (bits + 1) / 2 : (bits + 3) / 4;  // of long numbers there is room for fewer
+    const int step = bits > 16 ? (bits + 1) / 2 : (bits + 3) / 4;  // long labels leave room for fewer of them
     std::vector<std::uint32_t> marks;
     for (int bit = 0; bit + step / 2 < bits; bit += step) marks.push_back(std::uint32_t{1} << bit);
     marks.push_back(end_);
@@ -81,7 +82,7 @@ void draw_legend(pipeline::Image& image, int left, int top, int width, const Hea
     const auto write = [&](int x, const std::string& text) {
         draw_text(image, x, top + gap_px + bar_px + gap_px, text, letters);
     };
-    // The end's number says what all of them count; the others are written where there is room for them.
+    // Only the end's label has the unit "codes"; the others are drawn if there is room.
     const std::string last = std::to_string(scale.end()) + " codes";
     const int last_x = std::max(left, left + width - wide(last));
     write(last_x, last);

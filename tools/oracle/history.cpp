@@ -62,7 +62,7 @@ bool holds(pipeline::CompareFunc func, std::uint32_t own, std::uint32_t stored) 
     return true;
 }
 
-// A pixel's codes in all samples.
+// A pixel's codes of all samples.
 std::vector<std::uint32_t> codes_of(const Region& region, pipeline::Target target, std::uint32_t pixel) {
     const pipeline::TargetStorage& storage = region.storage(target);
     std::vector<std::uint32_t> codes;
@@ -91,7 +91,7 @@ class Recorder {
     }
 
     void step(const Region& region, const StepEvent& e) {
-        if (!e.is_counted) {  // the opaque list: its fragments are told, its clears are not
+        if (!e.is_counted) {  // the opaque list: its fragments are recorded, its clears are not
             for (std::size_t slot = 0; slot < open_.size(); ++slot) close(region, slot);
             return;
         }
@@ -124,13 +124,13 @@ class Recorder {
         if (e.step == Step::geometry || e.step == Step::full_screen || e.step == Step::publish) ++pass_;
     }
 
-    // Stages do not know their iteration; the pass's end does.
+    // A stage event has no iteration number; the end of the pass has it.
     void number_iteration(std::vector<Line>& lines, int iteration) const {
         for (auto line = lines.rbegin(); line != lines.rend() && line->pass == pass_; ++line)
             line->iteration = iteration;
     }
 
-    // A step that is taken down behind its pass belongs to it.
+    // A trace entry recorded after its pass belongs to that pass.
     void traced(const pipeline::TraceEntry& entry) {
         const int slot = slot_of(entry.pixel);
         if (slot < 0) return;
@@ -161,7 +161,7 @@ class Recorder {
         return {names_.of(target), region.storage(target).format(), codes_of(region, target, pixel), {}};
     }
 
-    // The line of a fragment or of a quad's pixel, with what its targets hold now.
+    // Starts the line of a fragment or of a quad's pixel, with the current values of its targets.
     void begin(const Region& region, const StageEvent& e, std::size_t i, std::size_t slot) {
         close(region, slot);
         Line line{.kind = !e.is_counted   ? LineKind::opaque
@@ -192,7 +192,7 @@ class Recorder {
         open_[slot] = Open{std::move(written), std::move(line)};
     }
 
-    // The number of the fragment among the pixel's; a new one is described.
+    // The index of the fragment among the pixel's; a new one is added.
     [[nodiscard]] static int fragment(const StageEvent& e, std::size_t i, std::vector<FragmentFact>& all) {
         const auto found = std::ranges::find(all, e.batch.primitive[i], &FragmentFact::primitive);
         if (found != all.end()) return static_cast<int>(found - all.begin());
@@ -206,7 +206,7 @@ class Recorder {
         return static_cast<int>(all.size()) - 1;
     }
 
-    // What this stage did to the lane.
+    // Records what this stage did to the lane.
     void follow(const StageEvent& e, std::size_t i, std::size_t slot) {
         Open& open = *open_[slot];
         Line& line = open.line;
@@ -238,7 +238,7 @@ class Recorder {
         }
     }
 
-    // By the stencil, or behind it by the depth test.
+    // By the stencil test, or after it by the depth test.
     [[nodiscard]] static Fate tested(const StageEvent& e, std::size_t i, const Line& line) {
         if (!e.state.stencil.enabled) return Fate::depth_killed;
         const pipeline::StencilTest& test = e.state.stencil;
@@ -251,8 +251,8 @@ class Recorder {
     struct Open {
         std::vector<pipeline::Target> written;
         Line line;
-        std::vector<Line> taken{};  // as part of it
-        bool is_dead = false;       // before samples are told apart
+        std::vector<Line> taken{};  // collected during the pass
+        bool is_dead = false;       // before samples are considered separately
         bool has_passed = false;    // in some sample
         Fate sample_fate = Fate::passed;
     };
@@ -263,7 +263,7 @@ class Recorder {
         open.line.fate = fate;
     }
 
-    // The fragment has left its pass: nothing else has changed its targets since.
+    // Called when the fragment has left its pass: no other fragment has changed its targets since.
     void close(const Region& region, std::size_t slot) {
         if (!open_[slot]) return;
         Open& open = *open_[slot];

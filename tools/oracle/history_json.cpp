@@ -1,4 +1,4 @@
-// tools/oracle/history_json.cpp - a history for programs: enough to do every line again.
+// tools/oracle/history_json.cpp - a history as JSON, with all data needed to repeat every line.
 #include <fmt/format.h>
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The word of a state's value: its name in the source.
+// A state's value as text: its name in the source.
 template <class Enum>
 std::string_view word(Enum value) {
     return enum_names<Enum>.at(static_cast<std::size_t>(value));
@@ -55,7 +55,7 @@ ordered_json json_of_face(const pipeline::StencilFace& f) {
             {"pass", word(f.pass)}};
 }
 
-// The tests that the pass makes.
+// The tests of the pass.
 ordered_json json_of_tests(const Line& line) {
     ordered_json document = ordered_json::object();
     const pipeline::PassState& state = line.state;

@@ -1,5 +1,5 @@
-// tools/oracle/history_svg.cpp - the fragments of a pixel by depth, and beside them what each algorithm took, as a
-// drawing.
+// tools/oracle/history_svg.cpp - a drawing of a pixel's fragments by depth, and of the fragments that each algorithm
+// took.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::string words(int x, int y, const std::string& text) {
     return fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x, y, text);
 }
 
-// Numbers of the fragments near to far; as submitted where they tie.
+// Indices of the fragments near to far; ties in submission order.
 std::vector<std::size_t> by_depth(const History& history) {
     std::vector<std::size_t> order(history.fragments.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -30,7 +30,7 @@ std::vector<std::size_t> by_depth(const History& history) {
     return order;
 }
 
-// "pass 2 near, pass 4 far": when an algorithm took a fragment.
+// "pass 2 near, pass 4 far": the passes in which an algorithm took a fragment.
 std::string takings(const History& history, std::uint32_t primitive) {
     std::string text;
     for (const Line& line : history.lines) {

@@ -1,4 +1,4 @@
-// tools/oracle/history_text.cpp - a history for people: a line a fragment, a line a step.
+// tools/oracle/history_text.cpp - a history as text: one line per fragment and per step.
 #include <fmt/format.h>
 
 #include <bit>

@@ -40,7 +40,7 @@ Stack stack_at(std::span<const LayerTarget> layers, std::size_t pixel) {
     return stack;
 }
 
-// Whether `part` is `whole` with layers left out; then `rest` has those.
+// True if `part` is `whole` with layers left out; `rest` receives those.
 bool is_part_of(const Stack& part, const Stack& whole, Stack& rest) {
     std::size_t next = 0;
     rest.clear();
@@ -57,7 +57,7 @@ bool has(const Stack& stack, const Layer& layer) {
     return std::ranges::any_of(stack, [&](const Layer& other) { return is_same(layer, other); });
 }
 
-// MAX of each channel, as blending under MAX merges two fragments; only layers stored alike have one.
+// MAX of each channel, as blending with MAX merges two fragments; only layers stored in the same form have one.
 bool is_greatest_of(const Layer& merged, const Layer& a, const Layer& b) {
     for (int c = 0; c < std::min({merged.channels(), a.channels(), b.channels()}); ++c) {
         const Stored one = a.color(c), other = b.color(c);
@@ -67,7 +67,7 @@ bool is_greatest_of(const Layer& merged, const Layer& a, const Layer& b) {
     return true;
 }
 
-// One fewer, and equal but for one that stands where two were and is neither of them.
+// True if the candidate has one layer fewer and is equal except for one that replaces two and equals neither of them.
 bool is_merged(const Stack& reference, const Stack& candidate) {
     if (candidate.size() + 1 != reference.size()) return false;
     std::size_t at = 0;

@@ -1,8 +1,8 @@
-// tools/oracle/layers.h - what became of the layers of one pixel.
+// tools/oracle/layers.h - compares the layers of one pixel.
 //
-// Rule     Layers are the parts of a file that have names, in the file's order. A pixel has those whose alpha is above
-//          0 (any channel other than 0 where there is no alpha). Two layers are equal if their colours are, and their
-//          depths where both files have them.
+// Rule     Layers are the named parts of a file, in the file's order. A pixel has the layers whose alpha is above 0
+//          (without alpha: with any nonzero channel). Two layers are equal if their colours are, and their depths if
+//          both files have them.
 // Tests    tests/tools/oracle/compare_layers_test.cpp
 #pragma once
 #include <optional>
@@ -15,13 +15,13 @@ namespace strata::oracle {
 
 struct LayerTarget {
     const Target* color = nullptr;
-    const Target* depth = nullptr;  // null where the part has none
+    const Target* depth = nullptr;  // null if the part has none
 };
 
-// Empty for a picture without named parts.
+// Empty for an image without named parts.
 [[nodiscard]] std::vector<LayerTarget> layers_of(const Picture& picture);
 
-// none: the layers are equal; color and depth: as many, and one of them differs so.
+// none: the layers are equal; color or depth: the number is the same, and one layer differs in that way.
 [[nodiscard]] Kind compare_layers(std::span<const LayerTarget> reference, std::span<const LayerTarget> candidate,
                                   std::size_t pixel);
 

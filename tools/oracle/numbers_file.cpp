@@ -1,6 +1,6 @@
-// tools/oracle/numbers_file.cpp - pictures in .npy files.
+// tools/oracle/numbers_file.cpp - images in .npy files.
 //
-// Rule     Of .npy files, one channel of f4 or u4 is a depth, one of u1 or u2 another target.
+// Rule     In a .npy file a single channel of f4 or u4 is a depth, one of u1 or u2 another target.
 #include "tools/oracle/numbers_file.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ Target read_npy(const std::string& path) {
     const bool is_wide = target.code == Code::single || target.code == Code::integer;
     target.meaning = target.channels > 1 ? Meaning::color : is_wide ? Meaning::depth : Meaning::other;
     target.name = target.channels > 1 ? "color" : is_wide ? "depth" : "value";
-    // NPY's elements lie as bare numbers do.
+    // NPY's elements have the same layout as raw numbers.
     const RawLayout layout{.width = target.width,
                            .height = target.height,
                            .channels = target.channels,

@@ -24,7 +24,7 @@ std::vector<const Target*> of_meaning(const Picture& picture, Meaning meaning) {
 const Target* partner(const Target& wanted, const Picture& reference, const Picture& candidate) {
     for (const Target& target : candidate.targets)
         if (target.part == wanted.part && target.name == wanted.name) return &target;
-    // A file of one picture has no name for it, or another than ours.
+    // A file of one image has no name for it, or another name than ours.
     const auto here = of_meaning(reference, wanted.meaning), there = of_meaning(candidate, wanted.meaning);
     return here.size() == 1 && there.size() == 1 ? there[0] : nullptr;
 }
@@ -32,7 +32,7 @@ const Target* partner(const Target& wanted, const Picture& reference, const Pict
 bool has_alpha(const Target& t) noexcept { return t.channels == (t.is_grey ? 2 : 4); }
 bool is_color(const Target& t) noexcept { return t.meaning == Meaning::color && (t.is_grey || t.channels >= 3); }
 
-// The target with channels as `from` says of each: a channel's number, or -1 for a code of 1.
+// A target whose channels are given by `from`: a channel's index, or -1 for the code of 1.
 Target with_channels(const Target& target, const std::vector<int>& from) {
     Target made = target;
     made.channels = static_cast<int>(from.size());
@@ -52,7 +52,7 @@ std::uint32_t times_alpha(const Target& target, std::uint32_t code, std::uint32_
     return static_cast<std::uint32_t>((2 * product + one) / (2 * one));
 }
 
-// Nothing where all alphas are 1.
+// Empty if all alphas are 1.
 std::optional<Target> premultiplied(const Target& target) {
     if (!has_alpha(target) || target.code == Code::integer) return std::nullopt;
     const auto channels = static_cast<std::size_t>(target.channels);
@@ -70,7 +70,7 @@ std::optional<Target> premultiplied(const Target& target) {
     return changes ? std::optional{std::move(made)} : std::nullopt;
 }
 
-// One of the two colours that are compared: a target of a picture, or one made of it.
+// One of the two colours that are compared: an image's target, or one converted from it.
 struct Side {
     const Target* target;
     const char* whose;  // "the reference"

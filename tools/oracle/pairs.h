@@ -1,10 +1,10 @@
-// tools/oracle/pairs.h - which target of a candidate stands for which of the reference, made comparable channel by
-// channel.
+// tools/oracle/pairs.h - pairs the targets of a candidate with those of the reference and makes their channels
+// comparable.
 //
-// Rule     Grey beside colour is three equal channels. Where one of two colours has no alpha, its alpha is 1, and a
-//          note says so. Straight colours beside premultiplied ones are multiplied by their alpha where that is below
-//          1, to the nearest code, a half up: of codes that were divided by alpha this gives back what they were made
-//          of.
+// Rule     Grey compared with colour becomes three equal channels. If only one of two colours has alpha, the other's
+//          alpha is 1, and a note says so. Colours that are not premultiplied, compared with premultiplied ones, are
+//          multiplied by their alpha where that is below 1, rounded to the nearest code, halves up: for codes that were
+//          divided by alpha this gives the original codes.
 // Tests    tests/tools/oracle/pairs_test.cpp
 #pragma once
 #include <algorithm>
@@ -19,9 +19,9 @@ namespace strata::oracle {
 struct Pair {
     const Target* reference = nullptr;
     const Target* candidate = nullptr;
-    [[nodiscard]] int channels() const noexcept { return reference->channels; }  // the candidate has as many
+    [[nodiscard]] int channels() const noexcept { return reference->channels; }  // the candidate has the same number
     [[nodiscard]] bool is_equal_at(std::size_t pixel) const noexcept { return distance_at(pixel) == 0; }
-    // Of the worst channel.
+    // The distance of the worst channel.
     [[nodiscard]] std::uint32_t distance_at(std::size_t pixel) const noexcept {
         std::uint32_t worst = 0;
         for (int c = 0; c < channels(); ++c)
@@ -30,17 +30,17 @@ struct Pair {
     }
 };
 
-// Which channels of colours count.
+// The channels of colours that are compared.
 enum class ColorChannels : std::uint8_t { all, rgb };
 
 struct Pairing {
     std::vector<Pair> pairs;
-    std::vector<std::string> not_compared{};  // sentences
-    std::vector<std::string> notes{};         // what was done to make targets comparable
-    std::deque<Target> made{};                // what pairs point at that neither picture has
+    std::vector<std::string> not_compared{};  // messages
+    std::vector<std::string> notes{};         // conversions that made targets comparable
+    std::deque<Target> made{};                // owns converted targets that pairs point to
 };
 
-// InputError as compare() says, and for numbers of channels that no rule above makes alike.
+// InputError as compare(), and for numbers of channels that no rule above makes equal.
 [[nodiscard]] Pairing pair_targets(const Picture& reference, const Picture& candidate,
                                    ColorChannels channels = ColorChannels::all);
 

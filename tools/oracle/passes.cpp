@@ -74,7 +74,7 @@ class Collector {
         }
     }
 
-    // A pass is handed on when its queries are answered.
+    // A pass is reported when its queries are answered.
     void flush() {
         if (ended_) on_pass_(*std::exchange(ended_, std::nullopt));
     }

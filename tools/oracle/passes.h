@@ -1,10 +1,10 @@
-// tools/oracle/passes.h - every pass of an algorithm with all targets as it leaves them.
+// tools/oracle/passes.h - reports every pass of an algorithm with the content of all targets after it.
 //
-// Rule     The run is literal: its passes are the machine's. A pass is shown when it has ended and its queries are
-//          answered; clears and copies before it are told with it. Targets have the names that the algorithm gives
-//          them; of several of one name the second is NAME.1, and so on: a pair that is swapped keeps its names. Under
-//          reversed depth, depth targets are shown as depths; colour targets that hold depths hold keys
-//          (rasterizer/rules/depth_key.h). The last entry is what is published, the picture.
+// Rule     The run is literal, with the passes of the device. A pass is reported when it has ended and its queries are
+//          answered, together with the clears and copies before it. Targets have the names that the algorithm gives
+//          them; the second of one name is NAME.1, and so on: a pair that is swapped keeps its names. Under reversed
+//          depth, depth targets are reported as depths; colour targets that contain depths contain keys
+//          (rasterizer/rules/depth_key.h). The last entry is the published image.
 // Tests    tests/tools/oracle/passes_test.cpp
 #pragma once
 #include <functional>
@@ -34,20 +34,20 @@ struct Query {
 struct PassShown {
     int number = 0;  // from 0
     PassKind kind{};
-    int iteration = 0;                  // 0: before the first
+    int iteration = 0;                  // 0: before the first iteration
     std::vector<std::string> before{};  // "clear front", "copy opaque_depth to nearest"
     std::vector<std::string> reads{}, writes{};
-    std::uint64_t passed = 0, tallied = 0;  // fragments behind all tests; events that the program counts
-    std::vector<NamedImage> targets{};      // all that there are, the opaque scene's first
-    std::vector<Query> queries{};           // about it, answered before the next pass
+    std::uint64_t passed = 0, tallied = 0;  // fragments that passed all tests; events that the program counts
+    std::vector<NamedImage> targets{};      // all existing targets, the opaque scene's first
+    std::vector<Query> queries{};           // about the pass, answered before the next one
 };
 
-// `on_pass` is called with one pass after the other; it may keep the images. Throws Refused for what the profile lacks.
-// `alteration` makes a machine with a mistake of it.
+// Calls `on_pass` for one pass after another; it may keep the images. Throws Refused if the profile lacks a feature.
+// `alteration` makes a run with a mistake.
 void passes(const RunInput& input, const peeling::Algorithm& algorithm, const std::function<void(PassShown&&)>& on_pass,
             const pipeline::Alteration* alteration = nullptr);
 
-// Names of targets by their numbers, as observers hear them.
+// Names of targets by their numbers, for observers.
 class TargetNames {
   public:
     void add(pipeline::Target target, std::string_view name);

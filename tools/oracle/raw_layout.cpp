@@ -1,4 +1,4 @@
-// tools/oracle/raw_layout.cpp - bare numbers: the words that say how they lie in a file, and a picture from them.
+// tools/oracle/raw_layout.cpp - raw numbers: parses the description of their layout, and reads an image from them.
 #include <fmt/format.h>
 
 #include <array>
@@ -73,7 +73,7 @@ std::uint32_t little_endian(std::string_view bytes) noexcept {
     return word;
 }
 
-// A pixel's word of 10, 10, 10 and 2 bits from the lowest on. k of 2 bits is the value of 341 k of 10.
+// Unpacks a pixel's word of 10, 10, 10 and 2 bits, lowest first. A 2-bit code k has the value of the 10-bit code 341 k.
 std::array<std::uint32_t, 4> unpacked(std::uint32_t word, Packing packing) noexcept {
     const std::uint32_t low = word & 1023, high = word >> 20 & 1023;
     const bool is_red_first = packing == Packing::rgb10a2;

@@ -42,7 +42,7 @@ Channels channels_of(const StoredPart& part, const std::vector<const char*>& nam
     return channels;
 }
 
-// The numbers of a pixel's samples, the nearest first.
+// The indices of a pixel's samples, nearest first.
 std::vector<std::size_t> near_to_far(const StoredPart& part, const Channels& depth, std::size_t first,
                                      std::size_t count) {
     std::vector<std::size_t> order(count);
@@ -73,7 +73,7 @@ Target empty_target(const StoredPart& part, const Channels& channels, std::size_
 std::vector<Target> layers_of_deep(const StoredPart& part, const std::string& path) {
     const Channels color = channels_of(part, {"R", "G", "B", "A"}, path), depth = channels_of(part, {"Z"}, path);
     if (color.places.empty()) throw InputError(path, "deep part", "one of the channels R, G, B and A", "none");
-    // A file without any sample has one layer, which is empty.
+    // A file without any sample has one empty layer.
     const std::size_t layers =
         std::max<std::size_t>(1, part.samples.empty() ? 0 : *std::ranges::max_element(part.samples));
     if (layers * part.samples.size() > most_samples)

@@ -1,8 +1,9 @@
-// tools/oracle/read_deep.h - a deep EXR part as layers: the first part is each pixel's nearest sample, and so on.
+// tools/oracle/read_deep.h - converts a deep EXR part to layers: the first layer is each pixel's nearest sample, and so
+// on.
 //
-// Rule     Samples go by their Z, those of equal Z in the file's order; a part without Z keeps the file's order, and a
-//          Z that is no number comes last. A pixel with fewer samples has zeros where others have more. R, G, B and A
-//          are a layer's colour, Z is its depth; other channels are left out.
+// Rule     Samples are sorted by Z, those of equal Z in the file's order; a part without Z keeps the file's order, and
+//          NaN comes last. A pixel with fewer samples has zeros in the remaining layers. R, G, B and A are a layer's
+//          colour, Z is its depth; other channels are ignored.
 // Tests    tests/tools/oracle/read_deep_test.cpp
 #pragma once
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace strata::oracle {
 
-// InputError, which names `path`, for a part without R, G, B or A of one type, and for more samples than 2^26 in all
+// InputError, which names `path`, for a part without R, G, B or A of one type, and for more than 2^26 samples in all
 // layers.
 [[nodiscard]] std::vector<Target> layers_of_deep(const scenes::StoredPart& part, const std::string& path);
 

@@ -1,4 +1,5 @@
-// tools/oracle/read_picture.cpp - EXR, and what OpenImageIO reads, to a Picture; picture.h states the rule.
+// tools/oracle/read_picture.cpp - reads EXR files, and formats that OpenImageIO supports, into a Picture (rule:
+// picture.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,14 +32,14 @@ Code code_of_channel(scenes::StoredType type) noexcept {
     return Code::integer;
 }
 
-// A part that Strata wrote says what its codes are.
+// A part written by Strata states the format of its codes.
 Target of_image(const scenes::FileImage& found) {
     Target target = as_target(found.image, found.target);
     target.part = found.part;
     return target;
 }
 
-// Channels of one type in the given order. Bytes may begin anywhere, so they are copied.
+// Channels of one type in the given order. They may be unaligned, so they are copied.
 Target of_channels(const StoredPart& part, const std::vector<std::string>& names, Meaning meaning) {
     Target target{
         .part = part.header.name, .meaning = meaning, .width = part.header.width, .height = part.header.height};
@@ -55,7 +56,7 @@ Target of_channels(const StoredPart& part, const std::vector<std::string>& names
     return target;
 }
 
-// A part of a depth target alone: its codes are those of the format that the part names.
+// A part with only a depth target: its codes have the format that the part names.
 Target own_depth(const StoredPart& part, const std::string& format) {
     Target target = of_channels(part, {"Zbits"}, Meaning::depth);
     target.name = "depth";
@@ -65,7 +66,7 @@ Target own_depth(const StoredPart& part, const std::string& format) {
     return target;
 }
 
-// Another program's part: its colours, its depth, and every other channel by itself.
+// A part from another program: its colours, its depth, and every other channel as its own target.
 void add_foreign(const StoredPart& part, const std::string& path, int number, std::vector<Target>& targets) {
     std::vector<std::string> colors, others;
     for (const char* name : {"R", "G", "B", "A"})
@@ -77,7 +78,7 @@ void add_foreign(const StoredPart& part, const std::string& path, int number, st
     if (!colors.empty()) {
         targets.push_back(of_channels(part, colors, Meaning::color));
         targets.back().name = "color";
-        targets.back().alpha_form = AlphaForm::premultiplied;  // as the format has it
+        targets.back().alpha_form = AlphaForm::premultiplied;  // required by the format
     }
     for (const scenes::StoredChannel& channel : part.header.channels) {
         if (std::ranges::find(colors, channel.name) != colors.end()) continue;

@@ -23,7 +23,7 @@ std::string verdict(const Comparison& c) {
     return fmt::format("{}: {} of {} pixels differ", c.accepted ? "accepted" : "different", c.differing, pixels);
 }
 
-// The smallest distances: a port that rounds otherwise shows as 1 and 2 alone.
+// The smallest distances: a port with other rounding only has 1 and 2.
 std::string histogram(const TargetReport& target) {
     constexpr int most = 8;
     std::string text;

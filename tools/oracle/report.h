@@ -1,4 +1,4 @@
-// tools/oracle/report.h - a comparison in words: text for people, JSON for programs, JUnit for continuous integration.
+// tools/oracle/report.h - the report of a comparison as text, as JSON and as JUnit for continuous integration.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace strata::oracle {
 
-// The verdict in the first line; then targets, kinds and explanations that there are.
+// The verdict in the first line, then targets, kinds and explanations.
 [[nodiscard]] std::string to_text(const Comparison& comparison);
-// One object; every key is always there.
+// One object; all keys are always present.
 [[nodiscard]] std::string to_json(const Comparison& comparison);
-// A test case for continuous integration; an empty failure is none.
+// A test case for continuous integration; it fails unless `failure` is empty.
 struct JunitCase {
     std::string group{}, name{}, failure{};
     bool is_skipped = false;
@@ -20,7 +20,7 @@ struct JunitCase {
 // "31 pixels, first at 4,7": those beyond the tolerance.
 [[nodiscard]] std::string failure_of(const KindReport& kind);
 
-// A test case a kind, failed where pixels differ beyond the tolerance, skipped where the targets cannot show it.
+// One test case per kind, failed if pixels differ beyond the tolerance, skipped if the targets cannot show the kind.
 [[nodiscard]] std::string to_junit(const Comparison& comparison);
 
 }  // namespace strata::oracle

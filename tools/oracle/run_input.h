@@ -1,4 +1,4 @@
-// tools/oracle/run_input.h - what a run is made from: a scene, a camera, a device and what a caller chooses.
+// tools/oracle/run_input.h - the input of a run: a scene, a camera, a device profile and options.
 #pragma once
 #include "peeling/render_options.h"
 
@@ -8,12 +8,12 @@ struct DeviceProfile;
 
 namespace strata::oracle {
 
-// References must live as long as the run.
+// Referenced objects must outlive the run.
 struct RunInput {
     const pipeline::DrawList& list;
     const pipeline::View& view;
     const pipeline::DeviceProfile& profile;
-    peeling::RenderOptions options;  // execution, audit and layers are set by those who run
+    peeling::RenderOptions options;  // execution, audit and layers are set by the function that runs it
 };
 
 }  // namespace strata::oracle

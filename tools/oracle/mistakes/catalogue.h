@@ -1,10 +1,10 @@
-// tools/oracle/mistakes/catalogue.h - the deliberately wrong machines that a diagnosis tries, each one field or one
-// line of a right one.
+// tools/oracle/mistakes/catalogue.h - the catalogue of deliberate mistakes that a diagnosis tries; each changes one
+// field or one line of a correct run.
 //
-// Rule     The order is that of the lists: of several mistakes that make one picture the first is named. A mistake that
-//          cannot be made on an experiment (no texture to turn over, no stencil to wrap) says so.
-// Tests    tests/tools/oracle/mistakes/catalogue_test.cpp: each shows in a scene of the suite, and no two are alike in
-//          all of them
+// Rule     The order is that of the lists: if several mistakes give the same image, the first is reported. `make`
+//          returns false if a mistake is not applicable to an experiment (no texture to flip, no stencil to wrap).
+// Tests    tests/tools/oracle/mistakes/catalogue_test.cpp: each changes the image of at least one scene of the suite,
+//          and no two give equal images in all of them
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -21,18 +21,18 @@ enum class Place : std::uint8_t { scene, machine, steps, programs, picture };
 
 struct Mistake {
     std::string name{};      // "one_pass_too_few"
-    std::string sentence{};  // as it stands behind "the pixels are those of: "
+    std::string sentence{};  // the text that follows "the pixels are those of: "
     Place place{};
-    // False: this experiment has nothing that the mistake could change.
+    // Returns false if the experiment has nothing that the mistake could change.
     std::function<bool(Experiment& experiment)> make{};
-    bool is_allowed = false;  // a right port may do so: an option of machine_options.h
+    bool is_allowed = false;  // a correct port may do this: an option of machine_options.h
 };
 
 [[nodiscard]] std::span<const Mistake> catalogue();
-// Null if there is no such mistake.
+// Null if there is no mistake of that name.
 [[nodiscard]] const Mistake* find_mistake(std::string_view name);
 
-// The parts of the catalogue, a file each.
+// The parts of the catalogue, one file each.
 [[nodiscard]] std::span<const Mistake> mistakes_of_scene();
 [[nodiscard]] std::span<const Mistake> mistakes_of_machine();
 [[nodiscard]] std::span<const Mistake> mistakes_of_steps();

@@ -13,12 +13,12 @@ namespace strata::oracle {
 
 namespace {
 
-using Agreement = std::vector<bool>;  // a pixel an entry
+using Agreement = std::vector<bool>;  // one entry per pixel
 
-// Codes of colours that are forgiven beside the tolerances, where both pictures have codes of one kind.
+// Codes of colours that are accepted in addition to the tolerances, if both images have codes of one type.
 enum class Forgiven : std::uint8_t { none, one_code };
 
-// Which pixels of the candidate are those of `picture`.
+// The pixels of the candidate that are equal to those of `picture`.
 Agreement agreement(const Picture& picture, const Picture& candidate, const Tolerances& tolerances,
                     Forgiven beside = Forgiven::none) {
     const Pairing pairing = pair_targets(picture, candidate);
@@ -47,7 +47,7 @@ bool is_same(const Picture& a, const Picture& b) {
     return std::ranges::equal(a.targets, b.targets, {}, &Target::codes, &Target::codes);
 }
 
-// `nearly` is the agreement within one code more.
+// `nearly` is the agreement with a tolerance of one more code.
 Finding finding(std::vector<const Mistake*> mistakes, const Agreement& agrees, const Agreement& nearly,
                 const Agreement& right_agrees) {
     Finding found{.mistakes = std::move(mistakes)};
@@ -60,7 +60,7 @@ Finding finding(std::vector<const Mistake*> mistakes, const Agreement& agrees, c
     return found;
 }
 
-// Whether all pixels of a picture are alike: nothing is drawn in it.
+// True if all pixels of an image are equal: nothing is drawn in it.
 bool is_blank(const Picture& picture) {
     return std::ranges::all_of(picture.targets, [](const Target& t) {
         const auto channels = static_cast<std::ptrdiff_t>(t.channels);
@@ -68,7 +68,7 @@ bool is_blank(const Picture& picture) {
     });
 }
 
-// body(i) for i below count, on all cores.
+// Calls body(i) for all i below count, on all cores.
 void for_all(std::size_t count, const ShowProgress& progress, const std::function<void(std::size_t)>& body) {
     std::atomic<std::size_t> done = 0;
     parallel_for(count, 0, [&](std::size_t i) {
@@ -77,12 +77,12 @@ void for_all(std::size_t count, const ShowProgress& progress, const std::functio
     });
 }
 
-// Whether a finding explains half of the pixels to the last code and all of them within one.
+// True if a finding explains half of the pixels exactly and all of them within one code.
 bool is_nearly_whole(const Finding& f, const Diagnosis& d) {
     return f.agreeing != d.pixels && f.nearly == d.pixels && 2 * f.explained >= d.differing;
 }
 
-constexpr std::size_t most_pairs = 256;  // that are rendered; those of finished pictures cost nothing
+constexpr std::size_t most_pairs = 256;  // of rendered pairs; pairs with a mistake of the finished image cost nothing
 constexpr std::size_t most_pixels_of_pairs = std::size_t{1} << 21;
 
 }  // namespace
@@ -91,7 +91,7 @@ struct Lineup::Evidence {
     const Picture& candidate;
     const Tolerances& tolerances;
     const Agreement& right_agrees;
-    std::vector<Agreement> agrees;  // of each suspect that shows
+    std::vector<Agreement> agrees;  // of each suspect that changes the image
 
     [[nodiscard]] Finding of(std::vector<const Mistake*> mistakes, const Picture& picture) const {
         return finding(std::move(mistakes), agreement(picture, candidate, tolerances),
@@ -156,8 +156,8 @@ bool is_allowed(const Finding& f) {
     return !f.mistakes.empty() && std::ranges::all_of(f.mistakes, &Mistake::is_allowed);
 }
 
-// Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code:
-// of options of a right machine first. Where the right machine is as near, a code is no evidence of a mistake.
+// If no finding explains all pixels exactly, moves the best one that nearly does to the front, options of a correct run
+// first. If the correct run is as near, one code is no evidence of a mistake.
 void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
     if (d.findings.front().agreeing == d.pixels) return;
     const auto take = [&](auto is_fitting) {
@@ -206,11 +206,11 @@ Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerance
         result.verdict = verdict_of(result);
         if (passes != nullptr && result.pixels <= most_pixels_of_pairs) weigh_passes(evidence, *passes, result);
     };
-    // One colour everywhere is no evidence of two mistakes, unless passes say more.
+    // An image of one colour is no evidence of two mistakes, unless there are passes.
     const bool shows_pairs = !result.is_blank || passes != nullptr;
     if (shows_pairs && std::ranges::none_of(result.findings, is_whole)) try_pairs(evidence, progress, result);
     rank();
-    // Whose picture it is has other passes: two mistakes may leave this picture, too.
+    // The mistake with this image has other passes: two mistakes may also give this image.
     if (result.passes_contradict && result.pairs_tried == 0 && result.differing > 0) {
         try_pairs(evidence, progress, result);
         rank();
@@ -222,7 +222,7 @@ Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerance
 
 namespace {
 
-constexpr std::size_t most_weighed = 64;  // findings whose passes are made again
+constexpr std::size_t most_weighed = 64;  // limit on findings whose passes are rendered again
 
 }  // namespace
 
@@ -248,7 +248,7 @@ void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPictur
     d.right_passes = laboratory_.compare_passes({}, passes);
     if (!d.right_passes || d.right_passes->targets == 0 || d.verdict == Verdict::none_of_mine || d.is_nearly) return;
     if (d.verdict == Verdict::right && d.right_passes->is_whole()) return;
-    // All who leave the candidate's picture, each by itself; of the right picture those whose mistake it hides.
+    // Each single mistake with the candidate's image; for the correct image, mistakes that do not change it.
     const auto with_alike = [&](const Mistake* mistake) {
         std::vector<const Mistake*> all{mistake};
         const auto own = std::ranges::find(suspects_, mistake, &Suspect::mistake);
@@ -271,7 +271,7 @@ void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPictur
                 weighed.push_back(f);
                 weighed.back().mistakes = {mistake};
             }
-        // Mistakes that leave one picture by themselves need not do so beside another one.
+        // Mistakes with equal images need not be equal in combination with another.
         if (f.mistakes.size() == 2)
             for (const Mistake* first : with_alike(f.mistakes[0]))
                 for (const Mistake* second : with_alike(f.mistakes[1])) {
@@ -311,13 +311,13 @@ namespace {
 
 struct TwoSuspects {
     std::size_t first = 0, second = 0;
-    std::uint64_t against = 0,
-                  known = 0;  // pixels where at most one of the two shows: those that are not the candidate's, and all
+    // Of the pixels where at most one of the two changes the image: those that differ from the candidate's, and all.
+    std::uint64_t against = 0, known = 0;
 };
 
 }  // namespace
 
-// Whether the second mistake undoes the first one nearly everywhere: such a pair is none that a port has.
+// True if the second mistake undoes the first almost everywhere: no port has such a pair.
 bool Lineup::cancels(std::size_t first, std::size_t second, const Picture& both) const {
     const Agreement is_right = agreement(laboratory_.right(), both, {});
     std::size_t shown = 0, undone = 0;
@@ -348,8 +348,8 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
     std::ranges::stable_sort(pairs, [](const TwoSuspects& x, const TwoSuspects& y) {
         return std::pair{x.against, y.known} < std::pair{y.against, x.known};
     });
-    // Where nothing is drawn, all who draw nothing fit, and two mistakes more easily than one. What became of the
-    // background says more.
+    // If nothing is drawn, all mistakes that draw nothing fit, and pairs fit more easily than single ones. The
+    // background gives more evidence.
     pairs.resize(result.is_blank ? 0 : std::min(pairs.size(), most_pairs));
     pairs.insert(pairs.begin(), finished.begin(), finished.end());
     std::vector<std::optional<Finding>> found(pairs.size());

@@ -1,16 +1,16 @@
-// tools/oracle/mistakes/diagnosis.h - which wrong machine made a picture.
+// tools/oracle/mistakes/diagnosis.h - finds the mistake with which an image was rendered.
 //
-// Rule     Every mistake's own picture is compared with the candidate, pixel by pixel and code by code; a finding's
-//          rank is the number of pixels that agree. The right machine comes before all mistakes that explain no more
-//          than it does, and a mistake before those behind it in the catalogue; options of machine_options.h, where
-//          there are any, come before all mistakes. A mistake whose picture is the right one here is no finding. If no
-//          single one explains every pixel, pairs are tried: first all that end in a mistake of the finished picture,
-//          then those that contradict the candidate least where only one of the two shows; none for a candidate of one
-//          colour everywhere without passes, which is no evidence of two. Where none explains every pixel to the last
-//          code, one that explains half of them so and all within one code counts as nearly explaining them, unless the
-//          right machine does. A candidate's passes, where it has any, decide between those who leave the same picture;
-//          a machine whose passes differ from the candidate's no later than the right machine's do is not the one that
-//          made it.
+// Rule     The image of every mistake is compared with the candidate, pixel by pixel and code by code; findings are
+//          ranked by the number of pixels that agree. The correct run precedes all mistakes that explain no more
+//          pixels, and a mistake precedes those after it in the catalogue; options of machine_options.h, if there are
+//          any, precede all mistakes. A mistake that does not change the image of this scene is not a finding. If no
+//          single mistake explains every pixel, pairs are tried: first all that end with a mistake of the finished
+//          image, then those that contradict the candidate least where only one of the two changes the pixel. For a
+//          candidate of one colour everywhere and without passes no pairs are tried, because it is no evidence of two
+//          mistakes. If none explains every pixel exactly, one that explains half of them exactly and all within one
+//          code counts as nearly explaining them, unless the correct run does. If the candidate has passes, they decide
+//          between mistakes with the same image; a run whose passes differ from the candidate's no later than the
+//          correct run's do did not make it.
 // Tests    tests/tools/oracle/mistakes/diagnosis_test.cpp
 #pragma once
 #include <functional>
@@ -22,57 +22,57 @@
 namespace strata::oracle {
 
 struct Finding {
-    std::vector<const Mistake*> mistakes{};  // none: the right machine
-    std::uint64_t agreeing = 0;              // pixels that are the candidate's
-    std::uint64_t explained = 0;             // of those that are not the right machine's
-    std::uint64_t contradicted = 0;          // the right machine's, but not this one's
-    std::uint64_t nearly = 0;                // pixels that are the candidate's within one code
+    std::vector<const Mistake*> mistakes{};  // empty: the correct run
+    std::uint64_t agreeing = 0;              // pixels equal to the candidate's
+    std::uint64_t explained = 0;             // of those, pixels that differ from the correct image
+    std::uint64_t contradicted = 0;          // pixels of the candidate that are correct but not equal to this image
+    std::uint64_t nearly = 0;                // pixels within one code of the candidate's
     std::vector<const Mistake*>
-        alike{};  // others that leave the same picture of this scene, and passes that agree as far
-    std::optional<PassAgreement> passes{};  // of those that leave the candidate's picture, and of the best
+        alike{};  // other mistakes with the same image of this scene, and passes that agree as far
+    std::optional<PassAgreement> passes{};  // of findings with the candidate's image, and of the best finding
 };
 
 enum class Verdict : std::uint8_t {
     right,
-    other_options,  // of a right machine: all that is named is allowed
+    other_options,  // a correct run with other options
     one_mistake,
     two_mistakes,
-    right_structure,  // no machine's picture is the candidate's, but its layers are right apart from rounding
-    none_of_mine      // the best finding leaves pixels that it does not explain
+    right_structure,  // no image equals the candidate's, but its layers are correct except for rounding
+    none_of_mine      // the best finding leaves pixels unexplained
 };
 
 struct SuiteScene;  // tools/oracle/mistakes/suite.h
 
 struct Diagnosis {
     Verdict verdict{};
-    std::uint64_t pixels = 0, differing = 0;  // differing: from the right picture, beyond the tolerances
-    bool is_blank = false;                    // the candidate has one colour everywhere
-    bool is_nearly = false;                   // what is named explains some pixels only within one code
-    bool passes_contradict = false;  // the picture is that of the first finding, but no known machine's passes are
-    std::optional<PassAgreement> right_passes{};  // of the right machine
+    std::uint64_t pixels = 0, differing = 0;      // differing: from the correct image, beyond the tolerances
+    bool is_blank = false;                        // the candidate has one colour everywhere
+    bool is_nearly = false;                       // the finding explains some pixels only within one code
+    bool passes_contradict = false;               // the image equals the first finding's, but no known run's passes do
+    std::optional<PassAgreement> right_passes{};  // of the correct run
     std::vector<Finding> findings{};              // the best first; never empty
-    std::string structure{};  // what the layers say where no machine's picture is the candidate's; empty: not asked
+    std::string structure{};  // what the layers show if no image equals the candidate's; empty: not examined
     std::string structure_json{};
-    const SuiteScene* telling = nullptr;  // tells the first finding and those that are alike apart, or the leads
+    const SuiteScene* telling = nullptr;  // a scene that distinguishes the first finding from those alike, or the leads
     int tried = 0, hidden = 0, impossible = 0, pairs_tried = 0;
 };
 
 using ShowProgress = std::function<void(double share)>;
 
-// The pictures of all mistakes, made once for any number of candidates.
+// The images of all mistakes, rendered once for any number of candidates.
 class Lineup {
   public:
-    // `laboratory` and `options` must live as long.
+    // `laboratory` and `options` must outlive this.
     explicit Lineup(const Laboratory& laboratory, const ShowProgress& progress = {},
                     std::span<const Mistake> options = {});
 
-    // `passes` are the candidate's; null where it has none.
+    // `passes` are the candidate's, or null.
     [[nodiscard]] Diagnosis diagnose(const Picture& candidate, const Tolerances& tolerances = {},
                                      const ShowProgress& progress = {},
                                      const std::vector<PassPicture>* passes = nullptr) const;
 
-    // The machine with those of `mistakes` that can be made on this scene. It fits if the candidate's picture is its
-    // own, or is so within one code where the right machine's is not, and its passes do not contradict.
+    // Judges the run with those of `mistakes` that are applicable to this scene. It fits if the candidate's image
+    // equals its image, or is within one code of it where the correct image is not, and its passes do not contradict.
     struct Judged {
         Finding finding{};
         bool fits = false;
@@ -80,7 +80,7 @@ class Lineup {
     [[nodiscard]] Judged judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
                                const Tolerances& tolerances, const std::vector<PassPicture>* passes) const;
 
-    // Null where the mistake cannot be made on this scene.
+    // Null if the mistake is not applicable to this scene.
     [[nodiscard]] const Picture* picture_of(const Mistake& mistake) const;
     [[nodiscard]] bool shows(const Mistake& mistake) const;
 
@@ -88,9 +88,9 @@ class Lineup {
     struct Suspect {
         const Mistake* mistake = nullptr;
         std::optional<Picture> picture{};
-        std::vector<bool> unchanged{};  // its pixels that are the right picture's; of one that shows
+        std::vector<bool> unchanged{};  // the pixels equal to the correct image; only if `shows`
         bool shows = false;
-        std::size_t like = 0;  // the first suspect with this picture
+        std::size_t like = 0;  // index of the first suspect with this image
     };
     struct Evidence;
     [[nodiscard]] bool cancels(std::size_t first, std::size_t second, const Picture& both) const;

@@ -14,9 +14,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t most_findings = 6;  // that people are told
+constexpr std::size_t most_findings = 6;  // limit of findings in the text
 
-// Only all of them are 100 %.
+// At most 99.9 unless all of them are counted.
 std::string percent(std::uint64_t part, std::uint64_t all) {
     if (part == all) return "100";
     const double share = 100.0 * static_cast<double>(part) / static_cast<double>(all);
@@ -54,7 +54,7 @@ std::string line_of(const Finding& f, const Diagnosis& d) {
     return text;
 }
 
-// How far the candidate's passes are those of one machine; "" where they were not compared.
+// The agreement of the candidate's passes with those of a run; "" if they were not compared.
 std::string line_of(const std::optional<PassAgreement>& passes, const std::string& whose) {
     if (!passes) return "";
     if (passes->is_whole())

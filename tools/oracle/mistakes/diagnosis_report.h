@@ -1,4 +1,4 @@
-// tools/oracle/mistakes/diagnosis_report.h - a diagnosis in words and as JSON.
+// tools/oracle/mistakes/diagnosis_report.h - a diagnosis as text and as JSON.
 #pragma once
 #include <string>
 
@@ -8,13 +8,13 @@ namespace strata::oracle {
 
 [[nodiscard]] std::string_view name(Verdict verdict) noexcept;
 
-// "colours multiplied by their alpha twice (premultiplied_twice); and: ..."; "the right machine" for none.
+// "colours multiplied by their alpha twice (premultiplied_twice); and: ..."; "the right machine" if empty.
 [[nodiscard]] std::string sentence_of(const std::vector<const Mistake*>& mistakes);
 
-// `comparison`: of the right picture and the candidate. The verdict in the first line, then the next best findings;
-// where the right machine did not make the picture, what compare says of it.
+// `comparison`: of the correct image and the candidate. The first line is the verdict; the next best findings follow,
+// and, if the correct run did not make the image, the report of compare.
 [[nodiscard]] std::string to_text(const Diagnosis& diagnosis, const Comparison& comparison);
-// One object; every key is always there.
+// One object; all keys are always present.
 [[nodiscard]] std::string to_json(const Diagnosis& diagnosis, const Comparison& comparison);
 
 }  // namespace strata::oracle

@@ -24,7 +24,7 @@ RenderTarget Names::partner(RenderTarget target) const {
     RenderTarget other = target;
     for (std::size_t i = 0; i < names_.size(); ++i)
         if (i != id && names_[i] == names_[id]) {
-            if (other != target) return target;  // three of them are no pair
+            if (other != target) return target;  // three are not a pair
             other = {static_cast<int>(i)};
         }
     return other;
@@ -40,7 +40,7 @@ pipeline::DrawList& Experiment::scene() {
 
 namespace {
 
-// Both functions, one after the other.
+// Calls both functions, one after the other.
 template <class T>
 std::function<void(T&)> in_turn(std::function<void(T&)> first, std::function<void(T&)> second) {
     if (!first || !second) return first ? first : second;
@@ -64,7 +64,7 @@ namespace {
 
 using pipeline::Alteration;
 
-// Calls the program of alteration `next` and of those behind it around the pass's own.
+// Calls the program of alteration `next` and of the later ones around the pass's own program.
 void run_program(const std::vector<Alteration>& all, std::size_t next, const pipeline::ProgramCall& call,
                  const std::function<void()>& run) {
     while (next < all.size() && !all[next].program) ++next;

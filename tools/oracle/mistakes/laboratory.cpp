@@ -11,7 +11,7 @@ namespace strata::oracle {
 
 namespace {
 
-// What run() makes; nothing where no machine of the mistaken kind has what it takes, or could run such a pass.
+// The result of run(); empty if the device lacks a feature that the mistake needs, or cannot run such a pass.
 auto made(auto&& run) -> std::optional<decltype(run())> {
     try {
         return run();
@@ -23,8 +23,8 @@ auto made(auto&& run) -> std::optional<decltype(run())> {
 
 using Targets = std::vector<Target>;
 
-// The target that is published, as what happens to the finished picture leaves it: a port may do that in its last pass.
-// Under its own name.
+// The published target with the changes to the finished image applied, because a port may make them in its last pass.
+// It keeps its name.
 Targets finished(const PassShown& last, const PassShown& published, const Experiment& e) {
     Targets targets;
     for (const NamedImage& target : last.targets) {
@@ -71,7 +71,8 @@ Picture Laboratory::run(const Experiment& e, RightRun* counted) const {
     return picture;
 }
 
-// An iteration has up to seven passes, and the last one of most peels finds nothing: fewer than eight runs decide.
+// An iteration has at most seven passes, and the last one of most peels finds nothing, so fewer than eight runs
+// suffice.
 void Laboratory::find_enough_passes() {
     right_run_.enough_passes = right_run_.passes;
     for (int passes = right_run_.passes - 1; passes >= 1; --passes) {

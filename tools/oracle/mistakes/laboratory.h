@@ -1,9 +1,9 @@
-// tools/oracle/mistakes/laboratory.h - makes pictures of one scene: the right one, and those of machines with mistakes.
+// tools/oracle/mistakes/laboratory.h - renders images of one scene: the correct one, and those with mistakes.
 //
-// Rule     A picture has the colours as stored, and the nearest depth as stored where the caller wants depths. A wrong
-//          machine may never end: it gets the passes of the limit that the caller knows; else twice those of the right
-//          run, and eight, or as many, where the right run is endless itself. What a machine refuses, or cannot run, is
-//          no picture.
+// Rule     An image has the stored colours, and the stored nearest depth if the caller requests depths. A run with a
+//          mistake may not terminate: its passes are limited to the caller's limit, if given; otherwise to twice those
+//          of the correct run plus eight, or to the same number if the correct run does not terminate either. If a run
+//          is refused or cannot be made, there is no image.
 // Tests    tests/tools/oracle/mistakes/laboratory_test.cpp
 #pragma once
 #include <optional>
@@ -21,19 +21,19 @@ enum class Depths : std::uint8_t { left_out, made };
 
 class Laboratory {
   public:
-    // Throws Refused where the right run is refused. What `input` refers to must live as long.
-    // `limit`: the geometry passes after which the candidate gives up; 0: not known.
+    // Throws Refused if the correct run is refused. Objects that `input` refers to must outlive this. `limit`: the
+    // number of geometry passes after which the candidate gives up; 0: unknown.
     Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths = Depths::left_out,
                int limit = 0);
 
     [[nodiscard]] const Picture& right() const noexcept { return right_; }
     [[nodiscard]] const RightRun& right_run() const noexcept { return right_run_; }
 
-    // All of `mistakes` together, made in their order. Nothing where one of them cannot be made. From any thread.
+    // Applies all of `mistakes` in their order. Empty if one of them is not applicable. Thread-safe.
     [[nodiscard]] std::optional<Picture> with(std::span<const Mistake* const> mistakes) const;
     [[nodiscard]] std::optional<Picture> with(const Mistake& mistake) const;
 
-    // How far the passes of the machine with all of `mistakes`, or of the right one, are `candidate`'s.
+    // Compares the passes of the run with all of `mistakes`, or of the correct run, with `candidate`.
     [[nodiscard]] std::optional<PassAgreement> compare_passes(std::span<const Mistake* const> mistakes,
                                                               const std::vector<PassPicture>& candidate) const;
 
@@ -51,10 +51,10 @@ class Laboratory {
     Picture right_;
 };
 
-// A picture's colours as an image to be written.
+// An image's colours, to be written to a file.
 [[nodiscard]] pipeline::Image color_image(const Picture& picture);
 
-// What a mistake of the finished picture makes of one.
+// Applies a mistake of the finished image.
 [[nodiscard]] Picture changed(const Picture& picture, const Mistake& mistake);
 
 }  // namespace strata::oracle

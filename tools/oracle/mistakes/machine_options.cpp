@@ -14,7 +14,7 @@ using pipeline::BlendRounding;
 using pipeline::DeviceProfile;
 using pipeline::Format;
 
-constexpr int most_limits = 16;  // numbers of passes that are tried
+constexpr int most_limits = 16;  // limit on pass counts that are tried
 
 Format accumulators(const Experiment& e) {
     const bool is_exact = e.profile.raster.depth_path == rasterizer::DepthPath::exact;
@@ -46,8 +46,8 @@ void add_blends(std::vector<Mistake>& all) {
             return true;
         }));
     }
-    // One colour at all corners is that colour at every fragment, as a uniform is: flatness stands before all that has
-    // slopes.
+    // If all corners have one colour, every fragment has that colour, like a uniform; so this option precedes those for
+    // triangles with slopes.
     using rasterizer::EqualColors;
     for (const EqualColors rule : enum_values<EqualColors>) {
         const auto word = enum_names<EqualColors>[static_cast<std::size_t>(rule)];
@@ -61,7 +61,7 @@ void add_blends(std::vector<Mistake>& all) {
     }
 }
 
-// Of the accumulators under the same picture, of both, and of dual's back.
+// Adds formats for the accumulators under the same image format, for both, and for dual's back.
 void add_formats(std::vector<Mistake>& all) {
     for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
         const auto word = info(format).name;
@@ -95,13 +95,13 @@ void add_formats(std::vector<Mistake>& all) {
 void add_profile(std::vector<Mistake>& all, const DeviceProfile& profile) {
     all.push_back(allowed("profile_" + profile.name, fmt::format("profile {}", profile.name), [profile](Experiment& e) {
         if (e.profile == profile) return false;
-        e.options.color_format = accumulators(e);  // the picture stays one of its kind
+        e.options.color_format = accumulators(e);  // the image keeps its format
         e.profile = with_origin(profile, e.profile.origin);
         return true;
     }));
 }
 
-// Whether a pass more is a layer more, from the nearest on.
+// True if every further pass adds one layer, from the nearest on.
 bool peels_by_one(const peeling::Algorithm& algorithm) {
     const auto passes = algorithm.geometry_passes;
     return passes != nullptr && !algorithm.takes_both_ends && passes(1) == 2 && passes(2) == 3 && passes(9) == 10;
@@ -126,7 +126,7 @@ void add_limits(std::vector<Mistake>& all, const peeling::Algorithm& algorithm, 
                        }});
 }
 
-// A peel that compares its own codes has no room for an epsilon.
+// A peel that compares its own codes does not support an epsilon.
 bool takes_epsilon(const Experiment& e) { return !e.algorithm->compares_own_codes && e.right.passes > 1; }
 
 void add_epsilons(std::vector<Mistake>& all) {

@@ -1,10 +1,9 @@
-// tools/oracle/mistakes/machine_options.h - what a caller may have asked of a right machine, as changes that a
-// diagnosis tries before all mistakes.
+// tools/oracle/mistakes/machine_options.h - legitimate options of a correct run, as changes that a diagnosis tries
+// before all mistakes.
 //
-// Rule     First what a right port may do without a word: another rounding of its blends, accumulators of other formats
-//          below the same picture, another of the built-in profiles or of the user's. Then what a user has to ask for,
-//          and what leaves another picture than the one that was meant: fewer passes, an epsilon, a background that
-//          lets light through.
+// Rule     First choices that a correct port may make silently: another rounding in blending, accumulators of other
+//          formats with the same image format, another built-in or user profile. Then options that a user has to set
+//          and that change the image: fewer passes, an epsilon, a transparent background.
 // Tests    tests/tools/oracle/mistakes/machine_options_test.cpp
 #pragma once
 #include <span>
@@ -14,7 +13,7 @@
 
 namespace strata::oracle {
 
-// `right`: of the algorithm's run as the caller knows it. `more`: profiles beside the built-in ones.
+// `right`: the caller's correct run of the algorithm. `more`: profiles in addition to the built-in ones.
 [[nodiscard]] std::vector<Mistake> machine_options(const peeling::Algorithm& algorithm, const RightRun& right,
                                                    std::span<const pipeline::DeviceProfile> more = {});
 

@@ -1,5 +1,4 @@
-// tools/oracle/mistakes/mistake_plot.cpp - how many mistakes each scene of the suite shows, as a drawing: a bar a
-// scene.
+// tools/oracle/mistakes/mistake_plot.cpp - a bar chart of the number of mistakes that each scene of the suite reveals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace {
 
 constexpr int row_px = 20, names_px = 270, unit_px = 5, top_px = 64, margin_px = 16;
 
-// From the left of a bar to its right. What names another mistake is red, and there should be none.
+// The segments of a bar from left to right. Those where another mistake is reported are red; there should be none.
 struct Piece {
     const char* words;
     const char* color;
@@ -42,7 +41,7 @@ int number_in(const TableColumn& column, const Piece& piece) {
         column.cells, [&](Cell cell) { return std::ranges::find(piece.cells, cell) != piece.cells.end(); }));
 }
 
-// Two rows: the words are longer than the drawing is wide.
+// Two rows, because the text is wider than the drawing.
 std::string legend() {
     std::string text;
     int x = margin_px, y = margin_px;

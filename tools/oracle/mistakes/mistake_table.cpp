@@ -107,8 +107,8 @@ std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns) {
 
 namespace {
 
-// Where a mistake is named first: the first such scene, and in how many; of a declared look_alike, whose name is named
-// instead.
+// The first scene in which a mistake is reported first, and the number of such scenes; for the second of a declared
+// pair, the mistake that is reported instead.
 std::string first_scene(const std::vector<TableColumn>& columns, std::size_t mistake) {
     const auto scenes = named_in(columns, mistake);
     if (!scenes.empty()) return fmt::format("{} ({} in all)", scenes.front()->name, scenes.size());
@@ -116,7 +116,7 @@ std::string first_scene(const std::vector<TableColumn>& columns, std::size_t mis
     return look_alike == std::end(declared) ? "nowhere" : fmt::format("named as {}, its equal", look_alike->first);
 }
 
-// "none", or their names with what each is equal to.
+// "none", or their names with the mistakes that they are equal to.
 std::string unnamed_text(const std::vector<TableColumn>& columns) {
     std::string text;
     for (const Mistake* mistake : unnamed(columns)) {
@@ -140,7 +140,7 @@ std::ptrdiff_t number_of(const std::vector<TableColumn>& columns, std::initializ
     return number;
 }
 
-// What was found, in three sentences.
+// The results, in three sentences.
 std::string findings(const std::vector<TableColumn>& columns) {
     const std::size_t all = catalogue().size();
     std::size_t in_one = 0, most = 0;

@@ -1,8 +1,8 @@
-// tools/oracle/mistakes/mistake_table.h - which mistake shows in which scene of the suite, and what a diagnosis says
-// there.
+// tools/oracle/mistakes/mistake_table.h - a table of the mistakes and the scenes of the suite, with the result of a
+// diagnosis for each.
 //
-// Rule     The picture of each mistake is diagnosed like anybody's. Two mistakes are told apart if their pictures of
-//          some scene differ, or if one of them can be made there and shows, and the other one cannot be made.
+// Rule     The image of each mistake is diagnosed like any candidate. Two mistakes are distinguished if their images of
+//          some scene differ, or if one of them changes the image there and the other one is not applicable.
 // Tests    tests/tools/oracle/mistakes/catalogue_test.cpp
 #pragma once
 #include <string>
@@ -14,18 +14,18 @@
 namespace strata::oracle {
 
 enum class Cell : std::uint8_t {
-    named,      // the diagnosis names this mistake first
-    alike,      // another one leaves the same picture and is named; this one stands beside it
-    wrong,      // the diagnosis names something else
-    hidden,     // the picture is the right one, and so is the diagnosis
-    accused,    // the picture is the right one, and a mistake is named
-    impossible  // cannot be made here
+    named,      // the diagnosis reports this mistake first
+    alike,      // another mistake with the same image is reported, and this one is listed with it
+    wrong,      // the diagnosis reports something else
+    hidden,     // the image is correct, and the diagnosis says so
+    accused,    // the image is correct, and a mistake is reported
+    impossible  // not applicable to this scene
 };
 
 struct TableColumn {
     const SuiteScene* scene = nullptr;
-    std::vector<Cell> cells{};           // a mistake of the catalogue each
-    std::vector<std::size_t> picture{};  // a number for each different picture; 0: the right one, or none
+    std::vector<Cell> cells{};           // one per mistake of the catalogue
+    std::vector<std::size_t> picture{};  // per mistake; equal for equal images; 0: correct or none
 };
 [[nodiscard]] TableColumn table_column(const SuiteScene& scene);
 
@@ -33,21 +33,21 @@ struct LookAlikes {
     const Mistake* first = nullptr;
     const Mistake* second = nullptr;
 };
-// Mistakes that no column tells apart.
+// Pairs of mistakes that no scene distinguishes.
 [[nodiscard]] std::vector<LookAlikes> look_alikes(const std::vector<TableColumn>& columns);
-// Why two mistakes can leave no unequal pictures, a sentence; null where none is stated.
+// The reason why two mistakes give equal images in all scenes, as one sentence; null if none is stated.
 [[nodiscard]] const char* reason_for(const LookAlikes& pair);
-// Whether it is the second one of such a pair: always named by the first one's name.
+// True if it is the second mistake of such a pair, for which the first one is always reported.
 [[nodiscard]] bool is_declared_look_alike(const Mistake& mistake);
-// The scenes in which a mistake of the catalogue is named first.
+// The scenes in which a mistake of the catalogue is reported first.
 [[nodiscard]] std::vector<const SuiteScene*> named_in(const std::vector<TableColumn>& columns, std::size_t mistake);
-// Mistakes that no column names.
+// Mistakes that no scene reveals.
 [[nodiscard]] std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns);
 
-// A page in Markdown: what was found, the table, the scenes with their commands, the mistakes in words. `plot`: the
-// file beside the page that holds the drawing; empty: none.
+// A page in Markdown: the results, the table, the scenes with their commands, descriptions of the mistakes. `plot`:
+// file name of the chart, which is in the same folder; empty: none.
 [[nodiscard]] std::string to_page(const std::vector<TableColumn>& columns, const std::string& plot);
-// That drawing, an SVG file: how many mistakes each scene shows, a bar a scene.
+// The chart as SVG: the number of mistakes per scene, one bar each.
 [[nodiscard]] std::string to_svg(const std::vector<TableColumn>& columns);
 
 }  // namespace strata::oracle

@@ -26,8 +26,8 @@ bool takes_color(Experiment& e, Format format) {
     return true;
 }
 
-// Clip x and y move by so many pixels' share of w, to the right and up: behind the vertex stage, so that no product of
-// it rounds otherwise. A device that fuses the viewport's sums fuses those of its shaders, too.
+// Translates clip x and y by the given number of pixels, to the right and up: after the vertex stage, so that no
+// product of it is rounded differently. A device that fuses the viewport's sums also fuses those of its shaders.
 bool moves(Experiment& e, double right_px, double up_px) {
     const auto x = static_cast<float>(2 * right_px / e.options.width);
     const auto y = static_cast<float>(2 * up_px / e.options.height);
@@ -47,7 +47,7 @@ bool moves(Experiment& e, double right_px, double up_px) {
     return true;
 }
 
-// The other side of ties: 1 exchanges left and right, 2 top and bottom.
+// Reverses the tie rule: 1 exchanges left and right, 2 top and bottom.
 bool gives_ties(Experiment& e, unsigned sides) {
     using rasterizer::TieRule;
     constexpr TieRule rules[] = {TieRule::top_left, TieRule::top_right, TieRule::bottom_left, TieRule::bottom_right};
@@ -63,7 +63,7 @@ bool snaps_to(Experiment& e, int bits) {
     return true;
 }
 
-// Nothing is left to peel.
+// No transparent surface is left to peel.
 bool loses_transparent_surfaces(Experiment& e) {
     pipeline::DrawList& scene = e.scene();
     const auto is_transparent = [&](const pipeline::Instance& instance) {
@@ -74,7 +74,7 @@ bool loses_transparent_surfaces(Experiment& e) {
 
 bool is_peel(const Experiment& e) { return e.right.passes > 1; }
 
-// The limit of a caller who wants so many layers alone.
+// The option with which a caller limits the number of layers.
 int* limit_of(Experiment& e) {
     if (e.options.termination.rule == pipeline::TerminationRule::fixed) return &e.options.termination.passes;
     return e.options.max_passes > 0 ? &e.options.max_passes : nullptr;
@@ -158,7 +158,7 @@ const Mistake machine_mistakes[] = {
      [](Experiment& e) { return moves(e, 0.5, 0.5); }},
     {"half_pixel_down", "everything moved left and down by half a pixel", Place::machine,
      [](Experiment& e) { return moves(e, -0.5, -0.5); }},
-    // Where y runs down, a half pixel in both directions is one of these.
+    // If y points down, a half pixel in both directions is one of these.
     {"half_pixel_right", "everything moved right and down by half a pixel", Place::machine,
      [](Experiment& e) { return moves(e, 0.5, -0.5); }},
     {"half_pixel_left", "everything moved left and up by half a pixel", Place::machine,

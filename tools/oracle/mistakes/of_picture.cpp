@@ -1,4 +1,4 @@
-// tools/oracle/mistakes/of_picture.cpp - mistakes that a finished picture suffers on its way into a file.
+// tools/oracle/mistakes/of_picture.cpp - mistakes in writing a finished image to a file.
 #include <algorithm>
 #include <array>
 
@@ -14,7 +14,7 @@ bool afterwards(Experiment& e, std::function<void(Picture&)> change) {
     return true;
 }
 
-// Pixel (x, y) gets what stood at place(x, y, width, height); pixels from outside stay.
+// Pixel (x, y) gets the value of pixel place(x, y, width, height); pixels whose source is outside are unchanged.
 template <class PlaceOf>
 bool from_elsewhere(Experiment& e, PlaceOf place) {
     return afterwards(e, [=](Picture& picture) {
@@ -37,7 +37,7 @@ bool from_elsewhere(Experiment& e, PlaceOf place) {
     });
 }
 
-// Red, green and blue of every colour target become value(channel).
+// Replaces red, green and blue of every colour target by value(channel).
 template <class Value>
 bool with_colors(Experiment& e, Value value) {
     return afterwards(e, [=](Picture& picture) {
@@ -46,7 +46,7 @@ bool with_colors(Experiment& e, Value value) {
             const auto changed = [&](std::uint32_t word) {
                 return nearest(t.code, value(oracle::value(t.code, word)));
             };
-            // 8-bit codes have 256 values, each of them asked for often.
+            // A table for the 256 values of 8-bit codes, each of which occurs often.
             std::array<std::uint32_t, 256> of_byte{};
             for (std::uint32_t word = 0; t.code == Code::unorm8 && word < 256; ++word) of_byte[word] = changed(word);
             const auto channels = static_cast<std::size_t>(t.channels);

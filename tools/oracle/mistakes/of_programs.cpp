@@ -1,5 +1,4 @@
-// tools/oracle/mistakes/of_programs.cpp - mistakes in fragment programs: what a pass's program is given, and what it
-// gives out.
+// tools/oracle/mistakes/of_programs.cpp - mistakes in the inputs and outputs of fragment programs.
 #include <algorithm>
 
 #include "peeling/programs/min_max.h"
@@ -11,7 +10,7 @@ namespace {
 
 using namespace pipeline;
 
-// change(in) for every batch of fragments before its program runs.
+// Calls change(in) for every batch of fragments before its program runs.
 template <class Change>
 bool before_programs(Experiment& e, Change change) {
     e.alterations.push_back({.program = [change](const ProgramCall& call, const std::function<void()>& run) {
@@ -21,7 +20,7 @@ bool before_programs(Experiment& e, Change change) {
     return true;
 }
 
-// change(names, call) behind every program of this kind of pass.
+// Calls change(names, call) after every program of this kind of pass.
 template <class Change>
 bool behind_programs(Experiment& e, pipeline::PassKind kind, Change change) {
     e.alterations.push_back(
@@ -34,13 +33,13 @@ bool behind_programs(Experiment& e, pipeline::PassKind kind, Change change) {
 
 std::size_t count_of(const ProgramCall& call) { return static_cast<std::size_t>(call.in.count); }
 
-// The pass of dual peeling that blends the near fragments by itself.
+// True for the pass of dual peeling whose program blends the near fragments.
 bool is_dual_peel(const Names& names, const PassState& state) { return names.is(state.color[2], "back_layer"); }
 bool is_min_max_peel(const Names& names, const PassState& state) {
     return names.is(state.color[0], "min_max") && state.color[1].exists();
 }
 
-// body(i) for the lanes that lie at the near end of the peeled range.
+// Calls body(i) for the lanes at the near end of the peeled range.
 template <class Body>
 void for_near(const ProgramCall& call, Body body) {
     peeling::PeelLanes side;
@@ -49,13 +48,13 @@ void for_near(const ProgramCall& call, Body body) {
         if (side.is_near[i] != 0) body(i);
 }
 
-// The pass that puts the front over what lies behind it.
+// True for the pass that blends the front over the colour behind it.
 bool is_last_quad(const Names& names, const PassState& state) {
     return names.is(state.color[0], "result") &&
            (names.is(state.reads[0], "front") || names.is(state.reads[0], "accumulated"));
 }
 
-// A target whose colours are to come times their alpha.
+// True for a target whose colours should be premultiplied.
 bool is_premultiplied(const Names& names, const PassState& state, std::size_t target) {
     const Blend& blend = state.blend[target];
     const bool is_sum = names.is(state.color[target], "sums");
@@ -80,7 +79,7 @@ void leave_straight(const Names& names, const ProgramCall& call) {
     }
 }
 
-// Fragments at the depth that was peeled last come again.
+// Fragments at the depth that was peeled last are peeled again.
 void peel_again(const Names& names, const ProgramCall& call) {
     if (is_min_max_peel(names, call.state)) {
         const bool is_dual = is_dual_peel(names, call.state);
@@ -100,7 +99,7 @@ void peel_again(const Names& names, const ProgramCall& call) {
         if (call.in.code[i] == call.own.depth(0)[i]) call.out.alive[i] = ~0u;
 }
 
-// In dual peeling's program; elsewhere UNDER is blend state (of_steps.cpp).
+// In dual peeling's program; in other algorithms UNDER is blend state (of_steps.cpp).
 void forget_transmittance(const Names& names, const ProgramCall& call) {
     if (!is_dual_peel(names, call.state)) return;
     for_near(call, [&](std::size_t i) {
@@ -110,7 +109,7 @@ void forget_transmittance(const Names& names, const ProgramCall& call) {
     });
 }
 
-// Blending multiplies the far layer of dual peeling with its alpha, so its colours are to come straight.
+// Blending multiplies the far layer of dual peeling by its alpha, so its colours must not be premultiplied.
 void premultiply_far_layer(const Names& names, const ProgramCall& call) {
     if (!is_dual_peel(names, call.state)) return;
     auto& far = call.out.color[2];
@@ -118,7 +117,7 @@ void premultiply_far_layer(const Names& names, const ProgramCall& call) {
         for (std::size_t i = 0; i < count_of(call); ++i) far[c][i] *= far[3][i];
 }
 
-// t = 1 - average alpha, as if one fragment stood for all.
+// t = 1 - average alpha, as for a single fragment.
 void average_without_power(const Names& names, const ProgramCall& call) {
     if (!names.is(call.state.reads[0], "sums") || !names.is(call.state.reads[1], "count")) return;
     const ColorLanes& sum = call.own.color(0);

@@ -1,4 +1,4 @@
-// tools/oracle/mistakes/of_scene.cpp - mistakes in what is handed to the machine: materials, textures, colours, order.
+// tools/oracle/mistakes/of_scene.cpp - mistakes in the input of the pipeline: materials, textures, colours, order.
 #include <algorithm>
 #include <memory>
 
@@ -18,7 +18,7 @@ using pipeline::Mesh;
 using pipeline::Rgba;
 using pipeline::Texture;
 
-// Calls change(x) for all of `values`; true if one of them is another afterwards.
+// Calls change(x) for all of `values`; true if one of them has changed.
 template <class T, class Change>
 bool changes(std::vector<T>& values, Change change) {
     bool has_changed = false;
@@ -32,7 +32,7 @@ bool changes(std::vector<T>& values, Change change) {
 
 bool is_textured(const Experiment& e) { return !e.list->textures.empty(); }
 
-// Every triangle gets three vertices of its own, all with the colour and the normal of its last one.
+// Gives every triangle three vertices of its own, with the colour and the normal of its last one.
 void flatten(Mesh& mesh) {
     const Mesh from = mesh;
     mesh.positions.clear();
@@ -51,16 +51,16 @@ void flatten(Mesh& mesh) {
     }
 }
 
-// Whether a depth is a quotient of attributes: then w is not the colours' alone.
+// True if a depth is a quotient of attributes: then not only colours depend on w.
 bool has_quotient_depth(const Experiment& e) {
     const auto own = e.options.depth_path.value_or(e.profile.raster.depth_path);
     const auto& compared = e.options.reference_path ? e.options.reference_path : e.algorithm->compares;
     return peeling::takes_quotient({.path = e.algorithm->stores.value_or(own), .reference = compared});
 }
 
-// Attributes run linearly over the window; positions and depths stay as they are to the last bit. What is cut is linear
-// in clip space: values times w are so where the values are linear over the window. Vertices that no cut made get their
-// own values back.
+// Attributes are interpolated linearly over the window; positions and depths do not change by a bit. Clipping is linear
+// in clip space, and values times w are linear there if the values are linear over the window. Vertices not made by
+// clipping keep their values exactly.
 void make_affine(Experiment& e) {
     using rasterizer::ClipVertex;
     const auto times = [](ClipVertex& v, float factor) {
@@ -90,7 +90,7 @@ void make_affine(Experiment& e) {
                           }});
 }
 
-// Whether any triangle has more than one colour: without slopes nothing can be wrong with them.
+// True if any triangle has more than one colour: without slopes interpolation cannot be wrong.
 bool has_slopes(const Experiment& e) {
     if (is_textured(e)) return true;
     const rasterizer::TriangleSoup soup = pipeline::transform(*e.list, e.view, {});
@@ -106,8 +106,8 @@ bool has_slopes(const Experiment& e) {
 
 enum class Weighting : std::uint8_t { affine, unnormalised };
 
-// The light that fell on a vertex times its colour: what the material was multiplied by. Its own colour says nothing
-// where it is 0.
+// The light at a vertex times its colour, which is what the material was multiplied by. Where the material's colour is
+// 0 it cannot be recovered.
 Rgba without_material(const rasterizer::ClipVertex& v, const Material& material) {
     Rgba color{0, 0, 0, 0};
     for (std::size_t c = 0; c < 4; ++c)
@@ -118,8 +118,8 @@ Rgba without_material(const rasterizer::ClipVertex& v, const Material& material)
     return color;
 }
 
-// The scene behind its vertex stage, with w divided out of all positions: whatever is interpolated then runs linearly
-// over the window. Scenes with a corner at or behind the eye have no such form.
+// The scene after its vertex stage, with all positions divided by w: all interpolation is then linear over the window.
+// Scenes with a corner at or behind the eye have no such form.
 bool loses_perspective(Experiment& e, Weighting weighting) {
     const rasterizer::TriangleSoup soup = pipeline::transform(*e.list, e.view, {});
     const auto& vertices = soup.vertices;
@@ -142,7 +142,7 @@ bool loses_perspective(Experiment& e, Weighting weighting) {
             mesh.positions.push_back({v.x / v.w, v.y / v.w, v.z / v.w});
             mesh.colors.push_back(color);
             mesh.texcoords.push_back({v.texcoord[0], v.texcoord[1]});
-            // A mirrored instance keeps its facing by the other winding.
+            // A mirrored instance needs the opposite winding to keep its facing.
             mesh.indices.push_back(
                 static_cast<std::uint32_t>(run.mirrored && i % 3 != 0 ? i - i % 3 + (3 - i % 3) : i));
         }
@@ -170,7 +170,7 @@ const Mistake scene_mistakes[] = {
     {"colors_flat", "flat colours: each triangle has that of its last corner", Place::scene,
      [](Experiment& e) {
          std::ranges::for_each(e.scene().meshes, flatten);
-         // A constant over w, divided by 1 / w, is rounded twice: a flat colour is not.
+         // A constant divided by w and then by 1 / w is rounded twice, a flat colour is not.
          if (!is_textured(e) && !has_quotient_depth(e)) make_affine(e);
          return true;
      }},
@@ -251,7 +251,7 @@ const Mistake scene_mistakes[] = {
          DrawList& list = e.scene();
          std::ranges::reverse(list.instances);
          for (Mesh& mesh : list.meshes) {
-             // By threes: each triangle keeps its first corner and its winding.
+             // Reversed in groups of three: each triangle keeps its first corner and its winding.
              std::ranges::reverse(mesh.indices);
              for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
                  std::swap(mesh.indices[i], mesh.indices[i + 2]);

@@ -13,7 +13,7 @@ namespace {
 using namespace pipeline;
 using RenderTarget = pipeline::Target;
 
-// change(state) for every geometry pass.
+// Calls change(state) for every geometry pass.
 template <class Change>
 bool in_geometry_passes(Experiment& e, Change change) {
     e.alterations.push_back({.pass = [names = e.names, change](Region&, PassState& state, pipeline::PassKind kind) {
@@ -22,10 +22,10 @@ bool in_geometry_passes(Experiment& e, Change change) {
     return true;
 }
 
-// change(blend) for every target that blends, of all passes.
+// Calls change(blend) for every target that blends, in all passes.
 template <class Change>
 bool in_blends(Experiment& e, Change change) {
-    // An alteration may blend two targets unlike each other: the machine that makes a mistake is one that can.
+    // An alteration may set different blends for two targets, so the device must support that.
     e.profile.has_independent_blend = e.profile.has_separate_alpha_blend = true;
     e.alterations.push_back({.pass = [change](Region&, PassState& state, pipeline::PassKind) {
         for (Blend& blend : state.blend)
@@ -34,7 +34,7 @@ bool in_blends(Experiment& e, Change change) {
     return true;
 }
 
-// change(names, region, target, value) before every clear; false leaves it out.
+// Calls change(names, region, target, value) before every clear; if it returns false the clear is skipped.
 template <class Change>
 bool in_clears(Experiment& e, Change change) {
     e.alterations.push_back(
@@ -49,7 +49,7 @@ bool in_queries(Experiment& e, std::function<bool(std::uint64_t count, bool goes
     return true;
 }
 
-// The pass that composites a layer of a single fragment leaves it out, too: a query decides before it.
+// A layer of a single fragment is not composited either, because the query decides before that pass.
 bool stops_at_one(Experiment& e) {
     const auto passed = std::make_shared<std::uint64_t>(0);  // of the last geometry pass
     e.alterations.push_back({.pass =
@@ -78,14 +78,14 @@ bool is(const Blend& blend, const Blend& mode) {
     return blend.enabled && blend.color == mode.color && blend.alpha == mode.alpha;
 }
 
-// Every stencil operation that stops at an end of the range goes around instead.
+// Every stencil operation that saturates wraps instead.
 void wrap(StencilFace& face) {
     for (StencilOp* const op : {&face.fail, &face.depth_fail, &face.pass})
         *op = *op == StencilOp::incr ? StencilOp::incr_wrap : *op == StencilOp::decr ? StencilOp::decr_wrap : *op;
 }
 
-// Pairs that an algorithm swaps keep the roles that they have in its first iteration: in every second iteration each
-// stands for the other.
+// Pairs that an algorithm swaps keep the roles of its first iteration: in every second iteration the targets of a pair
+// are exchanged.
 class NoPingPong {
   public:
     explicit NoPingPong(std::shared_ptr<Names> names) : names_{std::move(names)} {}
@@ -149,7 +149,7 @@ bool loses_opaque_depth(Experiment& e) {
     return true;
 }
 
-// The port never got to its algorithm: OVER of whatever comes, as it comes.
+// The port never reaches its algorithm: OVER in submission order.
 bool sorts_nothing(Experiment& e) {
     const peeling::Algorithm* const unsorted = peeling::find_algorithm("unsorted");
     if (e.algorithm == unsorted) return false;

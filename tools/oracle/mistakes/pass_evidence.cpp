@@ -9,7 +9,7 @@ namespace strata::oracle {
 
 namespace {
 
-// Codes that rounding explains.
+// The number of codes that rounding can explain.
 std::uint32_t rounding_of(Code code) noexcept {
     switch (code) {
         case Code::single: return 64;
@@ -27,7 +27,7 @@ bool has_one_shape(const Target& a, const Target& b) {
     return a.width == b.width && a.height == b.height && a.channels == b.channels;
 }
 
-// The greatest distance of two codes.
+// The largest distance of two codes.
 std::uint32_t greatest_distance(const Target& a, const Target& b) {
     if (a.code == b.code && a.codes == b.codes) return 0;
     std::uint32_t greatest = 0;
@@ -36,7 +36,7 @@ std::uint32_t greatest_distance(const Target& a, const Target& b) {
     return greatest;
 }
 
-// The pixels with a channel that is further away than `forgiven`; of unequal shapes all.
+// The number of pixels with a channel that differs by more than `forgiven`; for unequal shapes, all.
 std::uint64_t far_pixels(const Target& a, const Target& b, std::uint32_t forgiven) {
     if (!has_one_shape(a, b)) return a.pixels();
     const auto channels = static_cast<std::size_t>(a.channels);
@@ -50,7 +50,7 @@ std::uint64_t far_pixels(const Target& a, const Target& b, std::uint32_t forgive
     return far;
 }
 
-// Whether the first difference comes behind that of the right machine, which has one.
+// True if the first difference is in a later pass than that of the correct run, which has one.
 bool is_later(const std::optional<int>& machine, const std::optional<int>& right) {
     return right && (!machine || *machine > *right);
 }

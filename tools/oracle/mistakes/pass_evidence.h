@@ -1,8 +1,8 @@
-// tools/oracle/mistakes/pass_evidence.h - how far the passes of a machine are those of a candidate, target by target.
+// tools/oracle/mistakes/pass_evidence.h - compares the passes of a run with those of a candidate, target by target.
 //
-// Rule     Targets are paired by the number of the pass and their names; one is alike if all of its codes are. What one
-//          side alone has is not compared. A target is far off if a code is further away than the rounding of another
-//          way to the same values explains: 64 codes of binary32, 16 of 24 bits, 2 of fp16, 1 of fewer bits.
+// Rule     Targets are paired by pass number and name; a target is alike if all of its codes are equal. Targets of only
+//          one of the two are not compared. A target is far off if a code differs by more than other rounding can
+//          explain: 64 codes of binary32, 16 of 24 bits, 2 of fp16, 1 of fewer bits.
 // Tests    tests/tools/oracle/mistakes/pass_evidence_test.cpp
 #pragma once
 #include <cstdint>
@@ -18,24 +18,24 @@ struct PassPicture;  // tools/oracle/pack/pack_pictures.h
 struct PassShown;    // tools/oracle/passes.h
 
 struct PassAgreement {
-    int targets = 0, alike = 0;       // compared; equal to the last code
-    std::optional<int> first_unlike;  // the first pass with a target that is not
+    int targets = 0, alike = 0;       // targets: compared; alike: equal in all codes
+    std::optional<int> first_unlike;  // the first pass with a target that is not alike
     std::optional<int> first_far;     // the first pass with a target that is far off
-    std::vector<std::uint64_t> far;   // pixels of each pass that are far off, of all targets; by the number of the pass
+    std::vector<std::uint64_t> far;   // per pass, the number of far-off pixels in all targets
     [[nodiscard]] bool is_whole() const noexcept { return !first_unlike; }
     friend bool operator==(const PassAgreement&, const PassAgreement&) = default;
 };
 
-// Whether a machine's passes are the candidate's, to the last code or nearly, where the right machine's first are not:
-// nearly is also a twentieth of the pixels that are far off there, as an edge of another rounding leaves them.
+// True if a run's passes equal the candidate's, or first differ in a later pass than the correct run's, or have at most
+// a twentieth of the correct run's far-off pixels in its first far-off pass, as from edges with other rounding.
 [[nodiscard]] bool explains_origin(const PassAgreement& machine, const PassAgreement& right);
 
-// Takes a machine's passes one after the other.
+// Receives a run's passes one after another.
 class PassEvidence {
   public:
-    // `candidate` must live as long.
+    // `candidate` must outlive this.
     explicit PassEvidence(const std::vector<PassPicture>& candidate) : candidate_{candidate} {}
-    // A target that is not the candidate's may stand as one of `instead` with its name.
+    // A target that is not the candidate's may be replaced by the one of `instead` with its name.
     void add(const PassShown& pass, std::span<const Target> instead = {});
     [[nodiscard]] const PassAgreement& found() const noexcept { return found_; }
 

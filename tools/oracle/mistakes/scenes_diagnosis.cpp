@@ -12,10 +12,10 @@ namespace {
 
 using Mistakes = std::vector<const Mistake*>;
 
-constexpr std::size_t most_of_a_scene = 24;  // machines of one scene that are judged in all the others
+constexpr std::size_t most_of_a_scene = 24;  // limit on findings of one scene that are judged in all others
 
-// Those who are named in a scene, or explain all of its pixels there; the right machine first. In the order of the
-// scenes' findings.
+// The findings that are reported for a scene, or explain all of its pixels there; the correct run first. In the order
+// of the scenes' findings.
 std::vector<Mistakes> hypotheses(const std::vector<Diagnosis>& scenes) {
     std::vector<Mistakes> all{{}};
     std::set<Mistakes> known{{}};
@@ -46,13 +46,13 @@ ScenesFinding judged(const Mistakes& mistakes, const std::vector<SceneEvidence>&
     return found;
 }
 
-// Greater is better.
+// A larger rank is better.
 auto rank_of(const ScenesFinding& f) {
     return std::tuple{std::ranges::count(f.fits, true), -static_cast<std::ptrdiff_t>(f.mistakes.size()),
                       f.targets_alike, f.explained};
 }
 
-// Single mistakes that fit as well as the first finding stand beside it.
+// Single mistakes that fit as well as the first finding are listed with it.
 void gather_alike(std::vector<ScenesFinding>& findings) {
     ScenesFinding& best = findings.front();
     const auto fits_as_well = [&](const ScenesFinding& f) {
@@ -84,7 +84,7 @@ ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes, const 
     gather_alike(result.findings);
     const ScenesFinding& best = result.findings.front();
     const bool fits_all = std::ranges::find(best.fits, false) == best.fits.end();
-    // Within one code is not enough for most pixels.
+    // Within one code is not sufficient for most pixels.
     const bool is_explained = fits_all && 2 * best.explained >= result.differing;
     result.verdict = !is_explained               ? Verdict::none_of_mine
                      : best.mistakes.empty()     ? Verdict::right

@@ -1,11 +1,10 @@
-// tools/oracle/mistakes/scenes_diagnosis.h - which wrong machine made all pictures of a port, one of each of several
-// scenes.
+// tools/oracle/mistakes/scenes_diagnosis.h - finds the mistake of a port from its images of several scenes.
 //
-// Rule     Every scene is diagnosed by itself. A machine that is named in one of them, or explains all of its pixels
-//          there, is judged in all the others: what fits the most scenes is named, of several the one with fewer
-//          mistakes, then the one whose passes agree further. In a scene in which a mistake cannot be made, or hides,
-//          the right machine stands for it. Half of the pixels of all scenes that are not the right machine's have to
-//          be explained to the last code, and all within one.
+// Rule     Every scene is diagnosed by itself. A finding that is reported for one of them, or explains all of its
+//          pixels there, is judged in all others: the one that fits the most scenes is reported; of several the one
+//          with fewer mistakes, then the one whose passes agree further. In a scene to which a mistake is not
+//          applicable, or whose image it does not change, the correct run is used. Half of the pixels of all scenes
+//          that differ from the correct image have to be explained exactly, and all within one code.
 // Tests    tests/tools/oracle/mistakes/scenes_diagnosis_test.cpp
 #pragma once
 #include <string>
@@ -15,41 +14,41 @@
 
 namespace strata::oracle {
 
-// What a port made of one scene. What is pointed to must live as long.
+// A port's image of one scene. Objects that it points to must outlive the diagnosis.
 struct SceneEvidence {
     std::string name{};
     const Lineup* lineup = nullptr;
     const Picture* candidate = nullptr;
-    const std::vector<PassPicture>* passes = nullptr;  // null where there are none
+    const std::vector<PassPicture>* passes = nullptr;  // null if there are none
 };
 
-// A machine in all scenes.
+// A finding for all scenes.
 struct ScenesFinding {
-    std::vector<const Mistake*> mistakes{};  // none: the right machine
-    std::vector<bool> fits{};                // a scene each
-    std::uint64_t explained = 0;             // pixels that are not the right machine's, of all scenes
-    int targets_alike = 0;                   // of passes, of all scenes that it fits
-    std::vector<const Mistake*> alike{};     // other single mistakes that fit as well
+    std::vector<const Mistake*> mistakes{};  // empty: the correct run
+    std::vector<bool> fits{};                // one per scene
+    std::uint64_t explained = 0;             // pixels of all scenes that differ from the correct image
+    int targets_alike = 0;                   // in the passes of all scenes that it fits
+    std::vector<const Mistake*> alike{};     // other single mistakes that fit equally well
 };
 
 struct ScenesDiagnosis {
-    Verdict verdict{};  // none_of_mine: no machine fits every scene
+    Verdict verdict{};  // none_of_mine: no finding fits every scene
     std::uint64_t pixels = 0, differing = 0;
     std::vector<Diagnosis> scenes{};
     std::vector<ScenesFinding> findings{};  // the best first; never empty
 };
 
-// At least one scene.
+// Requires at least one scene.
 [[nodiscard]] ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes,
                                               const Tolerances& tolerances = {}, const ShowProgress& progress = {});
 
-// A scene's name, and its right picture against the candidate.
+// A scene's name, and the comparison of its correct image with the candidate.
 struct SceneReport {
     std::string name{};
     Comparison comparison{};
 };
 
-// The verdict in the first line, a line for each scene, and the next best.
+// The verdict in the first line, then one line per scene, and the next best findings.
 [[nodiscard]] std::string to_text(const ScenesDiagnosis& diagnosis, const std::vector<SceneReport>& reports);
 [[nodiscard]] std::string to_json(const ScenesDiagnosis& diagnosis, const std::vector<SceneReport>& reports);
 

@@ -1,4 +1,4 @@
-// tools/oracle/mistakes/scenes_report.cpp - a diagnosis of several scenes in words and as JSON.
+// tools/oracle/mistakes/scenes_report.cpp - a diagnosis of several scenes as text and as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t most_shown = 6;  // machines that people are told
+constexpr std::size_t most_shown = 6;  // limit of findings in the text
 
 std::ptrdiff_t fitting(const ScenesFinding& f) { return std::ranges::count(f.fits, true); }
 

@@ -124,7 +124,7 @@ const SuiteScene* find_suite_scene(std::string_view name) {
 }
 
 OpenScene open(const SuiteScene& of) {
-    constexpr double azimuth = 30, elevation = 20;  // degrees: the command's own
+    constexpr double azimuth = 30, elevation = 20;  // in degrees: the command's defaults
     OpenScene opened{.scene = scenes::load_scene(of.scene, {}),
                      .view = {},
                      .profile = *pipeline::find_profile(of.profile),

@@ -1,7 +1,8 @@
-// tools/oracle/mistakes/suite.h - the standard set of small scenes: each known mistake shows in at least one of them.
+// tools/oracle/mistakes/suite.h - the standard set of small scenes: each known mistake changes the image of at least
+// one of them.
 //
-// Rule     An entry is a command: a built-in scene, an algorithm, a profile and the options that a picture depends on.
-//          Frames are small, so that a port's author runs all of them at once and looks at every pixel.
+// Rule     An entry is a command: a built-in scene, an algorithm, a profile and the options that affect the image.
+//          Frames are small, so that a port's author can run all of them at once and examine every pixel.
 // Tests    tests/tools/oracle/mistakes/catalogue_test.cpp
 #pragma once
 #include <functional>
@@ -16,11 +17,11 @@ namespace strata::oracle {
 
 struct SuiteScene {
     std::string name{};  // "showroom.dual"
-    std::string why{};   // what it is in the suite for, a sentence
+    std::string why{};   // its purpose in the suite, as one sentence
     std::string scene{}, algorithm{}, profile = "geforce8";
     int width = 64, height = 64;
-    std::string options{};  // as the command takes them, beside scene, algorithm, profile and size
-    void (*set)(peeling::RenderOptions& options) = nullptr;  // the same for the library
+    std::string options{};  // command-line options other than scene, algorithm, profile and size
+    void (*set)(peeling::RenderOptions& options) = nullptr;  // the same options for the library
 };
 
 [[nodiscard]] std::span<const SuiteScene> suite();

@@ -22,7 +22,7 @@ using Scenes = std::vector<const SuiteScene*>;
 
 constexpr const char* list_name = "suite.json";
 
-// The scenes in which the cell of mistake `m` is one of these two.
+// The scenes in which the cell of mistake `m` is one of two values.
 ordered_json scenes_with(const std::vector<TableColumn>& columns, std::size_t m, Cell one, Cell other) {
     ordered_json names = ordered_json::array();
     for (const TableColumn& column : columns)
@@ -57,7 +57,7 @@ std::string list_of(const std::vector<TableColumn>& columns) {
     return list.dump(1) + '\n';
 }
 
-// The table's columns: the second half of the work.
+// The table's columns, which take half of the time.
 std::vector<TableColumn> columns_of(const Scenes& scenes, const ShowProgress& progress) {
     std::vector<TableColumn> columns;
     for (const SuiteScene* scene : scenes) {
@@ -95,7 +95,7 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
     return scenes;
 }
 
-// The first line in which two lists part.
+// The first line in which two lists differ.
 std::string first_difference(const std::string& found, const std::string& expected) {
     const auto at = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
     const auto line = 1 + std::count(found.begin(), at.first, '\n');

@@ -1,4 +1,4 @@
-// tools/oracle/mistakes/telling.h - which scene of the suite tells mistakes apart that leave one picture of another
+// tools/oracle/mistakes/telling.h - finds a scene of the suite that distinguishes mistakes with equal images of another
 // scene.
 //
 // Tests    tests/tools/oracle/mistakes/telling_test.cpp
@@ -10,7 +10,7 @@
 
 namespace strata::oracle {
 
-// The first in which each of them leaves a picture of its own; null if there is none.
+// The first scene in which each of them gives a different image; null if there is none.
 [[nodiscard]] const SuiteScene* telling_scene(std::span<const Mistake* const> mistakes);
 
 }  // namespace strata::oracle

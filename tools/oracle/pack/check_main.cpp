@@ -1,5 +1,5 @@
-// tools/oracle/pack/check_main.cpp - strata_pack_check PACK...: checks golden packs on every instruction set that there
-// is, without the command's libraries. For builds by other compilers; check_elsewhere.sh calls it.
+// tools/oracle/pack/check_main.cpp - strata_pack_check PACK...: checks golden packs on every available instruction set,
+// without the command's libraries. For builds with other compilers; called by check_elsewhere.sh.
 #include <fmt/format.h>
 
 #include <exception>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// How many files are not what is derived here.
+// The number of files that differ from the derived ones.
 std::size_t check(const std::string& pack) {
     std::size_t faults = 0;
     for (const strata::Simd simd : strata::available_simd()) {

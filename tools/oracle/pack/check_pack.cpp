@@ -1,4 +1,4 @@
-// tools/oracle/pack/check_pack.cpp - a pack against its own manifest, and against what is derived again.
+// tools/oracle/pack/check_pack.cpp - compares a pack with its manifest and with a new derivation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using scenes::NumberArray;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 32;
 
-// The array as a .npy file has it; nothing for other files and for damaged ones.
+// The array in a .npy file; empty for other files and for damaged ones.
 std::optional<NumberArray> array_of(const std::string& bytes, const std::string& name) {
     if (!name.ends_with(".npy")) return std::nullopt;
     try {
@@ -33,7 +33,7 @@ std::optional<NumberArray> array_of(const std::string& bytes, const std::string&
     }
 }
 
-// ", row 3, column 5, channel 1": the element that a byte behind the header belongs to.
+// ", row 3, column 5, channel 1": the position of an element of the array.
 std::string place_of(const NumberArray& array, std::size_t element) {
     static constexpr std::string_view of_two[] = {"row", "column"}, of_three[] = {"row", "column", "channel"},
                                       of_four[] = {"row", "column", "sample", "channel"}, of_one[] = {"entry"};
@@ -45,7 +45,7 @@ std::string place_of(const NumberArray& array, std::size_t element) {
     return place;
 }
 
-// `begin` is the array's place in the file.
+// `begin` is the offset of the array in the file.
 std::string place_in_file(const std::string& bytes, const std::string& name, std::size_t position) {
     const auto array = array_of(bytes, name);
     std::string place = fmt::format("byte {}", position);
@@ -63,7 +63,7 @@ std::string difference(const std::string& found, const std::string& expected, co
                        static_cast<unsigned char>(expected[position]), static_cast<unsigned char>(found[position]));
 }
 
-// The first place where two manifests part, as a JSON pointer.
+// The first difference of two manifests, as a JSON pointer.
 std::string manifest_difference(const std::string& found, const std::string& expected) {
     const json patch = json::diff(json::parse(found), json::parse(expected));
     if (patch.empty()) return difference(found, expected, "manifest.json");
@@ -80,7 +80,7 @@ std::uint64_t sum_at(const ManifestValue& listed, std::size_t i) {
     return value;
 }
 
-// Empty if the file is what the manifest's list says.
+// Empty if the file agrees with the manifest's list.
 std::string listed_difference(const std::string& bytes, const std::string& name, const ManifestValue& listed) {
     const scenes::ByteSums sums{sum_at(listed, 0), sum_at(listed, 1)};
     const auto array = array_of(bytes, name);
@@ -92,7 +92,8 @@ std::string listed_difference(const std::string& bytes, const std::string& name,
                        changed->is);
 }
 
-// Whether a profile's text is the other one without some of its keys: a program that did not know them yet wrote it.
+// True if a profile's text equals the other one without some of its keys: an earlier program without those keys wrote
+// it.
 bool is_older_profile(const std::string& found, const std::string& now) {
     const json patch = json::diff(json::parse(found), json::parse(now));
     return std::ranges::all_of(patch, [](const json& change) { return change["op"] == "add"; });
@@ -102,7 +103,7 @@ class Check {
   public:
     explicit Check(std::string folder) : folder_{std::move(folder)} {}
 
-    // The files that the manifest lists, each with its digest; and no others.
+    // Checks the files that the manifest lists, each with its digest, and that there are no others.
     void files(const json& manifest) {
         const std::string file = folder_ + "/manifest.json";
         const ManifestValue listed = ManifestValue{manifest, file}.object("files");
@@ -123,14 +124,14 @@ class Check {
         std::ranges::sort(copies_);
     }
 
-    // EXR copies against arrays that are as they ought to be.
+    // Checks EXR copies against arrays that passed the check.
     void copies() {
         for (const PackFault& fault : check_exr_copies(folder_, copies_)) note(fault.file, fault.sentence);
     }
 
     void derived(const Golden& golden) {
         derive(golden, [&](const std::string& name, const std::string& expected) {
-            if (known_.contains(name)) return;  // one sentence a file
+            if (known_.contains(name)) return;  // one message per file
             const auto found = read(name);
             if (!found || *found == expected) return;
             if (name == "profile.json" && is_older_profile(*found, expected)) {
@@ -184,7 +185,7 @@ std::vector<PackFault> check_pack(const std::string& path, Simd simd) {
     const bool has_inputs = std::ranges::none_of(check.faults, [](const PackFault& fault) {
         return fault.file.starts_with("scene/") || fault.file == "profile.json";
     });
-    // A changed input would change all that is derived from it: its own fault says enough.
+    // A changed input would change everything derived from it, so only its own fault is reported.
     if (!has_inputs) return check.faults;
     Golden golden = read_pack(path);
     golden.options.simd = simd;

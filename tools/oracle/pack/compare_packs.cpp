@@ -39,7 +39,7 @@ void compare_passes(const PackPictures& reference, const PackPictures& candidate
             continue;
         }
         Comparison found = compare(pass.targets, other->targets, tolerances);
-        // What a pass left in a target is no picture with a background: codes that are forgiven are, wherever they lie.
+        // A target after a pass has no background, so codes within the tolerance are accepted at every pixel.
         found.accepted |=
             std::ranges::none_of(found.targets, [](const TargetReport& target) { return target.beyond > 0; });
         to.passes.push_back({pass.number, pass.kind, found.targets});
@@ -70,7 +70,7 @@ std::string padded_line(const std::vector<std::string>& cells, const std::vector
     return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
-// A row a pass and a column a target, in the order in which targets come.
+// One row per pass and one column per target, in the order of first occurrence.
 std::string table_of(const PackComparison& c) {
     std::vector<std::vector<std::string>> rows{{"pass", "kind"}};
     for (const ComparedPass& pass : c.passes)
@@ -92,7 +92,7 @@ std::string table_of(const PackComparison& c) {
     return text;
 }
 
-// The targets that are equal after every pass in which both have them.
+// The targets that are equal after every pass that both have.
 std::string equal_targets(const PackComparison& c) {
     std::vector<std::string> equal, unequal;
     for (const ComparedPass& pass : c.passes)
@@ -104,7 +104,7 @@ std::string equal_targets(const PackComparison& c) {
     return fmt::format("{}", fmt::join(equal, ", "));
 }
 
-// The report of a picture, set in by two spaces.
+// An image's report, indented by two spaces.
 std::string indented(const std::string& text) {
     std::string result = "  ";
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -213,7 +213,7 @@ std::string to_json(const std::vector<PackComparison>& comparisons) {
 
 namespace {
 
-// The kinds beyond the tolerance, with their pixels.
+// The kinds beyond the tolerance, with their numbers of pixels.
 std::string failures_of(const Comparison& comparison) {
     std::string text;
     for (const KindReport& kind : comparison.kinds)

@@ -1,8 +1,8 @@
-// tools/oracle/pack/compare_packs.h - how a candidate differs from a pack: the end, and the first pass that went
-// another way.
+// tools/oracle/pack/compare_packs.h - compares a candidate with a pack: the final image, and the first pass that
+// differs.
 //
-// Rule     Each algorithm that the candidate has anything of is compared: its picture, its layers, and every target of
-//          every pass. The first pass that differs beyond the tolerance is named; a table has them all.
+// Rule     Each algorithm of which the candidate has any file is compared: its image, its layers, and every target of
+//          every pass. The first pass that differs beyond the tolerance is reported; a table lists all.
 // Tests    tests/tools/oracle/pack_pictures_test.cpp
 #pragma once
 #include "tools/oracle/compare.h"
@@ -10,7 +10,7 @@
 
 namespace strata::oracle {
 
-// All targets of a pass that both have.
+// The targets of a pass that both have.
 struct ComparedPass {
     int number = 0;
     std::string kind{};
@@ -25,12 +25,12 @@ struct PassDifference {
 
 struct PackComparison {
     std::string algorithm{};
-    bool is_there = true;  // false: the candidate has nothing of it
+    bool is_there = true;  // false: the candidate has no file of it
     std::optional<Comparison> picture{}, layers{};
     std::vector<ComparedPass> passes{};
     std::optional<PassDifference> first{};  // the first pass that differs
-    std::vector<std::string> missing{};     // "picture", "pass 3": what the candidate has not
-    bool equal = true, accepted = true;     // of what was compared
+    std::vector<std::string> missing{};     // "picture", "pass 3": parts missing from the candidate
+    bool equal = true, accepted = true;     // of the parts that were compared
 };
 
 [[nodiscard]] std::vector<PackComparison> compare_packs(const std::vector<PackPictures>& reference,
@@ -39,7 +39,7 @@ struct PackComparison {
 
 [[nodiscard]] std::string to_text(const std::vector<PackComparison>& comparisons);
 [[nodiscard]] std::string to_json(const std::vector<PackComparison>& comparisons);
-// Three test cases an algorithm: picture, layers and passes. What the candidate has not is skipped.
+// Three test cases per algorithm: picture, layers and passes. Parts missing from the candidate are skipped.
 [[nodiscard]] std::string to_junit(const std::vector<PackComparison>& comparisons);
 
 }  // namespace strata::oracle

@@ -20,7 +20,7 @@ using scenes::NumberArray;
 
 enum Flag : std::uint32_t { double_sided = 1, mirrored = 2 };
 
-// An array with a row for each item: `fill` appends the row's words.
+// A NumberArray with one row per item; fill(item, put) appends the row's values.
 template <class Items, class Fill>
 NumberArray rows(Element element, std::size_t columns, const Items& items, Fill fill) {
     NumberArray array{.element = element, .shape = {items.size()}};
@@ -29,7 +29,7 @@ NumberArray rows(Element element, std::size_t columns, const Items& items, Fill 
     return array;
 }
 
-// The list's prepared lists as a Renderer makes them, but for the light, which changes no position.
+// PreparedLists as in Renderer, but without the light, which affects no position.
 peeling::PreparedLists lists_of(const RunInput& input) {
     const rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     pipeline::View view = input.view;
@@ -60,7 +60,7 @@ void add_vertices(const TriangleSoup& soup, const auto& add) {
         }));
 }
 
-// Runs lie one behind the other: their triangles are numbered through.
+// Calls `add` for the triangles of all runs, concatenated.
 void add_triangles(const TriangleSoup& soup, const auto& add) {
     NumberArray corners{.element = Element::u4, .shape = {0, 3}}, materials{.element = Element::u4, .shape = {0}},
         objects = materials, flags{.element = Element::u1, .shape = {0}};

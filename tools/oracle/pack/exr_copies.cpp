@@ -48,7 +48,7 @@ void write_copies_of(const json& result, const std::string& folder, pipeline::Co
     }
 }
 
-// The target of an EXR file that is to hold `expected`. Parts of a pass have the names of its targets.
+// The target of an EXR file that corresponds to `expected`. In a pass the parts have the names of the targets.
 const Target* find_copy(const Picture& copy, const Target& expected, bool is_pass) {
     const auto found = std::ranges::find_if(copy.targets, [&](const Target& t) {
         return is_pass ? t.part == expected.name : t.part == expected.part && t.name == expected.name;
@@ -66,7 +66,7 @@ std::string difference(const Picture& expected, const Picture& copy, bool is_pas
     return "";
 }
 
-// "pass.003.exr": the picture of arrays that it is a copy of. Null for a name of none.
+// "pass.003.exr": the arrays of which it is a copy. Null for any other name.
 const Picture* original_of(const PackPictures& expected, const std::string& name) {
     if (name == "picture.exr") return &expected.picture;
     if (name == "layers.exr") return &expected.layers;

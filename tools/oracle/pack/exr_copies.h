@@ -1,7 +1,7 @@
-// tools/oracle/pack/exr_copies.h - the expected targets of a pack once more as EXR files, for readers of pictures
-// rather than arrays.
+// tools/oracle/pack/exr_copies.h - the expected targets of a pack as EXR files, for image viewers.
 //
-// Rule     tools/oracle/PACK.md, "EXR copies": beside the arrays, not in the manifest, and equal to them in every code.
+// Rule     tools/oracle/PACK.md, "EXR copies": in the folders of the arrays, not in the manifest, and equal to the
+//          arrays in every code.
 // Tests    tests/tools/oracle/exr_copies_test.cpp
 #pragma once
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace strata::oracle {
 
-// Beside the arrays of the pack in `folder`.
+// Writes the copies into the folders of the arrays of the pack in `folder`.
 void write_exr_copies(const std::string& folder);
 
-// Whether a pack's file is one: "expected/dual/pass.003.exr".
+// True if a pack's file is such a copy: "expected/dual/pass.003.exr".
 [[nodiscard]] bool is_exr_copy(const std::string& file);
-// Of `copies`, those that do not hold what the arrays hold.
+// The faults of those `copies` that differ from the arrays.
 [[nodiscard]] std::vector<PackFault> check_exr_copies(const std::string& folder,
                                                       const std::vector<std::string>& copies);
 

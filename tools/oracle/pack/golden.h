@@ -1,8 +1,7 @@
-// tools/oracle/pack/golden.h - golden packs: derived from a scene and its state, written, read, and derived again to be
-// checked.
+// tools/oracle/pack/golden.h - golden packs: derives a pack from a scene and its state, writes, reads and checks it.
 //
-// Rule     tools/oracle/PACK.md is the format. One derivation serves writing and checking; only what takes its files
-//          differs.
+// Rule     The format is tools/oracle/PACK.md. Writing and checking use the same derivation with different sinks for
+//          its files.
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <cstdint>
@@ -17,35 +16,35 @@
 
 namespace strata::oracle {
 
-// What a pack is made of. The view is the scene's own.
+// The input of a pack. The view is the scene's own.
 struct Golden {
     scenes::Scene scene{};
     pipeline::ColorSpace color_space = pipeline::ColorSpace::encoded;
     pipeline::DeviceProfile profile{};
     peeling::RenderOptions options{};  // background in the frame's colour space
     std::vector<const peeling::Algorithm*> algorithms{};
-    std::string command{};  // that makes the same pack
+    std::string command{};  // the command that writes the same pack
 };
 
-// Every file of the pack, manifest.json last. Throws Refused for what the profile lacks.
+// Passes every file of the pack to `sink`, manifest.json last. Throws Refused if the profile lacks a feature.
 void derive(const Golden& golden, const scenes::PackFiles::Sink& sink);
 
-// What stands beside the arrays (exr_copies.h).
+// Copies written in addition to the arrays (exr_copies.h).
 enum class Copies : std::uint8_t { none, exr };
 
-// Into a folder that is not there yet or is empty, else InputError. A failure leaves nothing behind.
+// InputError unless the folder is missing or empty. Removed after a failure.
 void write_pack(const Golden& golden, const std::string& folder, Copies copies = Copies::none);
 
 // `path` is a pack's folder or its manifest.
 [[nodiscard]] Golden read_pack(const std::string& path);
 
-// A file that is not what it ought to be.
+// A file that differs from the expected one.
 struct PackFault {
     std::string file, sentence{};  // "byte 1234, row 3, column 5, channel 1: expected 17, found 18"
 };
 
-// Empty for a pack as it was written. Files are compared with what the manifest says of them, then with what is derived
-// again. Derived on the instruction set `simd`, which this processor has.
+// Empty if the pack is unchanged. Files are compared with the manifest's list, then with a new derivation on the
+// instruction set `simd`, which this processor must have.
 [[nodiscard]] std::vector<PackFault> check_pack(const std::string& path, Simd simd = Simd::best);
 
 }  // namespace strata::oracle

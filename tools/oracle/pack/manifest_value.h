@@ -1,5 +1,5 @@
-// tools/oracle/pack/manifest_value.h - the results of a manifest as another program may have changed them: a key may be
-// missing, but what is there has its type.
+// tools/oracle/pack/manifest_value.h - reads the results of a manifest that another program may have changed: keys may
+// be missing, but values that are present must have their type.
 //
 // Tests    tests/tools/oracle/changed_packs_test.cpp
 #pragma once
@@ -9,19 +9,19 @@
 
 namespace strata::oracle {
 
-// A value and its place, which errors name: InputError{file, pointer} for another type than the one that is asked for.
+// A value with its JSON pointer for errors: InputError{file, pointer} if the value is not of the requested type.
 class ManifestValue {
   public:
-    // Both outlive it.
+    // `value` and `file` must outlive it.
     ManifestValue(const nlohmann::json& value, const std::string& file) : ManifestValue{value, file, ""} {}
 
-    [[nodiscard]] ManifestValue object(const std::string& key) const;             // an empty one if missing or null
+    [[nodiscard]] ManifestValue object(const std::string& key) const;             // empty if missing or null
     [[nodiscard]] std::vector<ManifestValue> list(const std::string& key) const;  // of objects
     [[nodiscard]] std::string text(const std::string& key) const;
     [[nodiscard]] int whole(const std::string& key, int fallback, int lowest, int highest) const;
-    // The name of an algorithm of this program.
+    // The name of an existing algorithm.
     [[nodiscard]] std::string algorithm(const std::string& key) const;
-    // Without a slash, so that it can be a part of a path.
+    // A name without a slash, so that it can be part of a path.
     [[nodiscard]] std::string name(const std::string& key) const;
     [[nodiscard]] const nlohmann::json& value() const noexcept { return *value_; }
     [[nodiscard]] std::string place_of(const std::string& key) const { return pointer_ + "/" + key; }

@@ -31,10 +31,11 @@ using scenes::NumberArray;
 
 constexpr int largest_side = 16384, most_samples_a_pixel = 16;
 
-// Finds the file of a target: nothing if there is none. `place` is what a candidate calls it.
+// Finds the file of a target; empty if there is none. `place` is the candidate's name for it.
 using Finder = std::function<std::optional<std::string>(const ManifestValue& target, const std::string& place)>;
 
-// The samples of a target, each by itself. `is_own`: the array is the pack's and has to be of the target's format.
+// Adds the samples of a target, each as its own target. `is_own`: the array belongs to the pack and must have the
+// target's format.
 void add_samples(const NumberArray& array, const ManifestValue& described, const std::string& file, bool is_own,
                  Target target, std::vector<Target>& to) {
     const Format format = format_named(described.text("format"), file);
@@ -50,7 +51,8 @@ void add_samples(const NumberArray& array, const ManifestValue& described, const
     target.width = static_cast<int>(shape[1]);
     target.height = static_cast<int>(shape[0]);
     target.channels = sides > 2 ? static_cast<int>(shape.back()) : 1;
-    // A candidate's element of the format's own width is a code of the format; others mean what they mean in any file.
+    // A candidate's element of the format's own width is a code of the format; other elements are interpreted as in any
+    // file.
     const scenes::Element own = element_of(format);
     if (is_own && array.element != own)
         throw InputError(file, "descr", std::string{scenes::name(own)}, std::string{scenes::name(array.element)});

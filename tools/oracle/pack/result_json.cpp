@@ -28,7 +28,7 @@ ordered_json pass_json(const PassShown& pass, TargetWriter& targets) {
     return object;
 }
 
-// Every pass, and the picture that is published.
+// Every pass, and the published image.
 void add_passes(const RunInput& input, const peeling::Algorithm& algorithm, TargetWriter& targets,
                 ordered_json& object) {
     int geometry = 0, full_screen = 0;
@@ -47,7 +47,7 @@ void add_passes(const RunInput& input, const peeling::Algorithm& algorithm, Targ
     object["passes"] = std::move(list);
 }
 
-// The layers and the nearest depth, of a run of their own.
+// The layers and the nearest depth, from a separate run.
 void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, TargetWriter& targets,
                 ordered_json& object) {
     peeling::RenderOptions options = input.options;

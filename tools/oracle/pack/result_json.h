@@ -1,4 +1,4 @@
-// tools/oracle/pack/result_json.h - an object of "results" in a pack: picture, layers and passes of one algorithm.
+// tools/oracle/pack/result_json.h - writes an object of "results" in a pack: image, layers and passes of one algorithm.
 #pragma once
 #include "tools/oracle/pack/golden.h"
 

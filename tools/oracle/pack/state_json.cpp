@@ -13,7 +13,7 @@ using scenes::JsonWriter;
 
 constexpr int most_pixels_a_side = 16384, most_passes = 1000000;
 
-// An optional enum by its names.
+// An optional enum, by its names.
 template <class Io, class Value>
 void optional_choice(Io& io, const std::string& key, Value& value,
                      std::span<const std::string_view> names = enum_names<typename Value::value_type>) {

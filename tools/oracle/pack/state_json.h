@@ -1,7 +1,7 @@
-// tools/oracle/pack/state_json.h - the object "state" of a pack: all that options choose.
+// tools/oracle/pack/state_json.h - reads and writes the object "state" of a pack, which contains the options.
 //
-// Rule     tools/oracle/PACK.md. Options that leave every bit alone (threads, tiles, execution) are not in it; those
-//          that a pack cannot hold (clip planes, a second list, a window's corner) throw InputError when it is written.
+// Rule     tools/oracle/PACK.md. Options that do not change bits (threads, tiles, execution) are omitted; those that a
+//          pack cannot represent (clip planes, a second list, a window origin) throw InputError when it is written.
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@
 namespace strata::oracle {
 
 [[nodiscard]] nlohmann::ordered_json state_json(const peeling::RenderOptions& options);
-// `file` is the manifest's name for errors. Raster conventions are those of the pack.
+// `file` is the manifest's name for errors. The raster conventions are those of packs.
 [[nodiscard]] peeling::RenderOptions read_state(const nlohmann::json& manifest, const std::string& file);
 
 }  // namespace strata::oracle

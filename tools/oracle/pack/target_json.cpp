@@ -23,7 +23,7 @@ Image part_of(const Image& image, int x0, int y0) {
     return part;
 }
 
-// Each channel's codes alone, as wide as its element.
+// The digest of each channel's codes, in elements of their own width.
 ordered_json channel_digests(const Image& image) {
     ordered_json digests = ordered_json::array();
     const auto channels = static_cast<std::size_t>(image.channels());
@@ -74,7 +74,7 @@ NumberArray as_array(const Image& image) {
 
 std::optional<Image> as_image(const NumberArray& array, Format format, int samples) {
     if (array.element != element_of(format) || array.shape.size() < 2 || array.count() == 0) return std::nullopt;
-    // The shape is compared before memory is asked for; its product has the bytes of a file.
+    // The shape is compared before memory is allocated; its size is that of the file.
     Image image{format, 1, 1, samples};
     std::vector<std::size_t> shape = as_array(image).shape;
     shape[0] = array.shape[0], shape[1] = array.shape[1];

@@ -1,7 +1,7 @@
-// tools/oracle/pack/target_json.h - a target in a pack: its codes as an array, and digests of the whole, of channels
-// and of tiles.
+// tools/oracle/pack/target_json.h - writes a target into a pack: its codes as an array, and digests of the whole, of
+// channels and of tiles.
 //
-// Rule     tools/oracle/PACK.md. A target that has not changed since it was last written keeps its file.
+// Rule     tools/oracle/PACK.md. A target that has not changed since it was last written refers to its earlier file.
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <map>
@@ -15,10 +15,10 @@ namespace strata::oracle {
 
 inline constexpr int pack_tile_px = 16;
 
-// The type of its codes in a file.
+// The element type of its codes in a file.
 [[nodiscard]] scenes::Element element_of(pipeline::Format format) noexcept;
 
-// The array of a target; and the target again, whose format and samples are known. Nothing where they do not fit.
+// Converts a target to an array and back; as_image is empty if the array does not fit `format` and `samples`.
 [[nodiscard]] scenes::NumberArray as_array(const pipeline::Image& image);
 [[nodiscard]] std::optional<pipeline::Image> as_image(const scenes::NumberArray& array, pipeline::Format format,
                                                       int samples);
@@ -26,10 +26,10 @@ inline constexpr int pack_tile_px = 16;
 // Writes the targets of one algorithm.
 class TargetWriter {
   public:
-    // Files go below `folder`, as in "expected/dual".
+    // Files are written below `folder`, as in "expected/dual".
     TargetWriter(std::string folder, scenes::PackFiles& files) : folder_{std::move(folder)}, files_{files} {}
 
-    // `place` is "" or ends in a slash. write_once names the last file of that target if it holds the same.
+    // `place` is "" or ends with a slash. write_once refers to the last file of that target if its content is the same.
     [[nodiscard]] nlohmann::ordered_json write(const std::string& place, const std::string& name,
                                                const pipeline::Image& image);
     [[nodiscard]] nlohmann::ordered_json write_once(const std::string& place, const std::string& name,

@@ -18,7 +18,7 @@ std::vector<TriangleName> triangles_of(const DrawList& list) {
 
 namespace {
 
-// Takes over vertices when they are first needed.
+// Copies vertices on first use.
 class MeshCut {
   public:
     MeshCut(const Mesh& from, Mesh& to) : from_{from}, to_{to} { to_.name = from.name; }
@@ -46,7 +46,7 @@ class MeshCut {
     std::map<std::uint32_t, std::uint32_t> numbers_;
 };
 
-// The number of `old` among those that are kept; kept when it is first asked for.
+// The new index of element `old`, which is copied on first use.
 template <class T>
 std::uint32_t kept(std::uint32_t old, const std::vector<T>& from, std::vector<T>& to,
                    std::map<std::uint32_t, std::uint32_t>& numbers) {

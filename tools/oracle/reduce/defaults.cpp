@@ -8,7 +8,7 @@ using peeling::RenderOptions;
 using pipeline::Material;
 using pipeline::Mesh;
 
-// Whether `value` was another one.
+// Sets `value`; true if it was different.
 template <class T>
 bool becomes(T& value, const T& wanted) {
     if (value == wanted) return false;
@@ -16,7 +16,7 @@ bool becomes(T& value, const T& wanted) {
     return true;
 }
 
-// change(x) for all; true if one of them said so.
+// Calls change(x) for all; true if one of them returned true.
 template <class T, class Change>
 bool any_of_all(std::vector<T>& values, Change change) {
     bool has_changed = false;

@@ -1,4 +1,4 @@
-// tools/oracle/reduce/defaults.h - simpler states of a scene: each takes one thing back to its default.
+// tools/oracle/reduce/defaults.h - simplifications of a scene: each resets one property to its default.
 #pragma once
 #include <span>
 #include <string_view>
@@ -8,8 +8,8 @@
 namespace strata::oracle {
 
 struct Simplification {
-    std::string_view name{};  // what goes, as in "not needed: the light, textures"
-    // False: the scene has nothing of the kind.
+    std::string_view name{};  // what is removed, as in "not needed: the light, textures"
+    // Returns false if there is nothing to reset.
     bool (*make)(Golden& scene) = nullptr;
 };
 

@@ -17,10 +17,10 @@ namespace {
 
 using rasterizer::Rect;
 
-constexpr std::size_t most_pixels = 8;  // that windows are laid around
-constexpr int largest_window = 64;      // pixels a side
+constexpr std::size_t most_pixels = 8;  // limit on pixels around which windows are tried
+constexpr int largest_window = 64;      // in pixels, per side
 
-// Codes alone: what the search allows in any frame.
+// Only tolerances of codes, which apply in any frame.
 Tolerances without_budgets(Tolerances tolerances) {
     for (Budget* budget : {&tolerances.coverage, &tolerances.background, &tolerances.layers, &tolerances.depth,
                            &tolerances.color, &tolerances.pixels})
@@ -28,7 +28,7 @@ Tolerances without_budgets(Tolerances tolerances) {
     return tolerances;
 }
 
-// The window's pixels of every target.
+// Keeps only the window's pixels of every target.
 void keep(Picture& picture, const Rect& window) {
     for (Target& target : picture.targets) {
         const auto channels = static_cast<std::size_t>(target.channels);
@@ -47,7 +47,7 @@ void keep(Picture& picture, const Rect& window) {
     }
 }
 
-// A scene of the search: triangles by their names in the whole scene, and a window of the whole frame.
+// A scene of the search: triangles by their indices in the whole scene, and a window of the whole frame.
 struct Cut {
     std::vector<TriangleName> triangles{};
     Rect window{};
@@ -107,12 +107,12 @@ class Reducer {
         return scene;
     }
 
-    // In a frame that begins at the window's corner.
+    // The rectangle in a frame that begins at the window's corner.
     [[nodiscard]] static Rect moved(const Rect& rect, const Rect& window) {
         return {rect.x0 - window.x0, rect.y0 - window.y0, rect.x1 - window.x0, rect.y1 - window.y0};
     }
 
-    // Nothing where the candidate does not draw it.
+    // Empty if the candidate does not draw it.
     [[nodiscard]] std::optional<Comparison> comparison_of(const Golden& scene, const Rect& window) {
         ++runs_;
         if (on_run_) on_run_(scene);
@@ -129,7 +129,7 @@ class Reducer {
         return compare(right, *found, tolerances_, background_of(scene));
     }
 
-    // Nothing where the candidate draws it right, wrong in another kind, or not at all.
+    // Empty if the candidate draws it correctly, wrong in another kind, or not at all.
     [[nodiscard]] std::optional<Comparison> difference(const Cut& cut) {
         try {
             auto comparison = comparison_of(scene_of(cut), cut.window);
@@ -143,10 +143,10 @@ class Reducer {
 
     [[nodiscard]] bool fails(const Cut& cut) { return !cut.triangles.empty() && difference(cut).has_value(); }
 
-    // The triangles that have a fragment in the window, whatever hides it, in their order.
+    // The triangles that have a fragment in the window, even if hidden, in their order.
     [[nodiscard]] std::vector<TriangleName> covering(const Rect& window) const {
         Golden scene = scene_of({best_.triangles, window});
-        scene.options.alpha = 1.0f;  // so that opaque ones are seen, too
+        scene.options.alpha = 1.0f;  // so that opaque ones are captured, too
         scene.options.sort = {};
         scene.options.raster.cull = rasterizer::CullFace::none;
         peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options};
@@ -158,7 +158,8 @@ class Reducer {
         return found;
     }
 
-    // Around some of the differing pixels, spread over the frame: the smallest window that fails with what covers it.
+    // Tries windows around some of the differing pixels, spread over the frame, with the triangles that cover them: the
+    // smallest window that fails is used.
     void find_window(const Comparison& comparison) {
         std::vector<std::size_t> differing;
         for (std::size_t i = 0; i < comparison.kind_of.size(); ++i)
@@ -173,7 +174,7 @@ class Reducer {
                 Cut tried{{}, window};
                 try {
                     tried.triangles = covering(window);
-                } catch (const InputError&) {  // more fragments than memory: a smaller part of the frame must do
+                } catch (const InputError&) {  // more fragments than memory: try a smaller part of the frame
                     continue;
                 }
                 if (!fails(tried)) continue;
@@ -182,7 +183,7 @@ class Reducer {
             }
     }
 
-    // ddmin: chunks of the list are left out, the smaller the fewer can be; true if some were.
+    // ddmin: removes chunks of the list, the smaller the fewer can be removed; true if some were.
     [[nodiscard]] bool leave_out_triangles() {
         const std::size_t before = best_.triangles.size();
         for (std::size_t chunk = (before + 1) / 2; chunk >= 1; chunk = chunk == 1 ? 0 : (chunk + 1) / 2)
@@ -199,7 +200,7 @@ class Reducer {
         return best_.triangles.size() < before;
     }
 
-    // Halves of the window, then single rows and columns.
+    // Removes halves of the window, then single rows and columns.
     [[nodiscard]] bool cut_frame() {
         const std::size_t before = best_.window.area();
         for (bool is_smaller = true; is_smaller;) {
@@ -232,7 +233,7 @@ class Reducer {
         return parts;
     }
 
-    // Each change that the failure survives stays.
+    // Keeps each change with which the scene still fails.
     [[nodiscard]] bool take_defaults(std::vector<std::string>& taken) {
         bool has_changed = false;
         for (const Simplification& simpler : simplifications()) {

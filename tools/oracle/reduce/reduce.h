@@ -1,14 +1,14 @@
-// tools/oracle/reduce/reduce.h - a failing scene made small: the fewest triangles, the smallest frame, the simplest
+// tools/oracle/reduce/reduce.h - reduces a failing scene to the fewest triangles, the smallest frame and the simplest
 // state that still differ.
 //
-// Rule     A scene fails if the candidate's picture of it has a pixel that the right picture has not, and which differs
-//          in the kind (compare.h) of most pixels that differ in the whole scene: a reduction does not slip from one
-//          mistake to another. A scene that the candidate fails to draw is neither right nor wrong: it is not taken.
-//          First the frame is cut to a window around one differing pixel, with the triangles that cover it: the
-//          smallest window that still fails counts. Then triangles are left out by halves, quarters, ... until no
-//          single one can be left out; then rows and columns of the frame; then the state goes back to its defaults, a
-//          field at a time; and all of it again until nothing is left to take away. Tolerances of codes hold at every
-//          step, budgets of pixels for the whole scene alone: a cut frame has fewer pixels.
+// Rule     A scene fails if the candidate's image has a pixel that differs from the correct image, in the kind
+//          (compare.h) of most pixels that differ in the whole scene, so that a reduction does not change from one
+//          mistake to another. A scene that the candidate fails to draw is neither correct nor wrong and is not used.
+//          First the frame is reduced to a window around one differing pixel, with the triangles that cover it: the
+//          smallest window that still fails is used. Then triangles are removed by halves, quarters, ... until no
+//          single one can be removed; then rows and columns of the frame; then the state is reset to its defaults, one
+//          field at a time; and all of this is repeated until nothing more can be removed. Tolerances of codes apply at
+//          every step, budgets of pixels only to the whole scene, because a smaller frame has fewer pixels.
 // Source   Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input", algorithm ddmin.
 // Tests    tests/tools/oracle/reduce/reduce_test.cpp
 #pragma once
@@ -22,12 +22,12 @@
 
 namespace strata::oracle {
 
-// Draws a scene; nothing where it could not be drawn. Of `Golden` the scene, its own view, the profile, the options and
-// the first algorithm count.
+// Draws a scene; empty if it could not be drawn. Of `Golden` the scene, its own view, the profile, the options and the
+// first algorithm are used.
 using Candidate = std::function<std::optional<Picture>(const Golden& scene)>;
 
-// What a window of the frame becomes: a frame of its own, or the scissor's rectangle in the whole frame, for what shows
-// in frames of that size alone; then pixels outside of it are not compared.
+// How a window of the frame is drawn: as a frame of its own, or as the scissor's rectangle in the whole frame, for
+// failures that only occur in frames of that size; then pixels outside it are not compared.
 enum class Frame : std::uint8_t { cut, whole };
 
 struct ReduceRules {
@@ -39,22 +39,22 @@ struct Reduction {
     Golden scene{};  // the smallest one that fails
     std::size_t triangles_before = 0, triangles = 0;
     int width_before = 0, height_before = 0;
-    int runs = 0, undrawn = 0;            // of the candidate; those that drew nothing
+    int runs = 0, undrawn = 0;            // runs of the candidate; undrawn: those that drew nothing
     Kind kind = Kind::none;               // of the failure
-    std::vector<std::string> defaults{};  // fields that went back to their defaults
-    Comparison comparison{};              // of the right picture and the candidate's, inside the window
-    rasterizer::Rect window{};            // of the smallest scene's frame, all of it unless the frame stays whole
+    std::vector<std::string> defaults{};  // fields that were reset to their defaults
+    Comparison comparison{};              // of the correct image with the candidate's, inside the window
+    rasterizer::Rect window{};            // of the smallest scene's frame; all of it unless `Frame::whole` is used
     // "2 triangles in a frame of 1x1 pixels still differ ..."
     [[nodiscard]] std::string sentence() const;
 };
 
-// The picture that a candidate ought to draw. Throws Refused.
+// The image that a candidate should draw. Throws Refused.
 [[nodiscard]] Picture right_picture(const Golden& scene);
 
-// What a pixel of the picture holds where nothing is drawn: a small frame may have no such pixel. Throws Refused.
+// The value of a pixel where nothing is drawn, because a small frame may have no such pixel. Throws Refused.
 [[nodiscard]] Background background_of(const Golden& scene);
 
-// Nothing if the candidate draws the scene right, or within the tolerances; InputError if it draws no picture of it, or
+// Empty if the candidate draws the scene correctly or within the tolerances; InputError if it draws no image of it, or
 // one of another size. `on_run` is called before each run of the candidate.
 [[nodiscard]] std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
                                               const std::function<void(const Golden&)>& on_run = {},
