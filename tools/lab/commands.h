@@ -1,4 +1,4 @@
-// tools/lab/commands.h - the commands of strata-lab. Their names and descriptions are tools/strata/lab.cpp's.
+// tools/lab/commands.h - the commands of strata-lab. Their names and descriptions are in tools/strata/lab.cpp.
 #pragma once
 #include "tools/strata/command.h"
 #include "tools/strata/lab.h"

@@ -1,5 +1,5 @@
-// tools/lab/main.cpp - strata-lab: the experiments, and every other command. People type `strata cost`, which runs
-// this.
+// tools/lab/main.cpp - strata-lab: the program with the experiments and all other commands. Users call `strata cost`,
+// which runs this program.
 #include "tools/lab/commands.h"
 #include "tools/strata/program.h"
 

@@ -1,7 +1,7 @@
-// tools/lab/parallel_items.h - a list worked off by all cores, with a bar.
+// tools/lab/parallel_items.h - processes a list on all cores, with a progress bar.
 //
-// Rule     body(i) writes to places of item i alone. Of several items that fail, the first one's exception is thrown,
-//          whatever finished first.
+// Rule     body(i) must only write to data of item i. If several items fail, the exception of the first in the list is
+//          thrown, whatever the order of completion.
 // Tests    tests/tools/hardware_check_test.cpp
 #pragma once
 #include <atomic>
@@ -14,8 +14,8 @@
 
 namespace strata::tools {
 
-// Runs body(0) to body(count - 1) on all cores under a bar with this label, and returns when all
-// have ended. Every item runs, also after another one failed.
+// Runs body(0) to body(count - 1) on all cores under a progress bar with this label, and returns when all have ended.
+// Every item runs, even after another one has failed.
 void for_every(const std::string& label, std::size_t count, const auto& body) {
     Progress progress(label);
     std::atomic<std::size_t> done = 0;

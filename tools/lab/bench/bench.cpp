@@ -1,4 +1,4 @@
-// tools/lab/bench/bench.cpp - strata bench: how long algorithms take, in every way of running them.
+// tools/lab/bench/bench.cpp - strata bench: measures the run time of algorithms, in every way of running them.
 #include <cstdio>
 #include <memory>
 
@@ -16,10 +16,10 @@ namespace strata::tools {
 
 namespace {
 
-// The command line. Each list is a dimension: every combination of them is a job.
+// The command line. Each list is a dimension: every combination of its values is a job.
 struct BenchOptions {
     RunOptions run;
-    // Scenes by name or file, opened one after the other.
+    // Scenes by name or file, opened one after another.
     std::vector<std::string> scenes;
     std::vector<const peeling::Algorithm*> algorithms;
     std::vector<pipeline::Execution> executions{pipeline::Execution::replay};
@@ -30,7 +30,7 @@ struct BenchOptions {
     bool json = false, per_effect = false;
 };
 
-// All algorithms by name, and `depth`, which is no algorithm: null.
+// All algorithms by name, and `depth`, which is not an algorithm: null.
 std::vector<Choice<const peeling::Algorithm*>> job_names() {
     std::vector<Choice<const peeling::Algorithm*>> names{{"depth", nullptr}};
     for (const peeling::Algorithm& algorithm : peeling::algorithms()) names.push_back({algorithm.name, &algorithm});
@@ -44,7 +44,7 @@ std::vector<T> values_of(const std::vector<Choice<T>>& choices) {
     return values;
 }
 
-// Innermost the ways of running, so that what is compared is timed side by side.
+// The ways of running are the innermost loop, so that the times to be compared are measured one right after another.
 std::vector<BenchJob> jobs_of(const BenchOptions& options, const std::vector<BenchScene>& scenes) {
     std::vector<Simd> simds;
     for (Simd simd : options.simds) {
@@ -62,8 +62,7 @@ std::vector<BenchJob> jobs_of(const BenchOptions& options, const std::vector<Ben
     return jobs;
 }
 
-// Each scene has options and a session of its own, for --camera and --orbit mean another view in
-// each.
+// Each scene has its own options and session, because --camera and --orbit give another view in each.
 std::vector<BenchScene> open_scenes(const BenchOptions& options) {
     std::vector<BenchScene> scenes;
     for (const std::string& name : options.scenes) {
@@ -74,7 +73,7 @@ std::vector<BenchScene> open_scenes(const BenchOptions& options) {
     return scenes;
 }
 
-// 1 if a way of running changed a bit, 2 if every job was refused.
+// 1 if a way of running changed a bit; 2 if every job was refused.
 int exit_status(const std::vector<BenchResult>& results) {
     const auto wrong = differing(results);
     for (const std::string& name : wrong) say_error(name + ": the picture differs");
@@ -82,7 +81,7 @@ int exit_status(const std::vector<BenchResult>& results) {
     return std::all_of(results.begin(), results.end(), [](const BenchResult& r) { return r.is_refused(); }) ? 2 : 0;
 }
 
-// One scene; of each list the first.
+// For one scene; of each list only the first value is used.
 int show_effects_of(BenchOptions& options) {
     if (options.scenes.size() > 1) throw CLI::ValidationError("--per-effect takes one scene");
     if (!options.output.empty() || !options.baseline.empty())
@@ -100,7 +99,7 @@ int bench(BenchOptions& options) {
     complete(options.run);
     check_outputs({{"-o", options.output, {".json"}}});
     if (options.per_effect) return show_effects_of(options);
-    // The baseline is read first: a wrong file ends the command before the time is spent.
+    // The baseline is read first, so that a wrong file ends the command before any measurement.
     const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
     const std::vector<BenchScene> scenes = open_scenes(options);
     const auto results = measure(jobs_of(options, scenes), options.repetitions);

@@ -11,7 +11,7 @@ namespace strata::tools {
 
 namespace {
 
-// Takes the times out of Google Benchmark, whose own report is not printed.
+// Collects the times from Google Benchmark, whose own report is not printed.
 class Collector : public benchmark::BenchmarkReporter {
   public:
     explicit Collector(std::vector<BenchResult>& results) : results_{results} {}
@@ -22,7 +22,7 @@ class Collector : public benchmark::BenchmarkReporter {
             if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
             // Families are numbered in the order of registration, which is that of the results.
             BenchResult& result = results_[static_cast<std::size_t>(run.family_index)];  // in order of registration
-            result.seconds.push_back(run.real_accumulated_time);                         // of its one iteration
+            result.seconds.push_back(run.real_accumulated_time);                         // time of its single iteration
             result.geometry_seconds.push_back(run.counters.at("geometry_seconds").value);
         }
     }
@@ -31,8 +31,7 @@ class Collector : public benchmark::BenchmarkReporter {
     std::vector<BenchResult>& results_;
 };
 
-// Runs the job until it has spent `seconds` in runs; 0 runs it not at all. A refused job ends at
-// once.
+// Runs the job until the runs have taken `seconds`; 0: no run. Ends at once if the job is refused.
 void warm_up(const BenchJob& job, double seconds) {
     for (double spent = 0; spent < seconds;) {
         const BenchRun run = run_once(job);
@@ -41,8 +40,7 @@ void warm_up(const BenchJob& job, double seconds) {
     }
 }
 
-// One iteration is one run, timed by run_once(): the benchmark's own clock would count what stands
-// around it.
+// One iteration is one run, timed by run_once(): the benchmark's own clock would include the code around it.
 void run_job(benchmark::State& state, BenchResult& result) {
     for ([[maybe_unused]] auto iteration : state) {
         result.last = run_once(result.job);
@@ -94,7 +92,7 @@ BenchRun run_once(const BenchJob& job) {
     run.geometry_passes = result.frame.passes.geometry;
     run.visited = result.frame.work.visited;
     run.iterations = result.frame.iterations;
-    // A depth pass leaves no colours; its picture is the depths.
+    // A depth pass has no colours; its image is the depths.
     run.picture = std::move(result.frame.color.codes.empty() ? result.frame.depth : result.frame.color);
     return run;
 }
@@ -114,15 +112,15 @@ std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repeti
     double done = 0;
     benchmark::ClearRegisteredBenchmarks();
     for (BenchResult& result : results) {
-        // A job's repetitions come one after the other, and `left` counts them: the first one warms
-        // up, the last one takes the digest.
+        // The repetitions of a job run one after another and are counted by `left`: the first one warms up, the last
+        // one takes the digest.
         const auto body = [&result, &progress, &done, runs, &repetitions,
                            left = repetitions.timed](benchmark::State& state) mutable {
             if (left == repetitions.timed) warm_up(result.job, repetitions.warm_up);
             run_job(state, result);
             if (--left == 0)
-                result.digest = pipeline::digest(result.last.picture);  // not before: it empties the caches
-            // One picture at a time is in memory.
+                result.digest = pipeline::digest(result.last.picture);  // last, because it empties the caches
+            // Only one image at a time is in memory.
             result.last.picture = {};
             progress.show(++done / runs);
         };

@@ -17,13 +17,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// As it was given, without its folder.
+// As given, without its folder.
 std::string scene_name(const BenchJob& job) {
     const std::string& scene = job.scene->options.scene;
     return scenes::is_procedural(scene) ? scene : std::filesystem::path(scene).filename().string();
 }
 
-// The keys that name a job; two runs are compared where all of them agree.
+// The keys that identify a job; jobs of two runs are compared if all of them agree.
 ordered_json words_of(const BenchJob& job) {
     const peeling::RenderOptions& render = job.scene->options.render;
     return {{"scene", scene_name(job)},
@@ -37,8 +37,8 @@ ordered_json words_of(const BenchJob& job) {
             {"profile", job.scene->session.profile.name}};
 }
 
-// One line that tells a job from every other one; a baseline is looked up by it. In older documents
-// the execution `tiled` stands for replay without memory; no memory is named where it is the usual.
+// One line that is unique for a job; a baseline is looked up by it. In older documents the execution `tiled` means
+// replay without memory; the memory is omitted if it is the default.
 std::string name_of_words(const ordered_json& words) {
     const bool is_tiled = words.at("execution") == "tiled";
     const std::uint64_t memory =
@@ -53,7 +53,8 @@ std::string name_of_words(const ordered_json& words) {
 
 std::string name_of_job(const BenchJob& job) { return name_of_words(words_of(job)); }
 
-// The passes' fragments in literal execution: the same work for every way of running. 0 where they were not counted.
+// The passes' fragments in literal execution, which is the same work for every way of running. 0 if they were not
+// counted.
 double fragments(const BenchResult& r) {
     return r.last.counters ? static_cast<double>(r.last.counters->fragments_rasterized) : 0;
 }
@@ -63,7 +64,7 @@ double bytes_per_fragment(const BenchResult& r) {
     return static_cast<double>(counters.bytes_read + counters.bytes_written) / fragments(r);
 }
 
-// A quotient over the fragments, or null and "-" where there is none.
+// A value per fragment, or null and "-" if fragments were not counted.
 ordered_json per_fragment(const BenchResult& r, double value) {
     return fragments(r) > 0 ? ordered_json(value) : ordered_json(nullptr);
 }
@@ -81,7 +82,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     job["visited"] = result.last.visited;
     job["seconds"] = {
         {"median", spread.median}, {"min", spread.least}, {"max", spread.greatest}, {"all", result.seconds}};
-    // The part from transform to bins.
+    // The part from the transform to the bins.
     job["geometry_seconds"] = spread_of(result.geometry_seconds).median;
     job["fragments_per_second"] =
         result.last.counters ? ordered_json(fragments(result) / spread.median) : ordered_json(nullptr);
@@ -95,8 +96,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     return job;
 }
 
-// The row of to_table(): milliseconds, millions of fragments a second, nanoseconds and bytes a
-// fragment.
+// The row of to_table(): milliseconds, millions of fragments per second, nanoseconds and bytes per fragment.
 std::vector<std::string> cells(const BenchResult& result) {
     const BenchJob& job = result.job;
     const Spread spread = spread_of(result.seconds);
@@ -115,12 +115,12 @@ std::vector<std::string> cells(const BenchResult& result) {
             per_fragment(result, bytes_per_fragment(result), 1)};
 }
 
-// The quotient of two medians, or that their runs overlap: then it says nothing.
+// The quotient of two medians, or a note that the runs overlap and the quotient means nothing.
 std::string ratio(const Spread& a, const Spread& b) {
     return is_apart(a, b) ? fmt::format("{:.2f}", a.median / b.median) : "noise";
 }
 
-// What the word means, where a table has it.
+// An explanation of the word "noise", if the table contains it.
 std::string about_noise(const Table& table) {
     for (const auto& row : table.rows)
         if (row.back().find("noise") != std::string::npos)
@@ -128,13 +128,13 @@ std::string about_noise(const Table& table) {
     return "";
 }
 
-// As `seconds` of a job in a document of --json.
+// Parses `seconds` of a job in a document of --json.
 Spread spread_in(const ordered_json& seconds) {
     return {seconds.at("median"), seconds.at("min"), seconds.at("max"), seconds.at("all").size()};
 }
 
-// One row a scene, algorithm, instruction set and effects; one column of milliseconds an execution, then each over
-// replay.
+// One row per scene, algorithm, instruction set and effects; one column of milliseconds per execution, then the ratio
+// of each to replay.
 std::string side_by_side(const std::vector<BenchResult>& results) {
     std::map<std::string, std::map<pipeline::Execution, Spread>> rows;
     std::vector<std::string> order;
@@ -147,14 +147,14 @@ std::string side_by_side(const std::vector<BenchResult>& results) {
         rows[name][r.job.execution] = spread_of(r.seconds);
         used.insert(r.job.execution);
     }
-    // One execution has nothing to stand beside.
+    // With a single execution there is nothing to compare.
     if (used.size() < 2) return "";
     Table table{{{"ms"}}, {}};
     for (const auto execution : used) table.columns.push_back({name_of(executions, execution), Align::right});
     table.columns.push_back({"ratio", Align::right});
     for (const std::string& name : order) {
         std::vector<std::string> row{name}, ratios;
-        // The executions are in the order of their enum: replay is the last one.
+        // The executions are in the order of their enum, in which replay is last.
         const Spread last = rows[name][*used.rbegin()];
         for (const auto execution : used) {
             const Spread& own = rows[name][execution];
@@ -170,7 +170,7 @@ std::string side_by_side(const std::vector<BenchResult>& results) {
 }  // namespace
 
 Baseline load_baseline(const std::string& path) {
-    // 64 MiB is far more than a run of every job writes.
+    // 64 MiB is far more than the document of a run with every job.
     const auto document = ordered_json::parse(scenes::read_text_file(path, std::size_t{64} << 20), nullptr, false);
     const InputError unusable(path, "--baseline", "what strata bench --json wrote", "something else");
     if (!document.is_object() || !document.contains("jobs")) throw unusable;
@@ -237,7 +237,7 @@ std::string to_ratios(const std::vector<BenchResult>& results, const Baseline& b
 }
 
 std::vector<std::string> differing(const std::vector<BenchResult>& results) {
-    std::map<std::string, std::string> first;  // digest of a scene and algorithm
+    std::map<std::string, std::string> first;  // the first digest of a scene and algorithm
     std::vector<std::string> names;
     for (const BenchResult& result : results) {
         if (result.is_refused()) continue;

@@ -1,4 +1,4 @@
-// tools/lab/bench/spread.h - the times of several runs of one job, and whether two jobs' differ.
+// tools/lab/bench/spread.h - the times of several runs of a job, and a test whether two jobs' times differ.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -6,13 +6,13 @@
 
 namespace strata::tools {
 
-// Of one job's seconds, or of their ratios to another job's.
+// Of a job's seconds, or of their ratios to another job's.
 struct Spread {
     double median = 0, least = 0, greatest = 0;
     std::size_t runs = 0;
 };
 
-// Of at least one value; the median of an even number is the mean of the middle two.
+// Requires at least one value; the median of an even number is the mean of the middle two.
 [[nodiscard]] inline Spread spread_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t half = values.size() / 2;
@@ -20,11 +20,11 @@ struct Spread {
     return {median, values.front(), values.back(), values.size()};
 }
 
-inline constexpr std::size_t least_runs = 4;  // that times are compared by
+inline constexpr std::size_t least_runs = 4;  // required for comparing times
 
-// Whether two spreads differ by more than their own noise: at least four runs of each, and every run of the one is
-// shorter than every run of the other. Of jobs that take equally long, that happens once in 35 times or less: of the 70
-// orders of four and four runs, two look so.
+// True if two spreads differ by more than their noise: at least four runs of each, and every run of one is shorter than
+// every run of the other. For jobs that take equally long this has a probability of at most 1/35: 2 of the 70 orders of
+// four and four runs satisfy it.
 [[nodiscard]] inline bool is_apart(const Spread& a, const Spread& b) noexcept {
     return std::min(a.runs, b.runs) >= least_runs && (a.greatest < b.least || b.greatest < a.least);
 }

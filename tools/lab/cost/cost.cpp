@@ -1,5 +1,5 @@
-// tools/lab/cost/cost.cpp - strata cost: what each choice costs in accuracy and in time, measured from the truth of the
-// scene.
+// tools/lab/cost/cost.cpp - strata cost: measures the error of each choice against the scene's exact image, and its
+// time.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -33,7 +33,7 @@ struct CostOptions {
 
 const std::vector<Choice<CostClock>> cost_clocks{{"wall", CostClock::wall}, {"processor", CostClock::processor}};
 
-// The scenes that are open, and their cells.
+// The opened scenes and their cells.
 struct CostSweep {
     std::vector<CostScene> scenes;
     std::vector<CostCell> cells;
@@ -43,7 +43,7 @@ struct CostSweep {
     return scenes::is_procedural(name) ? name : std::filesystem::path(name).filename().string();
 }
 
-// The plainest exact peel that the profile runs: it compares stored codes, so that every depth format shows.
+// The simplest exact peel that the profile can run. It compares stored codes, so that every depth format has an effect.
 [[nodiscard]] const peeling::Algorithm* default_algorithm(const pipeline::DeviceProfile& profile) {
     const peeling::Algorithm* const peel = peeling::find_algorithm("front_to_back");
     return peeling::refusal(*peel, profile) ? peeling::find_algorithm("depth_units") : peel;
@@ -77,7 +77,7 @@ struct CostSweep {
     const auto start = std::chrono::steady_clock::now();
     const CostCell& cell = sweep.cells[number];
     CostScene& scene = sweep.scenes[cell.scene];
-    // The truth is rendered once, when the first cell asks for it.
+    // The truth is rendered once, when the first cell needs it.
     if (scene.truth.rgb.empty()) complete(scene);
     const CostResult result = run_cell(scene, cell);
     const bool is_timed = result.refusal.empty() && !cell.chain;
@@ -87,7 +87,7 @@ struct CostSweep {
         .line = cost_line(number, scene, cell, result), .timing = cost_timing(number, times), .seconds = taken.count()};
 }
 
-// Writes the table, the sentences and the pictures; answers what is printed.
+// Writes the table, the sentences and the plots; returns the text to print.
 [[nodiscard]] std::string report(const Lines& lines, const std::string& folder) {
     const auto in_folder = [&](const std::string& name) { return (std::filesystem::path(folder) / name).string(); };
     const auto rows = cost_rows(lines, read_journal(in_folder("timings.jsonl")).lines);
@@ -133,7 +133,7 @@ struct CostSweep {
                 }};
 }
 
-// What the page of --report says; `folder` holds the times.
+// The text of the page of --report; `folder` contains the times.
 [[nodiscard]] Findings findings(const Lines& lines, const std::string& folder) {
     const auto rows = cost_rows(lines, read_journal((std::filesystem::path(folder) / "timings.jsonl").string()).lines);
     return {found_sentence(rows), choice_table(rows), "Each choice next to the default", {}};

@@ -7,7 +7,7 @@ namespace strata::tools {
 
 namespace {
 
-// A row of the paper's table, front views.
+// A row of the paper's table, for front views.
 struct PrintedRate {
     const char *scene, *algorithm;
     double frames_a_second;

@@ -1,9 +1,9 @@
-// tools/lab/cost/cost_card.h - how long the emulated card would take by its published rates.
+// tools/lab/cost/cost_card.h - estimates the time of a frame on the emulated graphics card from its published rates.
 //
 // Rule     The time of a frame is the longest of three: vertices of all geometry passes, fragments of all passes (a
-//          full-screen pass has one a pixel), and bytes between stages and targets, each over the card's rate. The
-//          three overlap perfectly and nothing waits, so it is a least time.
-// Source   reports.md 10.3 has every rate with its source and mark.
+//          full-screen pass has one per pixel), and bytes between stages and targets, each divided by the card's rate.
+//          The three are assumed to overlap perfectly, so it is a lower bound.
+// Source   reports.md 10.3 lists every rate with its source and evidence mark.
 // Tests    tests/tools/cost_card_test.cpp
 #pragma once
 #include <cstdint>
@@ -17,17 +17,17 @@ struct Card {
     double vertices_a_second = 0, fragments_a_second = 0, bytes_a_second = 0;
 };
 
-// The card that a profile emulates: a GeForce3's for a profile of 8-bit targets without programs, else a GeForce 8800
-// GTX.
+// The card that a profile emulates: a GeForce3 for a profile with 8-bit targets and without programs, else a GeForce
+// 8800 GTX.
 [[nodiscard]] const Card& card_of(bool has_fragment_programs);
 
-// The counted work of a frame; nothing of it depends on the machine that counted.
+// The counted work of a frame, which does not depend on the machine that counts.
 struct CardWork {
     std::uint64_t vertices = 0, fragments = 0, bytes = 0;
 };
 [[nodiscard]] double modelled_seconds(const Card& card, const CardWork& work);
 
-// Carr et al. 2008, Table 1: seconds a frame of a scene file's name and an algorithm, where the paper timed both.
+// Carr et al. 2008, Table 1: seconds per frame for a scene file's name and an algorithm, if the paper timed both.
 [[nodiscard]] std::optional<double> printed_seconds(const std::string& scene, const std::string& algorithm);
 
 }  // namespace strata::tools

@@ -13,7 +13,7 @@ namespace {
 
 using Cells = std::vector<CostCell>;
 
-// Adds a cell that differs from the defaults by what `change` does.
+// Adds a cell that differs from the defaults by `change`.
 void add(Cells& cells, const CostBase& base, const std::string& knob, const std::string& value,
          const std::function<void(CostCell&)>& change) {
     CostCell cell{.scene = base.scene,
@@ -27,7 +27,7 @@ void add(Cells& cells, const CostBase& base, const std::string& knob, const std:
     cells.push_back(std::move(cell));
 }
 
-// Gives the cell's profile a feature that it lacks.
+// Enables a feature that the cell's profile lacks.
 void open(CostCell& cell, bool pipeline::DeviceProfile::*feature, const std::string& name) {
     if (cell.profile.*feature) return;
     cell.profile.*feature = true;

@@ -1,9 +1,9 @@
-// tools/lab/cost/cost_plan.h - the cells of `strata cost`: every knob that trades accuracy for work, one at a time from
-// the defaults.
+// tools/lab/cost/cost_plan.h - the cells of `strata cost`: every option that trades accuracy for work, changed one at a
+// time from the defaults.
 //
-// Rule     reports.md 10.1 lists the knobs and their values. Depth format times path, and algorithm or number of peels
-//          times colour format, are products. What a knob asks for and the profile lacks is opened on a copy of it, and
-//          named. Cells are numbered scene by scene, knob by knob.
+// Rule     reports.md 10.1 lists the knobs and their values. Depth format and path, and algorithm or number of peels
+//          and colour format, are combined. A feature that a knob needs and the profile lacks is enabled in a copy of
+//          the profile, and reported. Cells are numbered scene by scene, knob by knob.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <optional>
@@ -18,32 +18,32 @@
 namespace strata::tools {
 
 struct CostCell {
-    std::size_t scene = 0;    // in the list of scenes
-    std::string knob, value;  // value: the words that follow the knob in a sentence
-    std::string opened;       // what the profile got for it; empty: nothing
+    std::size_t scene = 0;    // index in the list of scenes
+    std::string knob, value;  // value: the text that follows the knob in a sentence
+    std::string opened;       // the feature enabled in the profile; empty: none
     pipeline::DeviceProfile profile;
     peeling::RenderOptions options;
     const peeling::Algorithm* algorithm = nullptr;
-    std::optional<peeling::Chain> chain{};  // a picture of the chain, which no machine draws and no run times
+    std::optional<peeling::Chain> chain{};  // for an image computed by a chain, which has no run time
     bool is_timed_with_audit = false;
 };
 
-// The cell that all others are a step away from.
+// The default cell, from which all others differ in one step.
 struct CostBase {
     std::size_t scene = 0;
     pipeline::DeviceProfile profile;
     peeling::RenderOptions options;
     const peeling::Algorithm* algorithm = nullptr;
-    int layers = 0;  // of the deepest pixel
+    int layers = 0;  // of the pixel that has the most
 };
 
-// In the order of the plan; "default" is always there.
+// In the order of the plan; "default" is always included.
 [[nodiscard]] const std::vector<std::string>& cost_knobs();
 
-// The cells of one scene; `knobs` names those that are wanted.
+// The cells of one scene; `knobs` are the requested ones.
 [[nodiscard]] std::vector<CostCell> cost_cells(const CostBase& base, const std::vector<std::string>& knobs);
 
-// Passes that a knob of peels tries: all up to 8, then every 1.5 times as many, and the last.
+// The pass counts that the knob of peels tries: all up to 8, then each 1.5 times the previous one, and the last.
 [[nodiscard]] std::vector<int> peel_steps(int all);
 
 }  // namespace strata::tools

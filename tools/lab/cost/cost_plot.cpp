@@ -1,4 +1,4 @@
-// tools/lab/cost/cost_plot.cpp - the frontier as an SVG picture: error over time, both logarithmic.
+// tools/lab/cost/cost_plot.cpp - plots the frontier as SVG: error over time, both logarithmic.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double plot_left = 70, plot_right = 620, plot_top = 40, plot_bottom = 420;
 
-// Whole powers of ten about all values, on pixels `from` to `to`.
+// A logarithmic axis over whole powers of ten that include all values, on pixels `from` to `to`.
 struct PowerAxis {
     int low, high;  // exponents
     double from, to;
@@ -87,7 +87,7 @@ std::string frontier_svg(const std::vector<CostPoint>& points, const std::string
         const CostPoint& p = points[frontier[i]];
         const double px = x.at(p.time), py = y.at(p.error);
         path += path.empty() ? fmt::format("M{:.1f} {:.1f}", px, py) : fmt::format("H{:.1f}V{:.1f}", px, py);
-        // Points of the frontier may lie close together: their names stand in a column, numbered.
+        // Points of the frontier may be close together, so they are numbered and their names are in a list.
         const double row = plot_top + 10 + 18 * static_cast<double>(i);
         labels += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"#d55e00\"/>\n", px, py) +
                   words(px + 5, py - 5, "start", std::to_string(i + 1)) +

@@ -19,8 +19,8 @@ namespace {
     return defaults;
 }
 
-// "1.25 times the time (1.20 to 1.31)" of the default's: the quotient of two ratios to the cheapest cell; or that the
-// rounds of both overlap.
+// "1.25 times the time (1.20 to 1.31)" of the default's: the quotient of two ratios to the cheapest cell; or a note
+// that the rounds of both overlap.
 [[nodiscard]] std::string times_of(const CostRow& row, const CostRow& standard) {
     std::string text;
     if (row.usual && standard.usual) {
@@ -56,7 +56,7 @@ namespace {
     return s ? fmt::format("{:.6g},{:.6g},{:.6g}", s->median, s->least, s->greatest) : ",,";
 }
 
-// RFC 4180: the name of a scene may hold a comma.
+// RFC 4180: the name of a scene may contain a comma.
 [[nodiscard]] std::string csv_word(const std::string& word) {
     return word.find(',') == std::string::npos ? word : '"' + word + '"';
 }

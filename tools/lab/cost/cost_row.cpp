@@ -52,7 +52,7 @@ template <class T>
         {"median", spread.median}, {"least", spread.least}, {"greatest", spread.greatest}, {"rounds", values.size()}};
 }
 
-// A word with a comma in it is quoted; none of ours holds a quote.
+// A text with a comma is quoted; none of these contains a quotation mark.
 [[nodiscard]] std::string cost_field(const ordered_json& value) {
     if (value.is_null()) return "";
     if (!value.is_string()) return value.dump();
@@ -66,7 +66,7 @@ template <class T>
     return Spread{s["median"], s["least"], s["greatest"], s["rounds"]};
 }
 
-// Divides by the least median of each scene, so that its cheapest cell has 1.
+// Divides by the smallest median of each scene, so that its cheapest cell has 1.
 template <class Median, class Scale>
 void relate(std::vector<CostRow>& rows, Median median, Scale scale) {
     std::map<std::string, double> least;
@@ -88,7 +88,7 @@ void relate_spread(std::vector<CostRow>& rows, std::optional<Spread> CostRow::*c
         });
 }
 
-// The oracle is no device's algorithm, and to sort triangles is the processor's work: the card's rates tell neither.
+// The oracle is not a device's algorithm, and sorting triangles is work of the CPU: the card's rates do not apply.
 [[nodiscard]] bool runs_on_a_card(const std::string& name) {
     const peeling::Algorithm* const algorithm = peeling::find_algorithm(name);
     if (algorithm == nullptr) return true;

@@ -24,7 +24,7 @@ using peeling::RenderResult;
                                  *cell.chain);
 }
 
-// A full-screen pass has a fragment a pixel.
+// A full-screen pass has one fragment per pixel.
 [[nodiscard]] CardWork work_of(const CostScene& scene, const CostCell& cell, const RenderResult& result) {
     const auto& passes = result.frame.passes;
     const pipeline::Counters counters = result.frame.counters.value_or(pipeline::Counters{});
@@ -35,7 +35,7 @@ using peeling::RenderResult;
             counters.bytes_read + counters.bytes_written};
 }
 
-// Set-up and passes; scene, truth and audit (unless it is what is timed) stand outside.
+// Set-up and passes are timed; loading, truth and audit (unless the audit is timed) are not.
 [[nodiscard]] double seconds_of(const Session& session, const CostCell& cell, pipeline::Execution execution,
                                 CostClock clock) {
     peeling::RenderOptions options = cell.options;
@@ -103,7 +103,7 @@ CostTimes time_cell(const CostScene& scene, const CostCell& cell, const CostTimi
     const auto literal_seconds = [&] { return seconds(cell, pipeline::Execution::literal); };
     const auto reference_seconds = [&] { return seconds(reference, reference.options.execution); };
     constexpr double long_run = 2;
-    // Runs before the first round warm up, and say whether literal execution is worth a run in each.
+    // The runs before the first round warm up, and determine whether literal execution is run in each round.
     static_cast<void>(reference_seconds());
     static_cast<void>(seconds(cell, cell.options.execution));
     const double first_literal = literal_seconds();

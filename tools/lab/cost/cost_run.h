@@ -1,12 +1,12 @@
-// tools/lab/cost/cost_run.h - measures one cell of `strata cost`: its error from the truth, its counted work, its
+// tools/lab/cost/cost_run.h - measures one cell of `strata cost`: its error against the truth, its counted work, its
 // times.
 //
-// Rule     Errors and counts depend on the cell alone. Times are those of a clock from the scene in memory to finished
-//          pixels without audit, each round one of the default cell, one of this cell and one of it in literal
-//          execution, in turn; literal execution once, related to every round's default, if that takes over 2 s. A time
-//          is kept as its ratio to the default's of the same round. A cell has five rounds, and up to 25 while they
-//          last under 2 s in all: another process takes turns of milliseconds, which a long run has many of and a short
-//          one now and then.
+// Rule     Errors and counts depend on the cell alone. Times are measured from the scene in memory to finished pixels
+//          without audit. A round times the default cell, this cell, and this cell in literal execution; if literal
+//          execution takes over 2 s it is timed once, and compared with every round's default. A time is stored as its
+//          ratio to the default's of the same round. A cell has five rounds, and up to 25 while they take less than 2 s
+//          in total: other processes interrupt for milliseconds, which averages out in a long run but not in a short
+//          one.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -21,19 +21,19 @@
 
 namespace strata::tools {
 
-// A scene with what all its cells are measured against.
+// A scene with the references for all of its cells.
 struct CostScene {
     std::string name;  // without its folder
     Session session;
     CostBase base;
-    std::uint64_t vertices = 0;          // of the list
-    peeling::RealImage truth, pictured;  // pictured: what the default cell shows
+    std::uint64_t vertices = 0;          // of the draw list
+    peeling::RealImage truth, pictured;  // pictured: the image of the default cell
 };
 
 struct CostResult {
-    std::string refusal;  // the sentence; empty: it ran
+    std::string refusal;  // the message; empty: it ran
     peeling::RealError error;
-    double from_default = 0;  // the share of pixels that differ from the default cell's picture
+    double from_default = 0;  // the share of pixels that differ from the default cell's image
     std::optional<std::uint64_t> order_errors;
     int layers = 0;
     pipeline::PassCount passes;
@@ -41,24 +41,24 @@ struct CostResult {
     double modelled = 0;  // seconds
 };
 
-// Ratios to the default cell, one a round; empty where nothing was timed.
+// Ratios to the default cell, one per round; empty if nothing was timed.
 struct CostTimes {
     std::vector<double> seconds, ratios, literal;
 };
 
-// What a time is: as a user waits; or what all threads took of the processor, which other processes hardly change.
+// The clock: wall-clock time, or the CPU time of all threads, which other processes hardly affect.
 enum class CostClock : std::uint8_t { wall, processor };
-[[nodiscard]] double seconds_on(CostClock clock);  // since some moment
+[[nodiscard]] double seconds_on(CostClock clock);  // since an arbitrary start
 
 struct CostTiming {
-    int rounds = 0;  // exactly so many; 0: as many as the rule says
+    int rounds = 0;  // the exact number; 0: by the rule above
     CostClock clock = CostClock::wall;
 };
 
 [[nodiscard]] CostResult run_cell(const CostScene& scene, const CostCell& cell);
 [[nodiscard]] CostTimes time_cell(const CostScene& scene, const CostCell& cell, const CostTiming& timing);
 
-// Whether a cell that was timed in `done` rounds, `seconds` in all, is timed in another one.
+// True if a cell that was timed in `done` rounds, `seconds` in total, needs another round.
 [[nodiscard]] constexpr bool wants_round(int done, double seconds, int rounds) noexcept {
     constexpr int least = 5, most = 25;
     constexpr double enough = 2;
@@ -66,10 +66,10 @@ struct CostTiming {
     return done < least || (done < most && seconds < enough);
 }
 
-// Renders the truth and the default cell of a scene whose session and base are there.
+// Renders the truth and the default cell of a scene whose session and base are set.
 void complete(CostScene& scene);
 
-// How many layers the deepest pixel has, as the audit counts them.
+// The number of layers of the deepest pixel, as counted by the audit.
 [[nodiscard]] int layers_of(const Session& session, const CostBase& base);
 
 }  // namespace strata::tools

@@ -1,5 +1,5 @@
-// tools/lab/effects/effects.cpp - strata bench --per-effect: what a run simulates and why, what it costs, what leaving
-// the rest out saved.
+// tools/lab/effects/effects.cpp - strata bench --per-effect: prints which effects a run simulates and why, what they
+// cost, and what omitting the others saves.
 #include "tools/lab/effects/effects.h"
 
 #include <fmt/format.h>
@@ -18,10 +18,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The answer of the command for one algorithm.
+// The result for one algorithm.
 struct Explained {
     const peeling::Algorithm* algorithm = nullptr;
-    std::string refusal;  // empty: it ran
+    std::string refusal;  // empty if it ran
     EffectsPlan plan;
     EffectTimes times;
 };
@@ -68,7 +68,7 @@ std::string milliseconds(const EffectRow& row) {
     return row.is_noise ? "noise" : fmt::format("{:.2f}", *row.seconds * 1e3);
 }
 
-// "x 2.00 ms, y 3.00 ms: WORDS 1.50 times as fast", or that the runs of both overlap.
+// "x 2.00 ms, y 3.00 ms: WORDS 1.50 times as fast", or a note that the runs of both overlap.
 std::string compared(const std::string& names, const Spread& with, const Spread& without, const char* words) {
     const std::string times = fmt::format(fmt::runtime(names), with.median * 1e3, without.median * 1e3);
     if (is_apart(with, without))
@@ -78,7 +78,7 @@ std::string compared(const std::string& names, const Spread& with, const Spread&
         with.runs, with.least * 1e3, with.greatest * 1e3, without.least * 1e3, without.greatest * 1e3);
 }
 
-// Simulated effects first, then those left out.
+// Simulated effects first, then the omitted ones.
 std::string to_text(const Explained& e, const BenchScene& scene) {
     if (!e.refusal.empty()) return fmt::format("{}: {}\n", e.algorithm->name, e.refusal);
     Table table{{{e.algorithm->name},

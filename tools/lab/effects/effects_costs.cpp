@@ -19,8 +19,8 @@ double seconds_of(const std::function<void()>& run) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The seconds of each; a first round warms up. The runs of a round stand next to each other in
-// time, so that a machine that becomes slower changes all of them alike.
+// The seconds of each; a first round warms up. The runs of a round follow each other directly, so that a machine that
+// becomes slower affects all of them equally.
 std::vector<Spread> in_turn(const std::vector<std::function<void()>>& runs, int repeat) {
     std::vector<std::vector<double>> seconds(runs.size());
     for (int round = 0; round <= repeat; ++round)
@@ -33,22 +33,22 @@ std::vector<Spread> in_turn(const std::vector<std::function<void()>>& runs, int 
     return spreads;
 }
 
-// What the runs with an effect take longer than those without, `times` times over.
+// Sets the cost to the difference between runs with and without an effect, times `times`.
 void set_cost(EffectRow& row, const Spread& with, const Spread& without, double times = 1) {
     row.seconds = std::max(0.0, with.median - without.median) * times;
     row.is_noise = !is_apart(with, without);
 }
 
-// True for an array that is computed for each fragment; the other effects are stages.
+// True for an array that is computed per fragment; the other effects are stages.
 bool is_value(Effect effect) {
     using enum Effect;
     return effect == color || effect == texcoord || effect == shader_z || effect == code || effect == facing;
 }
 
-// Values that the run needs cannot be left out of it: walks over the fragments measure them.
+// Values that the run needs cannot be omitted: they are measured by traversals of the fragments.
 bool is_walked(const EffectRow& row) { return row.is_simulated && is_value(row.effect_id); }
 
-// The values that the plan simulates, all but one.
+// The values that the plan simulates, except one.
 rasterizer::FragmentNeeds values_without(const EffectsPlan& plan, Effect left_out) {
     rasterizer::FragmentNeeds needs{false, false, false, false, false, false};
     for (const EffectRow& row : plan.rows)
@@ -56,7 +56,7 @@ rasterizer::FragmentNeeds values_without(const EffectsPlan& plan, Effect left_ou
     return needs;
 }
 
-// Walk 0 computes all values that are called for, each further walk all but one.
+// Traversal 0 computes all needed values, each further one all except one.
 void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     const peeling::RenderOptions& options = asked.scene->options.render;
     std::vector<std::function<void()>> walks;
@@ -78,7 +78,7 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
 }  // namespace
 
 EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan) {
-    // The plain run: without replay, which would hide what passes cost.
+    // The plain run is made without replay, which would hide the cost of passes.
     BenchJob needed = asked;
     needed.is_never_replayed = true;
     needed.effects = pipeline::Effects::needed;

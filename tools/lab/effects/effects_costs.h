@@ -1,10 +1,10 @@
-// tools/lab/effects/effects_costs.h - how long the effects of a plan take.
+// tools/lab/effects/effects_costs.h - measures the time of the effects of a plan.
 //
-// Rule     Every kind of run is repeated, the kinds taking turns on warm caches; its time is the median. A stage costs
-//          the difference that one more stage of its kind makes, with a state that changes nothing; that measures
-//          stages which no state needs, too (pipeline/frame/effects.h). A value that is left out is measured in the
-//          same way. A value that passes do call for costs the difference between two walks over all fragments, one
-//          with it and one without, times the number of those passes. Effects are timed without replay, since
+// Rule     Every kind of run is repeated, alternating with the others, on warm caches; its time is the median. The cost
+//          of a stage is the difference that a second stage of its kind makes, with a state that changes nothing; this
+//          also measures stages that no state needs (pipeline/frame/effects.h). An omitted value is measured in the
+//          same way. The cost of a value that passes need is the difference between two traversals of all fragments,
+//          one with it and one without, times the number of those passes. Effects are timed without replay, because
 //          Effects::all does not use it.
 // Tests    tests/tools/effects_test.cpp
 #pragma once
@@ -15,13 +15,13 @@ namespace strata::tools {
 struct BenchJob;
 struct EffectsPlan;
 
-// Seconds of whole runs.
+// Seconds of complete runs.
 struct EffectTimes {
     Spread needed, all, as_asked;
 };
 
-// Fills EffectRow::seconds where it can be measured, and whether it is more than the noise of the runs. Costs are
-// differences of measured times; one below 0 is 0.
+// Sets EffectRow::seconds if it can be measured, and whether it exceeds the noise of the runs. Costs are differences of
+// measured times; negative ones become 0.
 [[nodiscard]] EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan);
 
 }  // namespace strata::tools

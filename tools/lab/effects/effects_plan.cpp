@@ -18,13 +18,13 @@ using pipeline::Effect;
 using pipeline::Material;
 using pipeline::PassRecord;
 
-// --alpha makes everything transparent.
+// --alpha makes all materials transparent.
 bool is_transparent(const RunOptions& options, const Material& m) {
     return options.render.alpha || m.alpha_mode == AlphaMode::blend;
 }
 
-// How often passes like this one occur in the whole run: once for each record before the first iteration and in the
-// first; what later iterations do, they all do alike.
+// The number of occurrences of a pass in the whole run: once per record before the first iteration and in it; all later
+// iterations are alike.
 struct Occurrences {
     std::uint64_t before = 0, first = 0, later = 0;
     [[nodiscard]] std::uint64_t in(int iterations) const {
@@ -42,7 +42,7 @@ std::uint64_t count_passes(const pipeline::PassLog& log, int iterations, Holds h
         if (pass.is_opaque_priming || pass.iteration > 2 || !holds(pass)) continue;
         ++(pass.iteration == 0 ? found.before : pass.iteration == 1 ? found.first : found.later);
     }
-    // The small run ended after one iteration: later ones are taken to be like the first.
+    // The small run ended after one iteration: later ones are assumed to be like the first.
     if (!has_later) found.later = found.first;
     return found.in(iterations);
 }
@@ -61,8 +61,7 @@ std::string names_of(const pipeline::DrawList& list, Holds holds) {
     return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), more);
 }
 
-// A row that the state of each pass decides: `called` says what needs it, `idle` why nothing
-// does.
+// A row that depends on the state of each pass: `called` says what needs it, `idle` why nothing does.
 struct PassEffect {
     const char* name;
     Effect effect;
@@ -71,7 +70,7 @@ struct PassEffect {
     const char* idle;
 };
 
-// True if a colour target that exists is blended.
+// True if an existing colour target is blended.
 bool is_blending(const PassRecord& p) {
     for (std::size_t k = 0; k < p.state.color.size(); ++k)
         if (p.state.color[k].exists() && p.state.blend[k].enabled) return true;
@@ -117,21 +116,21 @@ bool idles_when_off(Effect effect) {
            effect == Effect::blending;
 }
 
-// Of all materials.
+// Summed over all materials.
 std::uint64_t total(const std::vector<std::uint64_t>& counts) {
     std::uint64_t sum = 0;
     for (const std::uint64_t count : counts) sum += count;
     return sum;
 }
 
-// Collects the rows: the small literal run happens in the constructor, the rest in plan().
+// Collects the rows: the small literal run is made in the constructor, the rest in plan().
 class Planner {
   public:
     Planner(const BenchJob& job, const BenchRun& run) : job_{job}, run_{run} {
         const RunOptions& options = job.scene->options;
         peeling::RenderOptions small = options.render;
         constexpr int longest = 128;  // passes do not depend on the size
-        // Both sides are divided by the same number, so that the view keeps its aspect.
+        // Both sides are divided by the same number to keep the aspect.
         const int scale = std::max(1, (std::max(small.width, small.height) + longest - 1) / longest);
         small.width = std::max(1, small.width / scale);
         small.height = std::max(1, small.height / scale);
@@ -169,7 +168,7 @@ class Planner {
     template <class Holds>
     [[nodiscard]] std::uint64_t passes(Holds holds) const {
         if (job_.algorithm != nullptr &&
-            (job_.algorithm->whole_frame || job_.algorithm->runs_loops))  // no iteration of it is like another
+            (job_.algorithm->whole_frame || job_.algorithm->runs_loops))  // its iterations differ from each other
             return static_cast<std::uint64_t>(
                 std::count_if(log_.passes.begin(), log_.passes.end(),
                               [&](const PassRecord& pass) { return !pass.is_opaque_priming && holds(pass); }));
@@ -193,15 +192,15 @@ class Planner {
         const Session& session = job_.scene->session;
         const rasterizer::RasterState raster = peeling::raster_state(options.render, session.profile);
         using pipeline::Selection;
-        const peeling::Algorithm& one_pass = *peeling::find_algorithm("unsorted");  // what a depth pass is as well
+        const peeling::Algorithm& one_pass = *peeling::find_algorithm("unsorted");  // a depth pass has one pass, too
         const int tile_size = tile_size_of(options.render, job_.algorithm == nullptr ? one_pass : *job_.algorithm);
         const auto prepared = [&](Selection selection) {
             return pipeline::prepare(
                 list(), session.view, raster, session.profile,
                 {.selection = selection, .tile_size = tile_size, .threads = options.render.threads});
         };
-        // Counts tiles and fragments of both lists in the whole frame, with the tiles of the run
-        // itself. With --alpha nothing is opaque: the other list is then one without a triangle.
+        // Counts tiles and fragments of both lists in the whole frame, with the tiles of the run. With --alpha nothing
+        // is opaque, and the other list is empty.
         pipeline::PreparedDraw opaque = prepared(Selection::opaque);
         if (options.render.alpha) std::fill(opaque.geometry.bin_start.begin(), opaque.geometry.bin_start.end(), 0u);
         plan_.drawn = prepared(options.render.alpha ? Selection::all : Selection::transparent);
@@ -209,7 +208,7 @@ class Planner {
         plan_.tiles = pipeline::count_tiles(plan_.drawn, opaque);
     }
 
-    // A row that materials call for: in `drawn` passes over the transparent list, and once in opaque priming.
+    // A row that materials need: in `drawn` passes over the transparent list, and once in the opaque pass.
     template <class Holds>
     void add_material_row(const char* effect, Holds holds, const char* called, const char* idle, std::uint64_t drawn) {
         std::uint64_t transparent = 0, opaque = 0, fragments = 0;
@@ -226,7 +225,7 @@ class Planner {
             add(effect, false, idle, 0, 0);
     }
 
-    // Once a frame, vertices or triangles and no fragments.
+    // Once per frame, with vertices or triangles and no fragments.
     template <class Holds>
     void add_geometry_row(const char* effect, Holds holds, const std::string& called, const char* idle) {
         const std::string names = names_of(list(), holds);
@@ -253,7 +252,7 @@ class Planner {
             "no material has a texture", passes([](const PassRecord& p) { return p.samples_textures; }));
     }
 
-    // Adds the effects that belong to the frame as a whole, not to one tile or pass.
+    // Adds the effects of the frame as a whole, not of one tile or pass.
     void add_frame() {
         const peeling::RenderOptions& o = job_.scene->options.render;
         const std::uint64_t drawn = total(plan_.tiles.transparent_fragments);

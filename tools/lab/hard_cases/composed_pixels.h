@@ -1,8 +1,7 @@
-// tools/lab/hard_cases/composed_pixels.h - the fragments and the composited sequence of each pixel that a frame shows
-// something at.
+// tools/lab/hard_cases/composed_pixels.h - the fragments and the composited sequence of each nonempty pixel of a frame.
 //
-// Rule     Pixels come in the frame's order. One without a visible fragment on which nothing was composited is left
-//          out, so a frame costs what it shows, however large it is.
+// Rule     Pixels are in the frame's order. A pixel without visible fragments and without composited layers is omitted,
+//          so the cost does not depend on the frame's size.
 // Tests    tests/tools/hard_cases/composited_test.cpp
 #pragma once
 #include <cstddef>
@@ -19,18 +18,18 @@ namespace strata::tools {
 
 struct ComposedFrame;  // composited.h
 
-// A fragment that lies before the opaque surface and is a layer to the algorithm, and its key.
+// A fragment in front of the opaque surface that is a layer for the algorithm, and its key.
 struct VisibleFragment {
     std::uint32_t key = 0;
     const pipeline::CapturedFragment* fragment = nullptr;
 };
 [[nodiscard]] bool has_tie(const std::vector<VisibleFragment>& pixel);
 
-// What a pixel composited, near to far.
+// The layers that a pixel composited, near to far.
 using Sequence = std::vector<pipeline::TraceEntry>;
 
 struct ComposedPixel {
-    std::size_t pixel = 0;                 // of the frame, row by row
+    std::size_t pixel = 0;                 // index in the frame, row by row
     std::vector<VisibleFragment> visible;  // in submission order
     Sequence sequence;
 };

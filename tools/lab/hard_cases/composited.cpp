@@ -40,7 +40,7 @@ struct Known {
     friend auto operator<=>(const Known&, const Known&) = default;
 };
 
-// What only one of two lists has; an element that comes twice in both is in both twice.
+// The elements that only one of two lists has, as multisets.
 template <class T>
 void compare_lists(std::vector<T> expected, std::vector<T> shown, Composited& found) {
     std::sort(expected.begin(), expected.end());
@@ -65,7 +65,7 @@ void compare_sequence(const std::vector<Known>& visible, const Sequence& sequenc
     bool names_fragments = !drops;
     for (const Known& known : visible) expected_keys.push_back(known.key);
     for (std::size_t i = 0; i < sequence.size(); ++i) {
-        // A mark of a layer names its key alone.
+        // A trace entry of a layer has only its key.
         names_fragments = names_fragments && sequence[i].is_fragment;
         shown_keys.push_back(sequence[i].key);
         shown.push_back({sequence[i].key, sequence[i].primitive});
@@ -92,11 +92,11 @@ void look_at_pixel(const std::vector<Known>& visible, const Sequence& sequence, 
     if (found.lost + found.repeated + found.misplaced != before) ++found.wrong_pixels;
 }
 
-// Values with the pixel that each belongs to.
+// Values, each with its pixel.
 template <class T>
 using ByPixel = std::vector<std::pair<std::size_t, T>>;
 
-// Those of one pixel keep their order.
+// Sorts by pixel; values of one pixel keep their order.
 template <class T>
 ByPixel<T> sorted(ByPixel<T> all) {
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -1,5 +1,5 @@
-// tools/lab/hard_cases/hard_cases.cpp - strata hard-cases: every algorithm on scenes that are hard for rasterizers and
-// peels.
+// tools/lab/hard_cases/hard_cases.cpp - strata hard-cases: runs every algorithm on scenes that are hard for rasterizers
+// and peels.
 #include <fmt/format.h>
 
 #include <memory>
@@ -96,7 +96,7 @@ int hard_cases_command(const HardOptions& options) {
     Work work = hard_work(sweep);
     work.report = options.report;
     bool failed = false;
-    // A shard's lines are a part of the page that --merge writes.
+    // A shard has only part of the lines of the page, which --merge writes.
     work.summary = [&](const Lines& lines) {
         write_page(sweep, lines, options.folder);
         failed = has_failed(lines);
@@ -108,7 +108,7 @@ int hard_cases_command(const HardOptions& options) {
     return failed ? 1 : status;
 }
 
-// Values with commas between, each a name that `known` has.
+// Comma-separated values, each of them a name in `known`.
 void add_names(CLI::App& app, const std::string& option, std::vector<std::string>& target,
                const std::vector<std::string>& known, const std::string& help) {
     const auto fill = [&target, known, option](const std::string& given) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double depth_noise = 0x1p-48, pixel_noise = 0x1p-40;
 
-// The greatest change of the determinant of (a, b, p) if its corners move by up to `da` and `db`.
+// The largest change of the determinant of (a, b, p) if its corners move by up to `da` and `db`.
 double edge_slack(const RealCorner& a, const RealCorner& b, const std::array<double, 3>& da,
                   const std::array<double, 3>& db, double x, double y) {
     return da[0] * std::fabs(b.y - y) + da[1] * std::fabs(b.x - x) + db[0] * std::fabs(a.y - y) +
@@ -28,7 +28,7 @@ double edge(const RealCorner& a, const RealCorner& b, double x, double y) {
 
 }  // namespace
 
-// A surface's box, and how far each corner may be off.
+// A surface's bounding box, and the possible error of each corner.
 struct ExactCase::Reach {
     rasterizer::Rect box;
     std::array<Point, 3> off{};
@@ -72,14 +72,14 @@ double ExactCase::depth_at(std::uint32_t primitive, std::size_t pixel) const {
 
 namespace {
 
-// A pixel's transparent fragment with what blending needs.
+// A pixel's transparent fragment with the data for blending.
 struct Layer {
     double depth;
     std::uint32_t primitive;
     Rgba color;
 };
 
-// Depths that binary64 cannot tell apart share their place.
+// Depths that are equal in binary64 get the same layer number.
 SeenPixel pixel_of(std::vector<Layer> layers, std::array<double, 3> background) {
     std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.depth < b.depth; });
     SeenPixel pixel{.fragments = {}, .layers = static_cast<int>(layers.size()), .color = background};
@@ -131,8 +131,8 @@ Seen ExactCase::seen() const {
     return seen;
 }
 
-// A corner in front of the eye moves farthest in the window at an end of each coordinate's range: its x / w, y / w and
-// z / w are monotone in each.
+// The extreme window positions of a corner in front of the eye are at the ends of its coordinates' ranges, because x /
+// w, y / w and z / w are monotone in each coordinate.
 ExactCase::Reach ExactCase::reach_of(const Surface& surface, const Slack& slack) const {
     Reach reach;
     double most = 1;
@@ -158,7 +158,8 @@ ExactCase::Reach ExactCase::reach_of(const Surface& surface, const Slack& slack)
     return reach;
 }
 
-// Marks the pixels that the surface may gain or lose; where it may be, `depths` gets its depth and how far that is off.
+// Marks the pixels that the surface may gain or lose; where it may be, `depths` receives its depth and the bound on its
+// error.
 void ExactCase::mark_open(const Surface& surface, const Slack& slack,
                           std::vector<std::vector<std::array<double, 2>>>& depths, std::vector<bool>& open) const {
     const Reach reach = reach_of(surface, slack);
@@ -192,7 +193,7 @@ void ExactCase::mark_open(const Surface& surface, const Slack& slack,
             const std::size_t pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(hard_.width) + static_cast<std::size_t>(x);
             const double z = surface.triangle.depth(surface.triangle.weights(x, y));
-            // Beyond the range whatever happens; of what has no side the depth is not known.
+            // Outside the range in any case; the depth of a triangle without area is unknown.
             if (has_side && (z < hard_.depth_near - off || z > hard_.depth_far + off)) continue;
             if (!is_certain || z < hard_.depth_near + off || z > hard_.depth_far - off) open[pixel] = true;
             depths[pixel].push_back({z, off});

@@ -1,15 +1,15 @@
-// tools/lab/hard_cases/hard_exact.h - the exact answer of a hard case that is looked at from some view, and where it
-// hangs by a thread.
+// tools/lab/hard_cases/hard_exact.h - the exact answer of a hard case from a given view, and the pixels where it is
+// sensitive to small errors.
 //
-// Rule     Corners go through the view in binary64 and are not snapped; coverage is the exact sign of the edge
-//          functions (real_triangle.h); a fragment is visible from near to far, both included, and before the nearest
-//          opaque one. A pixel is open to a slack if, with every corner and depth as far off as the slack allows, a
-//          triangle may gain or lose the pixel's centre, or two depths, or a depth and the end of the range, may change
-//          their order.
-// Numbers  An edge function is bilinear in its two corners, so its change is bounded by them rigorously. A depth's
-//          change is bounded to first order, times 5/4. Binary64 itself is off by less than 2^-48 of depth and 2^-40
-//          pixel, which every slack includes. Colours are those of a triangle's first corner: all corners of these
-//          cases have one.
+// Rule     Corners are transformed in binary64 and not snapped; coverage is the exact sign of the edge functions
+//          (real_triangle.h); a fragment is visible from near to far, both inclusive, and in front of the nearest
+//          opaque one. A pixel is open to a slack if, with errors of every corner and depth up to the slack, a triangle
+//          may gain or lose the pixel's centre, or two depths, or a depth and the end of the range, may change their
+//          order.
+// Numbers  An edge function is bilinear in its two corners, so the bound on its change is rigorous. A depth's change is
+//          bounded to first order, times 5/4. The error of binary64 itself is below 2^-48 of depth and 2^-40 pixel,
+//          which every slack includes. A triangle has the colour of its first corner: in these cases all corners of a
+//          triangle have the same colour.
 // Tests    tests/tools/hard_cases/hard_exact_test.cpp: rational arithmetic
 #pragma once
 #include <array>
@@ -22,22 +22,22 @@
 
 namespace strata::tools {
 
-// How far the numbers of a picture may be from what they are.
+// Bounds on the errors of an image.
 struct Slack {
-    double relative = 0;  // of each coordinate of a corner, as it is given
-    double pixels = 0;    // of a corner in the window, along each axis
-    double depth = 0;     // of a fragment, of the depth range 0 to 1
+    double relative = 0;  // of each input coordinate of a corner, relative
+    double pixels = 0;    // of a corner in the window, per axis
+    double depth = 0;     // of a fragment, in the depth range 0 to 1
 };
 
 class ExactCase {
   public:
-    // Every corner must lie in front of the eye.
+    // Every corner must be in front of the eye.
     ExactCase(const scenes::HardCase& hard, const scenes::Scene& scene, const pipeline::View& view);
 
-    // Of each pixel, row by row: the visible fragments, and all of them blended over the opaque surface in binary64.
+    // Per pixel, row by row: the visible fragments, and their colour blended over the opaque surface in binary64.
     [[nodiscard]] Seen seen() const;
     [[nodiscard]] std::vector<bool> open_pixels(const Slack& slack) const;
-    // The depth of a triangle's plane at a pixel's centre, whether or not it covers it.
+    // The depth of a triangle's plane at a pixel's centre, whether or not the triangle covers it.
     [[nodiscard]] double depth_at(std::uint32_t primitive, std::size_t pixel) const;
 
   private:

@@ -18,7 +18,7 @@ bool sees_alike(const SeenPixel& a, const SeenPixel& b) {
     return std::ranges::equal(a.fragments, b.fragments, {}, &SeenFragment::primitive, &SeenFragment::primitive);
 }
 
-// Places by exact depth; equal depths share one, as they do in ExactCase::seen.
+// Numbers layers by exact depth; equal depths share a layer, as in ExactCase::seen.
 void order_by_depth(const ExactCase& exact, std::size_t number, SeenPixel& pixel) {
     for (SeenFragment& f : pixel.fragments) f.depth = exact.depth_at(f.primitive, number);
     std::vector<SeenFragment*> order;

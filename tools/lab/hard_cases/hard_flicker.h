@@ -1,9 +1,10 @@
-// tools/lab/hard_cases/hard_flicker.h - what flips along a smooth camera path where the exact answer stays as it is.
+// tools/lab/hard_cases/hard_flicker.h - counts pixels that flip along a smooth camera path although the exact answer
+// does not change.
 //
-// Rule     64 frames of the path (hard_moves.h), each beside the next. Where the exact answer of a pixel changes, or
-//          hangs by the rounding of binary64, nothing is counted. Elsewhere a pixel flips in order if the same
-//          fragments are visible in both frames, but layers change their order or number; it flips in coverage if other
-//          fragments are visible. With a fragment's exact depth for its stored one no pixel flips in order.
+// Rule     64 frames of the path (hard_moves.h), each compared with the next. Pixels whose exact answer changes, or
+//          depends on the rounding of binary64, are not counted. Other pixels flip in order if the same fragments are
+//          visible in both frames, but layers change their order or number; they flip in coverage if other fragments
+//          are visible. With exact depths instead of stored ones no pixel flips in order.
 // Tests    tests/tools/hard_cases/hard_flicker_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -14,7 +15,7 @@
 namespace strata::tools {
 
 struct Flicker {
-    std::uint64_t compared = 0;  // pixels of all pairs of frames where the exact answer stays
+    std::uint64_t compared = 0;  // pixels of all pairs of frames where the exact answer does not change
     std::uint64_t order = 0, coverage = 0;
     friend bool operator==(const Flicker&, const Flicker&) = default;
 };
@@ -24,7 +25,7 @@ class PathCase {
     explicit PathCase(const scenes::HardCase& hard);
     ~PathCase();
     [[nodiscard]] Flicker flicker(const Look& look) const;
-    // The visible fragments of `look`, in the order of their exact depths.
+    // The flicker of the visible fragments of `look` sorted by their exact depths.
     [[nodiscard]] Flicker flicker_of_exact_depths(const Look& look) const;
 
   private:

@@ -14,7 +14,7 @@ using namespace pipeline;
 
 namespace {
 
-// The spacing of stored depths; of binary32 that of the upper half of the range.
+// The spacing of stored depths; for binary32 that of the upper half of the range.
 double depth_step(DepthFormat format) {
     switch (format) {
         case DepthFormat::d16: return 1.0 / 0xffff;

@@ -1,8 +1,8 @@
-// tools/lab/hard_cases/hard_moved.h - stability and flicker of a case on a device: what stands in a sweep's line.
+// tools/lab/hard_cases/hard_moved.h - stability and flicker of a case on a device, for a line of a sweep.
 //
-// Rule     Both are measured for cases that name them, by the algorithms of is_moved. Flicker stands there for the
-//          device's own depth path, and with front_to_back for every depth path that the device has and for exact
-//          depths: there nothing but stored depths decides.
+// Rule     Both are measured for cases with is_moved, with the algorithms of is_moved. Flicker is measured for the
+//          device's own depth path, and with front_to_back, whose result depends only on stored depths, for every depth
+//          path of the device and for exact depths.
 // Tests    tests/tools/hard_cases/hard_flicker_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -12,20 +12,20 @@
 
 namespace strata::tools {
 
-// dual, front_to_back, depth_units, shadow_map and weighted_average.
+// True for dual, front_to_back, depth_units, shadow_map and weighted_average.
 [[nodiscard]] bool is_moved(const peeling::Algorithm& algorithm);
 
 struct MovedRow {
     StabilityRow stability;
     Flicker own;
-    std::vector<std::pair<std::string, std::optional<Flicker>>> paths;  // by name; none: refused
+    std::vector<std::pair<std::string, std::optional<Flicker>>> paths;  // by name; empty: refused
 };
 
-// The exact side of one case; what it is asked for first is computed then.
+// The measurements of one case; exact answers are computed on first use.
 class MovedMachine {
   public:
     explicit MovedMachine(const scenes::HardCase& hard) : moved_{hard}, path_{hard} {}
-    // `row` is what the algorithm left of the case as it is.
+    // `row` is the algorithm's result for the unmoved case.
     [[nodiscard]] MovedRow run(const pipeline::DeviceProfile& profile, pipeline::DepthFormat depth,
                                const peeling::Algorithm& algorithm, const HardRow& row) const;
 

@@ -23,11 +23,11 @@ std::uint64_t changes_of(const ordered_json& changes) {
            changes["reordered"].get<std::uint64_t>();
 }
 
-// A line that shows movements, read.
+// A parsed line with movements.
 struct MovedLine {
     const ordered_json* line = nullptr;
     std::uint64_t exact = 0, ours = 0, within_move = 0, within_device = 0, beyond = 0;
-    double depth = 0;  // times the exact answer's
+    double depth = 0;  // amplification: ratio to the exact answer's change
     std::uint64_t order = 0, coverage = 0;
 
     explicit MovedLine(const ordered_json& from) : line{&from} {
@@ -54,7 +54,7 @@ std::vector<MovedLine> shown_lines(const std::vector<const ordered_json*>& lines
     return shown;
 }
 
-// Nothing times as many is no number.
+// "-" if the exact answer does not change.
 std::string amplification(const MovedLine& l) {
     if (l.exact == 0) return l.ours == 0 ? "1" : "-";
     return fmt::format("{:.2f}", static_cast<double>(l.ours) / static_cast<double>(l.exact));
@@ -96,7 +96,7 @@ const pipeline::DeviceProfile& profile_named(const HardSweep& sweep, const std::
     return *std::ranges::find(sweep.profiles, name, &pipeline::DeviceProfile::name);
 }
 
-// The first rule in which the devices differ and which can move what is told.
+// The first rule in which the devices differ and which can cause the difference.
 std::string cause(const pipeline::DeviceProfile& most, const pipeline::DeviceProfile& least) {
     using rasterizer::PlaneRule;
     const auto& a = most.raster;
@@ -121,7 +121,7 @@ std::string cause(const pipeline::DeviceProfile& most, const pipeline::DevicePro
     return "they follow the same rules of rasterization";
 }
 
-// Of the format at which two devices lie farthest apart.
+// For the format at which two devices differ most.
 std::string sentence_of(const HardSweep& sweep, const std::vector<MovedLine>& lines) {
     const MovedLine *most = nullptr, *least = nullptr;
     for (const MovedLine& a : lines)

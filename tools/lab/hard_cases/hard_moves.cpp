@@ -18,7 +18,7 @@ std::uint64_t splitmix64(std::uint64_t state) noexcept {
     return z ^ (z >> 31);
 }
 
-// The number of each position's place among the places of the mesh.
+// Numbers the distinct positions of the mesh; returns the number of each vertex's position.
 std::vector<std::size_t> places_of(const pipeline::Mesh& mesh, std::size_t& count) {
     std::map<std::array<std::uint32_t, 3>, std::size_t> known;
     std::vector<std::size_t> places;
@@ -75,7 +75,7 @@ scenes::Scene moved(const scenes::Scene& scene, const Move& move) {
     return result;
 }
 
-// Fisher and Yates.
+// A Fisher-Yates shuffle.
 Permuted permuted(const scenes::Scene& scene, std::uint64_t seed) {
     Permuted result{scene, std::vector<std::uint32_t>(scene.list.meshes[0].indices.size() / 3)};
     std::iota(result.from.begin(), result.from.end(), 0U);
@@ -91,7 +91,7 @@ Permuted permuted(const scenes::Scene& scene, std::uint64_t seed) {
 pipeline::View view_on_path(const scenes::Scene& scene, int frame) {
     const double way = frame / double{path_frames};
     const Turn roll{way * 0x1p-6}, aside{way * 0x1p-7};
-    // By columns: first about the axis, then sideways, then the shift.
+    // In column-major order: first the rotation about the axis, then sideways, then the shift.
     Matrix about = identity, turned = identity;
     about[0][0] = about[1][1] = roll.cosine;
     about[0][1] = roll.sine;

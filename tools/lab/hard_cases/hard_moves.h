@@ -1,11 +1,11 @@
-// tools/lab/hard_cases/hard_moves.h - the same case a hair off: its coordinates moved, its triangles in another order,
-// its camera on a path.
+// tools/lab/hard_cases/hard_moves.h - variations of a case: coordinates moved slightly, triangles in another order, the
+// camera on a path.
 //
-// Rule     A move changes the coordinates of corners, all at once or one alone, by one unit in the last place or by
-//          2^-20 of themselves, up or down by a bit of splitmix64 of seed, mesh, corner and axis. Corners at one place
-//          of a mesh move as one, so that a closed surface stays closed. A camera path turns the camera about its axis
-//          by up to 2 atan(2^-6) and sideways by up to 2 atan(2^-7) and shifts it by up to 1/16, in steps that grow
-//          evenly.
+// Rule     A move changes the coordinates of corners, all at once or a single one, by one unit in the last place or by
+//          a relative 2^-20; a bit of splitmix64 of seed, mesh, corner and axis gives the sign. Corners of a mesh at
+//          the same position move together, so that a closed surface stays closed. A camera path rotates the camera
+//          about its axis by up to 2 atan(2^-6) and sideways by up to 2 atan(2^-7) and shifts it by up to 1/16; all
+//          three grow evenly with the frame's number.
 // Numbers  Both angles are given by the tangent t of their half: (1 - t^2) / (1 + t^2) and 2 t / (1 + t^2) in binary64.
 // Source   splitmix64 (Steele, Lea, Flood 2014).
 // Tests    tests/tools/hard_cases/hard_moves_test.cpp
@@ -23,20 +23,20 @@ namespace strata::tools {
 enum class MoveSize : std::uint8_t { unit, relative };
 inline constexpr std::array move_sizes{MoveSize::unit, MoveSize::relative};
 [[nodiscard]] std::string_view name_of(MoveSize size) noexcept;
-// No coordinate moves by more than this of itself. One of 0 moves by 2^-149.
+// The largest relative change of a coordinate. A coordinate of 0 changes by 2^-149.
 [[nodiscard]] double share_of(MoveSize size) noexcept;
 
 struct Move {
     MoveSize size = MoveSize::unit;
     std::uint64_t seed = 0;
-    std::optional<std::size_t> alone{};  // the number of the only coordinate that moves
+    std::optional<std::size_t> alone{};  // the index of the only coordinate that moves
 };
 
-// Of all corners at places of their own, three each.
+// The number of coordinates of all distinct corner positions, three each.
 [[nodiscard]] std::size_t coordinate_count(const scenes::Scene& scene);
 [[nodiscard]] scenes::Scene moved(const scenes::Scene& scene, const Move& move);
 
-// A permutation of the transparent triangles: the new list's triangle i is the old one's number from[i].
+// A permutation of the transparent triangles: triangle i of the new list is triangle from[i] of the old one.
 struct Permuted {
     scenes::Scene scene;
     std::vector<std::uint32_t> from;
@@ -44,7 +44,7 @@ struct Permuted {
 [[nodiscard]] Permuted permuted(const scenes::Scene& scene, std::uint64_t seed);
 
 inline constexpr int path_frames = 64;
-// The scene's own view from a place of the path; frame 0 is the view itself.
+// The scene's own view from a position on the path; frame 0 is the view itself.
 [[nodiscard]] pipeline::View view_on_path(const scenes::Scene& scene, int frame);
 
 }  // namespace strata::tools

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// How often each verdict stands in some lines, in the order of hard_verdicts.
+// Counts of each verdict, in the order of hard_verdicts.
 using VerdictCounts = std::array<int, hard_verdicts.size()>;
 
 void count(const ordered_json& line, VerdictCounts& counts) {
@@ -43,7 +43,7 @@ std::string page_head(const std::string& first) {
     return head + " |" + rule + "|\n";
 }
 
-// The first reason of each kind of trouble that the case met, with where.
+// The first reason for each kind of failure of the case, with the combination.
 std::string troubles(const std::vector<const ordered_json*>& lines) {
     std::string text;
     for (const HardVerdict verdict : {HardVerdict::failed, HardVerdict::breaks, HardVerdict::degrades}) {
@@ -90,7 +90,7 @@ std::string in_folder(const std::string& folder, const std::string& name) {
 
 bool is_refused(const scenes::HardCase& hard) { return hard.depth_near > hard.depth_far; }
 
-// Which of a frame's pixels one pixel of its picture shows, along one axis: from `first` up to but without `end`.
+// The range of the frame's pixels that one pixel of its image covers, along one axis: from `first` to `end`, exclusive.
 struct Covered {
     int first = 0, end = 0;
 };
@@ -100,7 +100,7 @@ Covered covered_by(int number, int side, int picture_side) {
     return {at(number), std::max(at(number) + 1, at(number + 1))};
 }
 
-// Where the codes of the brightest pixel of a block stand.
+// The index of the codes of a block's brightest pixel.
 std::size_t brightest(const pipeline::Image& image, const Covered& columns, const Covered& rows) {
     std::size_t best = image.index(columns.first, rows.first);
     double most = -1;

@@ -1,8 +1,9 @@
-// tools/lab/hard_cases/hard_page.h - the lines of a sweep as a page for people, with a picture a case.
+// tools/lab/hard_cases/hard_page.h - writes the lines of a sweep as a page, with one image per case.
 //
-// Rule     FOLDER/RESULTS.md and FOLDER/pictures/NAME.png: the exact A-buffer of the profile ideal. The page follows
-//          from the lines alone; it holds no time and no place. A frame of less than 256 pixels is enlarged by a whole
-//          number; one of more than 1024 is shown by the brightest pixel of each block, so that a thin line is seen.
+// Rule     FOLDER/RESULTS.md and FOLDER/pictures/NAME.png: the exact A-buffer of the profile ideal. The page depends on
+//          the lines alone; it contains no times and no paths. A frame smaller than 256 pixels is enlarged by a whole
+//          factor; one larger than 1024 is reduced to the brightest pixel of each block, so that thin lines remain
+//          visible.
 // Tests    tests/tools/hard_cases/hard_page_test.cpp
 #pragma once
 #include <string>
@@ -14,10 +15,10 @@ namespace strata::tools {
 
 [[nodiscard]] std::string page_of(const HardSweep& sweep, const Lines& lines);
 
-// The picture as the page shows it: no side of less than 32 or more than 1024 pixels.
+// The image for the page, with sides of 32 to 1024 pixels.
 [[nodiscard]] pipeline::Image page_picture(const pipeline::Image& image);
 
-// Writes the page and its pictures. A case that even the oracle refuses has none.
+// Writes the page and its images. A case that even the oracle refuses has no image.
 void write_page(const HardSweep& sweep, const Lines& lines, const std::string& folder);
 
 }  // namespace strata::tools

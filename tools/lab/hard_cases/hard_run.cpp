@@ -61,7 +61,7 @@ peeling::RenderOptions hard_options(const scenes::HardCase& hard, std::optional<
     return options;
 }
 
-// A renderer that no bit of the result may depend on.
+// A renderer with settings that must not change a bit of the result.
 struct HardMachine::Way {
     std::string name;
     std::unique_ptr<peeling::Renderer> renderer;
@@ -71,12 +71,12 @@ namespace {
 
 using NamedOptions = std::pair<std::string, peeling::RenderOptions>;
 
-// A frame whose pictures are large enough that each way of running takes seconds.
+// True if images are so large that each way of running takes seconds.
 bool is_huge(const scenes::HardCase& hard) {
     return static_cast<std::int64_t>(hard.width) * hard.height > std::int64_t{1} << 24;
 }
 
-// Everything that is not the default, in one run.
+// All settings that are not the default, in one run.
 NamedOptions all_else(peeling::RenderOptions options) {
     options.execution = Execution::literal;
     options.threads = 2;
@@ -85,13 +85,13 @@ NamedOptions all_else(peeling::RenderOptions options) {
     return {"literal threads=2 effects=all simd=scalar", options};
 }
 
-// Triangles drawn by a peel that draws all of them for each layer: beyond this a literal run takes seconds.
+// True if a literal run takes seconds, because a peel draws all triangles for each layer.
 bool is_deep(const scenes::HardCase& hard, const scenes::Scene& scene) {
     constexpr std::size_t many = std::size_t{1} << 20;
     return scene.list.meshes[0].indices.size() / 3 * static_cast<std::size_t>(hard.counts.layers) > many;
 }
 
-// Names and settings, the default way first.
+// Names and settings, the default first.
 std::vector<NamedOptions> ways_of(const scenes::HardCase& hard, const scenes::Scene& scene,
                                   const peeling::RenderOptions& options) {
     std::vector<NamedOptions> ways{{"default", options}};
@@ -130,13 +130,13 @@ bool has(const std::vector<Diagnostic>& all, Fault fault) {
     return std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) { return d.fault == fault; });
 }
 
-// Whether a diagnostic that explains fragments in wrong places names exactly so many pixels.
+// True if a diagnostic that explains misplaced fragments has exactly that many pixels.
 bool is_named(const std::vector<Diagnostic>& all, std::uint64_t pixels) {
     return std::any_of(all.begin(), all.end(),
                        [&](const Diagnostic& d) { return misplaces(d.fault) && d.pixels == pixels; });
 }
 
-// The verdict only rises.
+// Raises the verdict; it is never lowered.
 void say(HardRow& row, HardVerdict verdict, std::string reason) {
     row.verdict = std::max(row.verdict, verdict);
     row.reasons.push_back(std::move(reason));
@@ -164,7 +164,7 @@ void judge_sequence(HardRow& row, const peeling::Algorithm& algorithm, const pee
             fmt::format("{} fragments lost by ties at {} pixels", found.lost_by_ties, found.tied_pixels));
 }
 
-// Exact algorithms must keep the bound. Others may leave it, if a fault or their own nature says so.
+// Exact algorithms must keep the bound. Others may exceed it if a fault or their definition explains it.
 void judge_picture(HardRow& row, const scenes::HardCase& hard, const peeling::Algorithm& algorithm) {
     const bool saturated =
         has(row.diagnostics, Fault::half_saturated) || has(row.diagnostics, Fault::stencil_saturated);
@@ -176,7 +176,8 @@ void judge_picture(HardRow& row, const scenes::HardCase& hard, const peeling::Al
         say(row, HardVerdict::degrades,
             fmt::format("{:.1f}/255 from the truth where keys are equal", row.difference_at_ties));
     if (row.difference <= row.bound) return;
-    // A device that steps its planes may order by them otherwise than the truth, whose planes are exact.
+    // A device that computes its planes in steps may order fragments differently than the truth, whose planes are
+    // exact.
     const std::string reason =
         fmt::format("{:.1f}/255 from the truth{}", row.difference, row.steps_planes ? ", whose planes are exact" : "");
     if (saturated || row.found.wrong_pixels > 0)
@@ -186,7 +187,7 @@ void judge_picture(HardRow& row, const scenes::HardCase& hard, const peeling::Al
 }
 
 void judge_geometry(HardRow& row, const scenes::HardCase& hard, const peeling::Algorithm& algorithm) {
-    // What an alpha test keeps from being a layer is no loss of geometry.
+    // Fragments discarded by an alpha test are no loss of geometry.
     if (row.found.visible != hard.counts.fragments && !algorithm.kills_alpha_zero)
         say(row, HardVerdict::degrades,
             fmt::format("{} fragments, exact geometry has {}", row.found.visible, hard.counts.fragments));
@@ -234,7 +235,7 @@ HardRow refused(std::string sentence) {
     return row;
 }
 
-// The sentence; empty: the case is for the algorithm.
+// The reason why the case is not run with the algorithm; empty: it is.
 std::string reason_to_leave_out(const scenes::HardCase& hard, const peeling::Algorithm& algorithm) {
     const bool is_one_pass = algorithm.geometry_passes != nullptr && algorithm.geometry_passes(2) == 1;
     if (!is_huge(hard) || is_one_pass) return "";

@@ -15,7 +15,8 @@ using namespace pipeline;
 
 namespace {
 
-// Both are sorted by their primitives. Those of one that the other does not composite are counted in `alone`.
+// Pairs the fragments of two pixels, both sorted by primitive. Those that only one of them composites are counted in
+// `alone`.
 std::vector<std::array<const SeenFragment*, 2>> stayed(const SeenPixel& before, const SeenPixel& after,
                                                        std::array<std::uint64_t, 2>& alone) {
     std::vector<std::array<const SeenFragment*, 2>> both;
@@ -34,10 +35,10 @@ std::vector<std::array<const SeenFragment*, 2>> stayed(const SeenPixel& before, 
     return both;
 }
 
-// The place of each key's layer among those of a sequence; the first counts.
+// The layer number of each key and fragment in a sequence; the first occurrence is used.
 struct Layers {
-    std::vector<std::pair<std::uint32_t, int>> by_key;        // layers known by their key
-    std::vector<std::pair<std::uint32_t, int>> by_primitive;  // fragments
+    std::vector<std::pair<std::uint32_t, int>> by_key;        // layers identified by their key
+    std::vector<std::pair<std::uint32_t, int>> by_primitive;  // layers identified by a fragment
 };
 
 Layers layers_of(const Sequence& sequence) {
@@ -51,7 +52,7 @@ Layers layers_of(const Sequence& sequence) {
     return layers;
 }
 
-// A layer of a key is its first submitted's alone, or all fragments' of the key.
+// A layer of a key contains the first submitted fragment only, or all fragments of the key.
 int place_of(const Layers& layers, const std::vector<VisibleFragment>& visible, std::size_t i, bool merges) {
     const auto find = [](const auto& known, std::uint32_t name) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == name; });

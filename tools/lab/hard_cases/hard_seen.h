@@ -1,11 +1,11 @@
-// tools/lab/hard_cases/hard_seen.h - what a renderer shows at each pixel: which triangles, in which layers, of which
-// colour; and how two such pictures differ.
+// tools/lab/hard_cases/hard_seen.h - the visible result of a renderer at each pixel (triangles, their layers, the
+// colour), and the differences of two such results.
 //
-// Rule     A fragment's place is the number of its layer from near to far; two fragments of one layer share it, and one
-//          that was never composited has none. Between two pictures a fragment is gained or lost if only one of them
-//          composites it; two fragments of a pixel that both composite are reordered if what is before, behind or equal
-//          changes; the colour change is the greatest of three channels, at pixels that gain and lose nothing, and the
-//          depth change the greatest of a fragment that both composite.
+// Rule     A fragment's place is the number of its layer from near to far; fragments of one layer share it, and a
+//          fragment that was never composited has none. Between two results a fragment is gained or lost if only one of
+//          them composites it. Two fragments of a pixel that both composite are reordered if their relation (in front,
+//          behind, equal) changes. The colour change is the largest of three channels, at pixels without gains and
+//          losses; the depth change is the largest of a fragment that both composite.
 // Tests    tests/tools/hard_cases/hard_seen_test.cpp
 #pragma once
 #include <array>
@@ -29,8 +29,8 @@ struct SeenFragment {
 };
 
 struct SeenPixel {
-    std::vector<SeenFragment> fragments;  // sorted; every visible one
-    int layers = 0;                       // composited, repeated ones as often as they were
+    std::vector<SeenFragment> fragments;  // all visible ones, sorted
+    int layers = 0;                       // composited layers, counting repetitions
     std::array<double, 3> color{};
 };
 
@@ -42,7 +42,7 @@ struct Changes {
     double color = 0;  // summed over the pixels, in 1/255
     double depth = 0;
     Changes& operator+=(const Changes& other);
-    // Whether a fragment or an order changed.
+    // True if a fragment was gained or lost, or an order changed.
     [[nodiscard]] bool is_any() const noexcept { return gained + lost + reordered > 0; }
     friend bool operator==(const Changes&, const Changes&) = default;
 };
@@ -50,16 +50,17 @@ struct Changes {
 [[nodiscard]] Changes changes(const SeenPixel& before, const SeenPixel& after);
 
 enum class Shown : std::uint8_t { in_order, in_any_order };
-// Whether the pixel composites exactly the fragments of `exact`, each once, and if asked for in their order.
+// True if the pixel composites exactly the fragments of `exact`, each once, and, if `what` requires it, in their order.
 [[nodiscard]] bool shows(const SeenPixel& pixel, const SeenPixel& exact, Shown what);
 
 struct Looked {
     Seen seen;
-    std::string refusal;           // the sentence; empty: it ran
-    bool names_misplaced = false;  // a diagnostic explains fragments in wrong places
+    std::string refusal;           // the message; empty: it ran
+    bool names_misplaced = false;  // a diagnostic explains misplaced fragments
 };
 [[nodiscard]] Looked look(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, int width);
-// The same without the algorithm's passes: layers are the distinct stored depths, and the first submitted has each.
+// The same without the algorithm's passes: layers are the distinct stored depths, and each is the first submitted
+// fragment of its depth.
 [[nodiscard]] Looked look_at_depths(peeling::Renderer& renderer, const peeling::Algorithm& algorithm);
 
 }  // namespace strata::tools

@@ -146,7 +146,7 @@ ordered_json changes_json(const Changes& c) {
     return {{"gained", c.gained}, {"lost", c.lost}, {"reordered", c.reordered}, {"color", c.color}, {"depth", c.depth}};
 }
 
-// Null where the exact answer does not change at all.
+// Null if the exact answer does not change.
 ordered_json ratio(double ours, double exact) { return exact > 0 ? ordered_json(ours / exact) : ordered_json(nullptr); }
 
 ordered_json amplification(const Changes& ours, const Changes& exact) {

@@ -22,7 +22,7 @@ namespace {
 
 // A cell of the sweep.
 struct HardCell {
-    std::size_t group = 0;  // cells of one case, profile and format
+    std::size_t group = 0;  // number of the case, profile and format
     const scenes::HardCase* hard = nullptr;
     const pipeline::DeviceProfile* profile = nullptr;
     pipeline::DepthFormat format{};
@@ -91,7 +91,7 @@ std::vector<std::string> hard_columns() {
     return columns;
 }
 
-// The machine of the cells that were run last, and the number of their group.
+// The HardMachine of the last cells, and the number of their group.
 struct HardCache {
     std::size_t group = 0;
     std::optional<HardMachine> machine;
@@ -168,7 +168,7 @@ bool is_unstable(const ordered_json& line) {
     return !line["stability"].is_null() && line["stability"]["verdict"] == name_of(StabilityVerdict::unstable);
 }
 
-// What a reader has to look at: the combination and all reasons.
+// The combination and all reasons.
 std::string failure_of(const ordered_json& line, const std::string& word, const ordered_json& reasons) {
     std::string text = fmt::format("{}: {} by {} on {} at {}:", word, line["case"].get<std::string>(),
                                    line["algorithm"].get<std::string>(), line["profile"].get<std::string>(),

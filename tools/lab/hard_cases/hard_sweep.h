@@ -1,9 +1,9 @@
-// tools/lab/hard_cases/hard_sweep.h - every chosen hard case by every algorithm on every device and depth format: the
-// work of a sweep.
+// tools/lab/hard_cases/hard_sweep.h - the work of a sweep: every selected hard case with every algorithm on every
+// device and depth format.
 //
 // Rule     A cell is a combination, in the order case, profile, depth format, algorithm; the last changes fastest. A
-//          line has every key, null where a refused combination has nothing to say. Lines depend on neither threads,
-//          shards nor interruptions (sweep.h).
+//          line has every key; values that a refused combination does not have are null. Lines do not depend on
+//          threads, shards or interruptions (sweep.h).
 // Tests    tests/tools/hard_cases/hard_sweep_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -21,21 +21,21 @@ struct HardSweep {
     std::vector<pipeline::DeviceProfile> profiles;
     std::vector<pipeline::DepthFormat> formats;
     std::vector<const peeling::Algorithm*> algorithms;
-    bool moves = true;  // stability and flicker of the cases that name them (hard_moved.h)
+    bool moves = true;  // measure stability and flicker of the cases with is_moved (hard_moved.h)
 };
 
-// One line. The keys up to `moves` are known beforehand.
+// One line. The keys up to `moves` are known before the run.
 [[nodiscard]] nlohmann::ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row,
                                              const std::optional<MovedRow>& moved = {});
 
-// Cells one after the other share what is prepared for a case, profile and format. `sweep` must outlive it.
+// Consecutive cells share the preparation of a case, profile and format. `sweep` must outlive the result.
 [[nodiscard]] Work hard_work(const HardSweep& sweep);
 
-// What a page says: how often each verdict came, by case; every combination that failed or is unstable.
+// The results for a page: the counts of each verdict, by case, and every combination that failed or is unstable.
 [[nodiscard]] Findings findings(const HardSweep& sweep, const Lines& lines);
-// A row a case, how many combinations of it have which verdict; then every combination that failed or is unstable.
+// One row per case with the number of its combinations per verdict; then every combination that failed or is unstable.
 [[nodiscard]] std::string summary(const HardSweep& sweep, const Lines& lines);
-// Whether one of them failed or is unstable.
+// True if a line is failed or unstable.
 [[nodiscard]] bool has_failed(const Lines& lines);
 
 }  // namespace strata::tools

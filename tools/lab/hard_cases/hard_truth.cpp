@@ -32,7 +32,7 @@ HardTruth::HardTruth(const scenes::Scene& scene, const DeviceProfile& profile, c
     with_floats.depth_path = rasterizer::DepthPath::exact;
     peeling::Renderer renderer{scene.list, *scene.own_view, exact, with_floats};
     const peeling::Algorithm& oracle = *peeling::find_algorithm("a_buffer");
-    // A device that refuses the frame has no fragments.
+    // If the device refuses the frame there are no fragments.
     if (background_.codes.empty()) return;
     for (const CapturedFragment& f : renderer.fragments(oracle).all)
         depths_.push_back({f.pixel, f.primitive, f.exact_code});
@@ -82,7 +82,7 @@ HardTruth::Difference HardTruth::difference(const ComposedFrame& frame, const Im
     const auto pixels = composed_pixels(frame);
     const ComposedPixel nothing{};
     auto next = pixels.begin();
-    // An algorithm that sorts triangles gives them other numbers.
+    // An algorithm that sorts triangles renumbers them.
     const bool keeps_numbers = frame.algorithm.order == peeling::ListOrder::given;
     for (std::size_t p = 0; p < frame.fragments.opaque.size(); ++p) {
         const bool is_composed = next != pixels.end() && next->pixel == p;
@@ -99,7 +99,7 @@ HardTruth::Difference HardTruth::difference(const ComposedFrame& frame, const Im
             const double shown =
                 peeling::channel_value(picture, static_cast<int>(p % width), static_cast<int>(p / width), c);
             const double off = std::fabs(shown - truth[static_cast<std::size_t>(c)]) * 255;
-            // A channel that is not a number is counted elsewhere, and no maximum here.
+            // NaN is counted elsewhere and is not a maximum here.
             if (off > place) place = off;
         }
     }

@@ -1,9 +1,10 @@
-// tools/lab/hardware_check/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip
-// drew.
+// tools/lab/hardware_check/hardware_check.cpp - strata hardware-check: compares a profile with captures of the NV2A
+// chip.
 //
-// Rule     DIR/<suite>/<name>.png as the public captures are named; DIR/textures, if it is there, holds images that
-//          the tests loaded. Every picture is drawn from its name and compared outside of its labels. What is not
-//          modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
+// Rule     Captures are DIR/<suite>/<name>.png, with the names of the public captures; DIR/textures, if it exists, has
+//          the images that the tests loaded. Every picture is drawn according to its name and compared outside its
+//          labels. Captures that are not modelled are listed, and never counted as passed. Exit status 1 if a picture
+//          is outside its bound.
 // Tests    tests/tools/hardware_check_test.cpp, tests/tools/hardware_check/suites_test.cpp
 #include <malloc.h>
 
@@ -30,13 +31,13 @@ namespace {
 namespace hc = hardware_check;
 namespace fs = std::filesystem;
 
-// The command line. Empty texts: every suite, no folder of differences, no page.
+// The command line. Empty texts: all suites, no folder of differences, no page.
 struct Options {
     std::string folder, suite, profile = "geforce3", output, report;
     bool json = false, hypotheses = false, digests = false;
 };
 
-// Names of the folder's entries that are wanted, in ASCII order: folders list their files in any.
+// Names of the folder's entries that satisfy `is_wanted`, in ASCII order, because the order of a folder is arbitrary.
 std::vector<std::string> sorted_names(const fs::path& folder, auto&& is_wanted) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -45,7 +46,7 @@ std::vector<std::string> sorted_names(const fs::path& folder, auto&& is_wanted) 
     return names;
 }
 
-// Every capture in the folder, suite by suite; unknown suites too.
+// Every capture in the folder, suite by suite, including unknown suites.
 std::vector<Capture> find_captures(const Options& options) {
     if (!fs::is_directory(options.folder)) throw InputError{options.folder, "no such folder of captures"};
     std::vector<std::string> known;
@@ -53,7 +54,7 @@ std::vector<Capture> find_captures(const Options& options) {
     if (!options.suite.empty() && hc::find_suite(options.suite) == nullptr)
         throw InputError{"strata", "--suite", one_of(known), found_but_near(options.suite, known)};
     std::vector<Capture> captures;
-    std::error_code ignored;  // a link that leads nowhere is no folder and no picture
+    std::error_code ignored;  // a dangling link is neither a folder nor a picture
     for (const std::string& suite :
          sorted_names(options.folder, [&](const auto& e) { return e.is_directory(ignored); })) {
         if (suite == textures_folder || (!options.suite.empty() && suite != options.suite)) continue;
@@ -68,11 +69,11 @@ std::vector<Capture> find_captures(const Options& options) {
     return captures;
 }
 
-// Every picture asks for the same few images of 5 MB. By default glibc gives each back to the system and takes clean
-// pages again, which costs a twelfth of the time.
+// Every picture allocates the same few images of 5 MB. By default glibc returns each to the system and maps new pages,
+// which costs a twelfth of the time.
 void keep_freed_memory() { ::mallopt(M_MMAP_THRESHOLD, 1 << 30), ::mallopt(M_TRIM_THRESHOLD, 1 << 30); }
 
-// Pictures are independent of each other; results stand in the order of the captures.
+// Pictures are independent of each other; results are in the order of the captures.
 std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile,
                                       WithDigests with_digests) {
     std::vector<CheckedPicture> checked(captures.size());
@@ -87,7 +88,7 @@ int hardware_check(const Options& options) {
     keep_freed_memory();
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);
-    // Scores are no comparison that could fail: the exit status is 0.
+    // Scores are not a comparison that could fail, so the exit status is 0.
     if (options.hypotheses) {
         print(hypothesis_scores(captures, profile));
         return 0;

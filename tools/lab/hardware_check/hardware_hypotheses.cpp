@@ -26,14 +26,14 @@ constexpr Titled subjects[] = {{Subject::window_depth, "depths that are written"
                                {Subject::color, "vertex colours"},
                                {Subject::coordinates, "texture coordinates"}};
 
-// One capture's comparison under every hypothesis; empty where the capture cannot tell them apart.
+// One capture's comparison under every hypothesis; empty if the capture cannot distinguish them.
 using Verdicts = std::vector<hc::Comparison>;
 
 bool has(hc::Subjects set, Subject subject) { return (set >> static_cast<unsigned>(subject) & 1) != 0; }
 
-// True if a picture of this suite, read like this, shows what the subject can change. Depth pictures never tell of
-// colours, nor colours of written depths, whatever the suite's set says; and where depths are interpolated as they are,
-// their words tell nothing of coordinates.
+// True if a picture of this suite, in this reading, depends on the subject. Depth pictures never depend on colours, nor
+// colours on written depths, whatever the suite's list; and if depths are interpolated without division, depth values
+// do not depend on coordinates.
 bool can_tell(const hc::Suite& suite, hc::Reading reading, Subject subject) {
     const bool shows_depth = reading == hc::Reading::depth16 || reading == hc::Reading::depth24;
     if (subject == (shows_depth ? Subject::color : Subject::window_depth)) return false;
@@ -41,7 +41,7 @@ bool can_tell(const hc::Suite& suite, hc::Reading reading, Subject subject) {
     return has(suite.tells, subject);
 }
 
-// Draws the capture once under each hypothesis, the rest of the profile as given.
+// Draws the capture once under each hypothesis, with the rest of the profile as given.
 Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& profile, Subject subject,
                      const std::vector<NamedHypothesis>& hypotheses) {
     const hc::Suite* const suite = hc::find_suite(capture.suite);
@@ -58,11 +58,11 @@ Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& prof
     return verdicts;
 }
 
-// The rules as given first, then every value of every open constant on this subject.
+// The rules as given first, then every value of every undetermined constant of this subject.
 std::vector<NamedHypothesis> hypotheses_on(Subject subject, const rasterizer::RasterRules& rules) {
     std::vector<NamedHypothesis> chosen = rasterizer::depth_hypotheses(rules);
     const std::vector<NamedHypothesis> others = rasterizer::interpolation_hypotheses(rules);
-    // Both lists begin with the rules as given: one of the two is left out.
+    // Both lists begin with the rules as given: one of the two is omitted.
     chosen.insert(chosen.end(), others.begin() + 1, others.end());
     chosen.erase(std::remove_if(chosen.begin() + 1, chosen.end(),
                                 [&](const NamedHypothesis& h) { return h.subject != subject; }),
@@ -70,8 +70,8 @@ std::vector<NamedHypothesis> hypotheses_on(Subject subject, const rasterizer::Ra
     return chosen;
 }
 
-// A row a hypothesis: captures that come out equal, captures within their bound, and pixels over
-// all captures.
+// One row per hypothesis: the captures that are equal, the captures within their bound, and differing pixels over all
+// captures.
 Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector<Verdicts>& verdicts) {
     Table table{{{"hypothesis"},
                  {"equal", Align::right},
@@ -83,7 +83,7 @@ Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector
         std::uint64_t equal = 0, within = 0, differing = 0;
         std::uint32_t largest = 0;
         for (const Verdicts& of_capture : verdicts) {
-            // This capture cannot tell.
+            // This capture cannot distinguish them.
             if (of_capture.empty()) continue;
             const hc::Comparison& c = of_capture[h];
             equal += c.differing == 0;

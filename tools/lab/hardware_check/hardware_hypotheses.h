@@ -1,7 +1,9 @@
-// tools/lab/hardware_check/hardware_hypotheses.h - which of a profile's open constants the captures favour.
+// tools/lab/hardware_check/hardware_hypotheses.h - scores alternatives for a profile's undetermined constants on the
+// captures.
 //
-// Rule     A hypothesis is scored on the captures that its subject can change: words of depth pictures, colours of the
-//          others, of the suites that can tell. A table a subject, "as given" on the same captures first.
+// Rule     A hypothesis is scored on the captures that its subject can affect: depth values of depth pictures, colours
+//          of the others, of the relevant suites. There is one table per subject; its first row is the profile "as
+//          given" on the same captures.
 // Tests    tests/tools/hardware_check_test.cpp
 #pragma once
 #include <string>

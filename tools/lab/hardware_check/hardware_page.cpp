@@ -27,7 +27,7 @@ std::string found(const std::vector<CheckedPicture>& checked) {
     return text + fmt::format(" Of {} pixels compared {} differ.", compared, off);
 }
 
-// Drawn again: keeping every picture would take a megabyte each.
+// Drawn again, because keeping every picture would take a megabyte each.
 void add_difference(PlainPage& page, const CheckedPicture& p, const pipeline::DeviceProfile& profile) {
     const hardware_check::Drawing drawing = drawn(p.capture, profile);
     const pipeline::Image capture = read_capture(p.capture.path);

@@ -1,7 +1,7 @@
-// tools/lab/hardware_check/hardware_page.h - what a hardware check found as a page of --report.
+// tools/lab/hardware_check/hardware_page.h - writes the result of a hardware check as a page, for --report.
 //
-// Rule     The outcome in a sentence, the table of suites, a picture of every difference (those beyond their bound
-//          first, with the chip's picture before it), then the pictures that are not equal and why.
+// Rule     The outcome in one sentence, the table of suites, an image of every difference (those outside their bound
+//          first, after the chip's capture), then the pictures that are not equal with the reason.
 // Tests    tests/tools/hardware_check_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <vector>

@@ -19,8 +19,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Why a picture is not compared; else the first pixel that differs, the eight lowest differences
-// with their pixels, and what queries reported.
+// The reason why a picture is not compared; else the first pixel that differs, the eight smallest differences with
+// their pixels, and the results of queries.
 std::string detail(const CheckedPicture& p) {
     if (!p.is_compared()) return p.unmodelled;
     const hc::Comparison& c = p.comparison;
@@ -35,21 +35,21 @@ std::string detail(const CheckedPicture& p) {
     return text;
 }
 
-// Control characters, which a file name may hold, as question marks.
+// Replaces control characters, which a file name may contain, with question marks.
 std::string printable(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
     return text;
 }
 
-// A suite's row. The first six are pictures, `pixels` and `off` pixels.
+// A suite's row. The first six count pictures; `pixels` and `off` count pixels.
 struct SuiteCount {
     std::string name;
     std::uint64_t pictures = 0, equal = 0, within = 0, differ = 0, unmodelled = 0, pixels = 0, off = 0;
     std::uint32_t largest = 0;
 };
 
-// Captures are sorted by suite, so a suite's pictures stand together.
+// Captures are sorted by suite, so a suite's pictures are consecutive.
 std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked) {
     std::vector<SuiteCount> suites;
     for (const CheckedPicture& p : checked) {
@@ -70,7 +70,7 @@ std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked)
     return suites;
 }
 
-// The table as Markdown has it, numbers to the right.
+// The table in Markdown, with numbers right-aligned.
 std::string markdown(const Table& table) {
     const auto row = [](const std::vector<std::string>& cells) {
         return fmt::format("| {} |\n", fmt::join(cells, " | "));
@@ -85,7 +85,7 @@ std::string markdown(const Table& table) {
     return text;
 }
 
-// The difference picture's name in the report's folder.
+// The name of the difference image in the report's folder.
 std::string file_name(const CheckedPicture& p) { return p.capture.suite + "-" + p.capture.name + ".png"; }
 
 // '#' starts a fragment in a link.
@@ -97,7 +97,7 @@ std::string link_to(const std::string& file) {
 
 }  // namespace
 
-// Capitals draw the eye to what is outside its bound.
+// Capitals make "OUTSIDE" conspicuous.
 std::string outcome(const CheckedPicture& p) {
     if (!p.is_known) return "unknown";
     if (!p.unmodelled.empty()) return "not modelled";
@@ -126,7 +126,7 @@ Table suite_table(const std::vector<CheckedPicture>& checked) {
 
 pipeline::Image read_capture(const std::string& path) {
     std::vector<scenes::FileImage> images = scenes::read_images(path);
-    // A PNG holds one picture; an EXR of several parts is no capture.
+    // A PNG has one image; an EXR of several parts is not a capture.
     if (images.size() != 1) throw InputError{path, "picture", "one image", std::to_string(images.size())};
     return std::move(images.front().image);
 }
@@ -136,7 +136,7 @@ hc::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile
     const std::filesystem::path folder = std::filesystem::path(capture.path).parent_path().parent_path();
     try {
         return hc::draw(*hc::find_suite(capture.suite), capture.name, profile, (folder / textures_folder).string());
-        // A refusal is a reason: the profile is none of a chip that could draw this.
+        // A refusal is a reason: the profile is not of a chip that could draw this.
     } catch (const pipeline::Refused& refused) {
         return {std::nullopt, refused.what()};
     }
@@ -145,7 +145,7 @@ hc::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile
 CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile, WithDigests with_digests) {
     CheckedPicture result;
     result.capture = capture;
-    // Unknown suites and names are listed and not compared: a newer archive may hold both.
+    // Unknown suites and names are listed and not compared, because a newer archive may contain both.
     if (hc::find_suite(capture.suite) == nullptr) {
         result.unmodelled = "no suite of this name is known";
         return result;
@@ -164,8 +164,7 @@ CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& prof
     return result;
 }
 
-// Pictures that are equal and report nothing would fill pages: only the table of suites counts
-// them.
+// Pictures that are equal and have no query results would fill pages: only the table of suites counts them.
 Table picture_table(const std::vector<CheckedPicture>& checked) {
     Table pictures{
         {{"suite"}, {"picture"}, {"outcome"}, {"pixels off", Align::right}, {"largest", Align::right}, {"detail"}}, {}};
@@ -201,7 +200,7 @@ std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::
                             {"reports", p.reports}});
     }
     const ordered_json document{{"profile", profile.name}, {"pictures", std::move(pictures)}};
-    // File names may hold bytes that are no UTF-8: these are replaced.
+    // File names may contain bytes that are not UTF-8; these are replaced.
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
@@ -227,7 +226,7 @@ void write_report(const std::string& folder, const std::vector<CheckedPicture>& 
         }
         page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name,
                             outcome(p), p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
-        // Drawn again: keeping every picture would take a megabyte each.
+        // Drawn again, because keeping every picture would take a megabyte each.
         const hc::Drawing drawing = drawn(p.capture, profile);
         scenes::write_image((std::filesystem::path(folder) / file_name(p)).string(),
                             {.color = hc::difference_picture(*drawing.picture, read_capture(p.capture.path))});

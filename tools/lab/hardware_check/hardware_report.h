@@ -1,5 +1,5 @@
-// tools/lab/hardware_check/hardware_report.h - what a hardware check found: a line a suite, a line a picture,
-// JSON, and a page with pictures.
+// tools/lab/hardware_check/hardware_report.h - the result of a hardware check: one line per suite, one per picture,
+// JSON, and a page with images.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,10 +15,10 @@ struct Capture {
     std::string suite, name, path;
 };
 
-// Beside the suites: images that tests loaded (Pixel_shader's). No suite.
+// A folder next to the suites with images that tests loaded (Pixel_shader's). Not a suite.
 inline constexpr std::string_view textures_folder = "textures";
 
-// The picture of a known suite, or why there is none: the profile may lack what it draws on.
+// The picture of a known suite, or the reason why there is none: the profile may lack a feature that it needs.
 [[nodiscard]] hardware_check::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile);
 
 // The outcome for one capture.
@@ -26,41 +26,41 @@ struct CheckedPicture {
     Capture capture;
     // The suite is known, and so is the name in it.
     bool is_known = false;
-    // Why it was not compared; empty: it was.
+    // The reason why it was not compared; empty: it was.
     std::string unmodelled;
     hardware_check::Bound bound{};
     hardware_check::Comparison comparison{};
     std::vector<std::uint64_t> reports{};
-    // With digests alone.
+    // Only with digests.
     rasterizer::Rect labels{};
-    // Of the capture outside its labels.
+    // Of the capture, without its labels.
     std::string digest{};
     [[nodiscard]] bool is_compared() const { return is_known && unmodelled.empty(); }
-    // Pictures that are not modelled never fail a check; the tables count them by themselves.
+    // Pictures that are not modelled never fail a check; the tables count them separately.
     [[nodiscard]] bool is_accepted() const { return !is_compared() || comparison.within_bound; }
 };
 
-// rgba8. InputError for a file that holds no picture, or several.
+// Returns rgba8. InputError for a file with no image, or with several.
 [[nodiscard]] pipeline::Image read_capture(const std::string& path);
 
-// Whether `labels` and `digest` are wanted, too: they take as long as the comparison.
+// Whether `labels` and `digest` are computed, which takes as long as the comparison.
 enum class WithDigests : bool { no, yes };
 
-// Draws the picture and compares. InputError for a file that is no such capture.
+// Draws the picture and compares it. InputError for a file that is not such a capture.
 [[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile,
                                    WithDigests with_digests);
 
-// The word in tables and JSON: "unknown", "not modelled", "equal", "within bound", "outside".
+// The outcome in tables and JSON: "unknown", "not modelled", "equal", "within bound", "outside".
 [[nodiscard]] std::string outcome(const CheckedPicture& p);
-// A row a suite; a row a picture that is not equal or reports a count.
+// One row per suite; one row per picture that is not equal or reports a count.
 [[nodiscard]] Table suite_table(const std::vector<CheckedPicture>& checked);
 [[nodiscard]] Table picture_table(const std::vector<CheckedPicture>& checked);
 // The tables, and the JSON document of --json.
 [[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
 [[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
-// Suite, picture, label box, digest: of every capture that came out equal.
+// Suite, picture, label box and digest of every capture that is equal.
 [[nodiscard]] std::string digest_rows(const std::vector<CheckedPicture>& checked);
-// report.md, and a difference picture of whatever is not equal, in `folder`, which is made.
+// Writes report.md, and a difference image of every picture that is not equal, into `folder`, which is created.
 void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked,
                   const pipeline::DeviceProfile& profile);
 

@@ -1,5 +1,5 @@
-// tools/lab/invariance/invariance.cpp - strata invariance: two depths that ought to be equal, what that does to a
-// peel, and what each remedy costs.
+// tools/lab/invariance/invariance.cpp - strata invariance: measures the effect on a peel of two depths that should be
+// equal but are computed differently, and of each remedy.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -22,8 +22,8 @@ namespace strata::tools {
 
 namespace {
 
-// The command line. `keys` holds the options that are keys of a plan. Of `run` the scene and how it
-// is read, the resources and the output folder are used.
+// The command line. `keys` are the options that are keys of a plan. Of `run` the scene and its reading options, the
+// resources and the output folder are used.
 struct InvarianceOptions {
     RunOptions run;
     KeyValues keys;
@@ -40,8 +40,8 @@ std::string option_of(const PlanKey& key) {
     return name;
 }
 
-// Declares the option of a key. Each value is tried on a cell that is thrown away: it is set for
-// good when the plan is expanded.
+// Declares the option of a key. Each value is tried on a temporary cell; the real cells are set when the plan is
+// expanded.
 void add_key(CLI::App& app, InvarianceOptions& options, const PlanKey& key) {
     const auto fill = [&options, key](const std::string& given) {
         const auto values = key.is_list ? split(given, ',') : std::vector{given};
@@ -57,7 +57,7 @@ void add_key(CLI::App& app, InvarianceOptions& options, const PlanKey& key) {
         ->type_name(key.is_list ? "VALUE[,VALUE...]" : "VALUE");
 }
 
-// Throws CLI::ValidationError for options that exclude each other.
+// Throws CLI::ValidationError for mutually exclusive options.
 void check_usage(const InvarianceOptions& options) {
     if (options.run.output.empty() && !options.dry_run)
         throw CLI::ValidationError("-o is missing: the folder for the results");
@@ -81,7 +81,7 @@ Measured measured(std::size_t number, const Cell& cell, CellRunner& runner, cons
             .seconds = taken.count()};
 }
 
-// `cells` and `runner` must outlive it.
+// `cells` and `runner` must outlive the result.
 Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, CellRunner& runner) {
     const auto described = [&](std::size_t i) { return description(i, cells[i], runner.view(cells[i])); };
     const std::string folder = options.run.output;
@@ -100,7 +100,7 @@ Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, C
                 }};
 }
 
-// "images/0003.errors.png" of the third cell.
+// "images/0003.errors.png" is of the cell with number 3.
 std::string caption_of(const std::string& name, const Lines& lines) {
     const std::string file = std::filesystem::path(name).filename().string();
     const auto number = to_int<std::size_t>(std::string_view(file).substr(0, file.find('.')));

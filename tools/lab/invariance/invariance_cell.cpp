@@ -15,8 +15,8 @@ namespace strata::tools {
 
 namespace {
 
-// The experiment that a cell stands for. `resources` brings threads, tile size and memory;
-// everything that a bit depends on is the cell's.
+// The experiment of a cell. `resources` has threads, tile size and memory; every setting that affects bits comes from
+// the cell.
 peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions& resources) {
     peeling::Experiment e;
     e.render = resources;
@@ -24,8 +24,7 @@ peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions
     e.render.height = cell.height;
     e.render.alpha = cell.alpha;
     e.render.depth = cell.format;
-    // A factor and units of 0 would be an offset all the same: it is off, so that the plain cell is
-    // the plain machine.
+    // A factor and units of 0 would still enable the offset, so it is disabled, and the plain cell is the plain device.
     const bool has_bias = cell.remedy.bias_constant != 0 || cell.remedy.bias_slope != 0;
     e.render.raster.polygon_offset = {has_bias, cell.remedy.bias_slope, cell.remedy.bias_constant};
     e.render.compare_epsilon = cell.remedy.epsilon;
@@ -56,8 +55,8 @@ pipeline::DeviceProfile CellRunner::profile(const Cell& cell) {
     pipeline::DeviceProfile profile = profiles_[cell.profile];
     if (cell.subpixel_bits != 0) profile.raster.subpixel_bits = cell.subpixel_bits;
     if (cell.hypothesis == "profile") return profile;
-    // The device with one open constant at another value. The names in an error begin with the two
-    // words that are no constant.
+    // The device with one undetermined constant at another value. The names listed in an error begin with the two that
+    // are not constants.
     std::vector<std::string> names{"profile", "all"};
     for (const auto& named : rasterizer::depth_hypotheses(profile.raster)) {
         if (named.name == cell.hypothesis) return profile.raster = named.rules, profile;
@@ -66,8 +65,7 @@ pipeline::DeviceProfile CellRunner::profile(const Cell& cell) {
     throw InputError(cell.profile, "hypothesis", one_of(names), found_but_near(cell.hypothesis, names));
 }
 
-// The number of a cell is its place in this list: a shard and a merge of the same plan must expand
-// it alike.
+// The number of a cell is its index in this list: a shard and a merge of the same plan must expand it identically.
 std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
     std::vector<Cell> all;
     for (Cell cell : cells) {
@@ -84,7 +82,7 @@ std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
     return all;
 }
 
-// A pack's view may follow another clip convention; cells are drawn under the default one.
+// A pack's view may have another clip convention; cells are drawn in the default one.
 const pipeline::View* CellRunner::own_view(const Cell& cell) {
     if (!cell.takes_own_view || !cell.camera.empty() || !scene(cell.scene).own_view) return nullptr;
     const auto known = own_views_.find(cell.scene);
@@ -95,7 +93,7 @@ const pipeline::View* CellRunner::own_view(const Cell& cell) {
     return &own_views_.emplace(cell.scene, view).first->second;
 }
 
-// Reading is checking: both throw InputError.
+// Reading checks the names: both functions throw InputError.
 void CellRunner::check(const Cell& cell) {
     static_cast<void>(profile(cell));
     static_cast<void>(scene(cell.scene));
@@ -113,7 +111,7 @@ void CellRunner::check(const Cell& cell) {
 
 const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
     if (cell.split != Split::rotated && cell.split != Split::diagonal) return nullptr;
-    // One list a scene and split. A split does not depend on the view.
+    // One list per scene and split. A split does not depend on the view.
     const std::string key = cell.scene + ' ' + name_of(cell.split);
     const pipeline::DrawList& list = scene(cell.scene).list;
     if (!splits_.contains(key))
@@ -128,8 +126,7 @@ CellView CellRunner::view(const Cell& cell) {
     const double aspect = double(cell.width) / cell.height;
     if (!cell.camera.empty()) return {view_named(cell.camera, scene(cell.scene), aspect), 0, 0, subpixel_bits, true};
     scenes::LookAt camera = scenes::orbit_camera(scene(cell.scene).bounds, cell.azimuth, cell.elevation);
-    // The far plane stays the orbit's and the near one moves towards the eye: nothing of the scene
-    // is cut off.
+    // The far plane remains the orbit's and the near one moves towards the eye, so nothing of the scene is clipped.
     if (cell.range.ratio > 0) camera.near = camera.far / cell.range.ratio;
     if (cell.range.far > 0) {
         camera.near = cell.range.near;

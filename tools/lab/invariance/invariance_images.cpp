@@ -15,13 +15,12 @@ namespace {
 
 using pipeline::Image;
 
-// An 8-bit code of a value from 0 to 1, clamped and rounded to nearest. For people: no result
-// depends on it.
+// An 8-bit code of a value from 0 to 1, clamped and rounded to nearest. Only for viewing: no result depends on it.
 std::uint32_t to_code(double value) {
     return static_cast<std::uint32_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-// An opaque rgba8 picture whose channel c at (x, y) is color(x, y, c).
+// An opaque rgba8 image whose channel c at (x, y) is color(x, y, c).
 template <class Color>
 Image draw(int width, int height, Color&& color) {
     Image image(pipeline::Format::rgba8, width, height);
@@ -33,15 +32,14 @@ Image draw(int width, int height, Color&& color) {
     return image;
 }
 
-// The size of the difference, four times: a difference of a quarter is full brightness.
+// The magnitude of the difference times four: a difference of a quarter is full brightness.
 Image magnified(const Image& difference) {
     return draw(difference.width, difference.height, [&](int x, int y, int c) {
         return to_code(4.0 * std::fabs(peeling::channel_value(difference, x, y, c)));
     });
 }
 
-// `map` holds a byte a pixel, row by row from the top: 0, or bits for a duplicated and a lost
-// layer.
+// `map` has one byte per pixel, row by row from the top: 0, or bits for a duplicated and a lost layer.
 Image error_map(const Image& picture, const std::vector<std::uint8_t>& map) {
     return draw(picture.width, picture.height, [&](int x, int y, int c) {
         const std::uint8_t error =
@@ -51,7 +49,7 @@ Image error_map(const Image& picture, const std::vector<std::uint8_t>& map) {
                 (c == 0 && (error & peeling::layer_duplicated) != 0) || (c == 2 && (error & peeling::layer_lost) != 0);
             return is_lit ? 255u : 0u;
         }
-        // The mean of r, g and b at 40 %, so that the marks stand out.
+        // The mean of r, g and b at 40 %, so that the marks are conspicuous.
         double grey = 0;
         for (int k = 0; k < 3; ++k) grey += peeling::channel_value(picture, x, y, k) / 3.0;
         return to_code(0.4 * grey);
@@ -61,7 +59,7 @@ Image error_map(const Image& picture, const std::vector<std::uint8_t>& map) {
 }  // namespace
 
 void write_cell_images(const std::string& folder, std::size_t number, const CellResult& result) {
-    // A cell without an error leaves no file.
+    // A cell without errors has no files.
     if (result.measured.refusal || result.measured.errors.total() == 0) return;
     const std::filesystem::path images = std::filesystem::path(folder) / "images";
     std::filesystem::create_directories(images);

@@ -1,4 +1,4 @@
-// tools/lab/invariance/invariance_keys.cpp - the keys of a plan: what each value means, and what is expected of it.
+// tools/lab/invariance/invariance_keys.cpp - the keys of a plan, with the parser of their values.
 #include <fmt/format.h>
 
 #include "peeling/registry.h"
@@ -10,20 +10,20 @@ namespace strata::tools {
 
 namespace {
 
-// Whether a file or a name exists is checked when the cell is: CellRunner::check().
+// Whether a file or a name exists is checked later, by CellRunner::check().
 bool set_name(std::string& target, const std::string& text) {
     target = text;
-    return !text.empty() && text.find('\0') == std::string::npos;  // no file has such a name
+    return !text.empty() && text.find('\0') == std::string::npos;  // no file name has a zero byte
 }
 
-// Stores the value of an option if it was given, and says whether it was.
+// Stores the value of an option if it is present; returns whether it is.
 template <class Target, class T>
 bool assign(Target& target, const std::optional<T>& value) {
     if (value) target = *value;
     return value.has_value();
 }
 
-// A number from `low` to `high`, both included. `target` keeps its value if the text is none.
+// Parses a number from `low` to `high`, inclusive. `target` keeps its value if the text is not such a number.
 bool set_number(auto& target, std::string_view text, double low, double high) {
     using Number = std::remove_reference_t<decltype(target)>;
     const auto value = to_number<Number>(text);
@@ -47,8 +47,7 @@ bool set_camera(Cell& cell, const std::string& text) {
     return set_name(cell.camera, text);
 }
 
-// An invariance test needs layers in order: a peel that is exact or keeps them, and not the oracle
-// itself.
+// An invariance test needs ordered layers: an exact peel or one that makes layers, except the oracle.
 bool set_algorithm(Cell& cell, const std::string& text) {
     cell.algorithm = peeling::find_algorithm(text);
     return cell.algorithm != nullptr && !cell.algorithm->is_oracle &&
@@ -69,8 +68,8 @@ bool set_subpixel_bits(Cell& cell, const std::string& text) {
     return bits && (*bits == 4 || *bits == 8 || *bits == 12) && assign(cell.subpixel_bits, bits);
 }
 
-// orbit, ratio:R or NEAR:FAR. The orbit's far plane is 3.6 radii away, its sphere begins at 1.5:
-// from a ratio of 2.6 on, the near plane stays in front of that.
+// orbit, ratio:R or NEAR:FAR. The orbit's far plane is at 3.6 radii and its sphere begins at 1.5: for a ratio of at
+// least 2.6 the near plane is in front of the sphere.
 bool set_range(Cell& cell, const std::string& text) {
     cell.range = {};
     if (text == "orbit") return true;
@@ -80,7 +79,7 @@ bool set_range(Cell& cell, const std::string& text) {
            set_number(cell.range.far, parts[1], cell.range.near, 1e12) && cell.range.far > cell.range.near;
 }
 
-// Adds one part of a remedy. A part that comes again replaces the first; `none` adds nothing.
+// Adds one part of a remedy. A repeated part replaces the first; `none` adds nothing.
 bool add_remedy(Remedy& remedy, const std::string& part) {
     const std::string value = part.find(':') == std::string::npos ? "" : part.substr(part.find(':') + 1);
     if (part == "none") return true;
@@ -102,7 +101,7 @@ bool set_remedy(Cell& cell, const std::string& text) {
     return true;
 }
 
-// "A", or "A+B": the first pass and further ones.
+// "A", or "A+B": the paths of the first pass and of later ones.
 bool set_vertex_path(Cell& cell, const std::string& text) {
     cell.vertex_path = text;
     return assign(cell.vertex_paths, to_vertex_paths(text, '+'));
@@ -114,8 +113,7 @@ const std::vector<Choice<Split>> splits{{"none", Split::none},
                                         {"moved", Split::moved},
                                         {"clamped", Split::clamped}};
 
-// In the order of nesting, which numbers the cells (reports.md 5.1): a key that moves changes every
-// number.
+// In the order of nesting, which numbers the cells (reports.md 5.1): moving a key changes every number.
 std::vector<PlanKey> make_keys() {
     return {
         {"scene", "what is drawn", "a scene's name or file", "",

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-// The file that a message names.
+// The file name for messages.
 struct Source {
     const std::string& file;
     [[noreturn]] void fail(const std::string& place, const std::string& expected, const std::string& found) const {
@@ -30,7 +30,7 @@ std::vector<std::string> key_names() {
     return names;
 }
 
-// A value as the options would spell it: numbers in their shortest form.
+// A value in the form of the options: numbers in their shortest form.
 std::string text_of(const json& value, const Source& source, const std::string& place) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_unsigned()) return fmt::format("{}", value.get<std::uint64_t>());
@@ -44,8 +44,8 @@ void check_value(const PlanKey& key, const std::string& text, const Source& sour
     if (!key.set(cell, text)) source.fail(place, key.expected, "'" + text + "'");
 }
 
-// One value or a list of them, each checked by the key; `place` is a JSON pointer, to which a list
-// adds the index.
+// One value or a list of values, each checked by the key; `place` is the JSON pointer, to which a list appends the
+// index.
 std::vector<std::string> values_of_key(const PlanKey& key, const json& value, const Source& source,
                                        const std::string& place) {
     if (value.is_array() && value.empty()) source.fail(place, "at least one value", "an empty list");
@@ -59,8 +59,8 @@ std::vector<std::string> values_of_key(const PlanKey& key, const json& value, co
     return values;
 }
 
-// The keys of an object of the plan. An unknown key is an error: a misspelt one would silently be
-// its default.
+// The keys of an object of the plan. An unknown key is an error: otherwise a misspelled one would silently have its
+// default.
 KeyValues grid_of(const json& object, const Source& source, const std::string& place) {
     if (!object.is_object()) source.fail(place, "an object", object.dump());
     KeyValues values;
@@ -74,7 +74,7 @@ KeyValues grid_of(const json& object, const Source& source, const std::string& p
     return values;
 }
 
-// Later maps win.
+// Values of `over` replace those of `values`.
 KeyValues merged(KeyValues values, const KeyValues& over) {
     for (const auto& [name, list] : over) values[name] = list;
     return values;
@@ -88,18 +88,18 @@ KeyValues fallbacks() {
     return values;
 }
 
-// More than anyone waits for, and few enough for the search below.
+// More than any useful sweep, and few enough for the search below.
 constexpr std::size_t most_cells = 10000;
 
-// How many combinations there are; those beyond the limit are not counted.
+// The number of combinations, counted up to the limit.
 std::size_t combinations_of(const KeyValues& grid) {
     std::size_t product = 1;
     for (const auto& [name, values] : grid) product = std::min(product * values.size(), most_cells + 1);
     return product;
 }
 
-// Adds all combinations of the values from key `k` on to `cell`; a cell that is there already is
-// not added again. The search for it is linear, for plans have hundreds of cells.
+// Adds all combinations of the values from key `k` on to `cell`; an existing cell is not added again. The search is
+// linear, because plans have hundreds of cells.
 void add_combinations(std::vector<Cell>& cells, const KeyValues& grid, std::size_t k, const Cell& cell) {
     const auto& keys = plan_keys();
     if (k == keys.size()) {
@@ -130,7 +130,7 @@ std::vector<Cell> parse_plan(const std::string& text, const std::string& file, c
     if (plan.contains("about") && !plan["about"].is_string()) source.fail("/about", "a text", plan["about"].dump());
     if (!plan.contains("grids") || !plan["grids"].is_array() || plan["grids"].empty())
         source.fail("/grids", "a list of at least one grid", plan.contains("grids") ? plan["grids"].dump() : "none");
-    // A grid's own values win over /common, these over the options, these over the defaults.
+    // A grid's own values override /common, which overrides the options, which override the defaults.
     const KeyValues base = merged(merged(fallbacks(), options),
                                   plan.contains("common") ? grid_of(plan["common"], source, "/common") : KeyValues{});
     std::vector<Cell> cells;

@@ -1,10 +1,9 @@
-// tools/lab/invariance/invariance_plan.h - what an invariance sweep measures: cells, from a JSON plan or from
-// options.
+// tools/lab/invariance/invariance_plan.h - the cells of an invariance sweep, from a JSON plan or from options.
 //
-// Rule     A plan is {"common": {...}, "grids": [{...}, ...]}. A grid gives each key one value or a list of values
-//          and stands for all their combinations; what it leaves out comes from `common`, then from the options, then
-//          from the defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so
-//          the order in a file changes nothing; a cell that comes twice is kept once. The whole plan is checked
+// Rule     A plan is {"common": {...}, "grids": [{...}, ...]}. A grid gives each key one value or a list of values and
+//          means all their combinations; missing keys come from `common`, then from the options, then from the
+//          defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so the order in
+//          a file does not matter; a repeated cell is kept once. The whole plan is checked
 //          before anything runs.
 // Tests    tests/tools/invariance_plan_test.cpp
 #pragma once
@@ -20,42 +19,41 @@ namespace strata::tools {
 struct Remedy {
     float bias_constant = 0, bias_slope = 0;  // glPolygonOffset's units and factor
     pipeline::CompareEpsilon epsilon;
-    std::string epsilon_text = "0";  // as it was given: "1e-7", or "2ulp"
+    std::string epsilon_text = "0";  // as given: "1e-7", or "2ulp"
     bool quantize_reference = true;
     bool depth_replace = false;  // the writing path becomes depth_replace
     friend bool operator==(const Remedy&, const Remedy&) = default;
 };
 
-// The planes of the view: the orbit's own, far / ratio and the orbit's far, or numbers of their own.
+// The near and far planes: the orbit's own, far / ratio and the orbit's far, or two given numbers.
 struct DepthRange {
     double ratio = 0, near = 0, far = 0;  // all 0: the orbit's
     friend bool operator==(const DepthRange&, const DepthRange&) = default;
 };
 
-// none: the same. rotated: each triangle's vertices in another order. diagonal: quads cut along
-// their other diagonal. moved: a viewport one pixel further in x and y. clamped: with depth clamp.
+// none: no split. rotated: each triangle's vertices in another order. diagonal: quads split along the other diagonal.
+// moved: a viewport one pixel further in x and y. clamped: with depth clamp.
 enum class Split : std::uint8_t { none, rotated, diagonal, moved, clamped };
 
-// One experiment. Its fields are the keys of a plan in their meaning; what names them stands in
-// reports.md 5.1.
+// One experiment. Its fields are the values of a plan's keys, which are listed in reports.md 5.1.
 struct Cell {
     std::string scene, profile = "geforce3";
     int width = 256, height = 192;
     double azimuth = 30, elevation = 20;  // degrees
-    bool takes_own_view = true;           // if the scene has one: no orbit is named
+    bool takes_own_view = true;           // if the scene has one; false if an orbit is specified
     std::string camera;                   // a camera of the scene or a file; empty: the orbit
     float alpha = 0.5f;
     const peeling::Algorithm* algorithm = nullptr;
     Split split = Split::none;
-    std::string hypothesis = "profile";    // or one of rasterizer::depth_hypotheses; "all" stands for them all
-    std::string vertex_path = "separate";  // as it was given
+    std::string hypothesis = "profile";    // or one of rasterizer::depth_hypotheses, or "all" of them
+    std::string vertex_path = "separate";  // as given
     peeling::VertexPaths vertex_paths;
     rasterizer::DepthPath write{}, compare{};
     pipeline::DepthFormat format = pipeline::DepthFormat::d24;
     int subpixel_bits = 0;  // 0: the profile's
     DepthRange range;
     Remedy remedy;
-    // Geometry passes at most; 0: twice what a peel of the true layers needs.
+    // Limit on geometry passes; 0: twice as many as a peel of the true layers needs.
     int max_passes = 0;
     friend bool operator==(const Cell&, const Cell&) = default;
 };
@@ -63,13 +61,12 @@ struct Cell {
 // One key of a plan, and the option of the same meaning.
 struct PlanKey {
     std::string name;  // "depth_format"; the option is --depth-format
-    // Both are parts of sentences: of --help, and of an error after "expected".
+    // For messages: help for --help, and what an error lists after "expected".
     std::string help, expected;
-    std::string fallback;  // values with commas between
-    // Sets the cell's field from one value. False, with the cell in any state, if the value has no
-    // meaning.
+    std::string fallback;  // comma-separated values
+    // Sets the cell's field from one value. Returns false, and leaves the cell in any state, if the value is invalid.
     bool (*set)(Cell&, const std::string& text);
-    bool is_list = true;  // the option takes several values with commas between
+    bool is_list = true;  // the option takes several comma-separated values
 };
 [[nodiscard]] const std::vector<PlanKey>& plan_keys();  // in the order of nesting, outermost first
 

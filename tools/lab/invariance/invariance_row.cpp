@@ -16,8 +16,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// The columns of results.csv: everything that says what was measured, and of what was found what a table in print
-// needs. results.jsonl has all keys.
+// The columns of results.csv: the description of the measurement, and the results that a printed table needs.
+// results.jsonl has all keys.
 constexpr std::array columns{"cell",
                              "scene",
                              "width",
@@ -56,8 +56,8 @@ constexpr std::array columns{"cell",
                              "safe_bias",
                              "outcome"};
 
-// The pair of fragments that shows a figure (reports.md 5.2). `width` turns the pixel's number into
-// x and y.
+// The pair of fragments that determines a value (reports.md 5.2). `width` is for converting the pixel's index to x and
+// y.
 ordered_json witness(const peeling::PathPair& pair, int width) {
     return {{"x", static_cast<int>(pair.pixel) % width},
             {"y", static_cast<int>(pair.pixel) / width},
@@ -66,7 +66,7 @@ ordered_json witness(const peeling::PathPair& pair, int width) {
             {"reference", fmt::format("0x{:08x}", pair.reference)}};
 }
 
-// Safe: the interval. Empty: the fragment that is peeled twice below `lowest` and the pair that loses one above
+// The interval, or, if it is empty, the fragment that is peeled twice below `lowest` and the pair that loses one above
 // `highest`.
 ordered_json to_json(const std::optional<peeling::SafeRange>& found, int width) {
     if (!found) return nullptr;
@@ -96,14 +96,13 @@ ordered_json histogram(const peeling::PathComparison& paths) {
     return bins;
 }
 
-// The keys behind `refusal`, in the order of reports.md 5.2. A cell that was refused has them, too,
-// with counts of 0.
+// The keys after `refusal`, in the order of reports.md 5.2. A refused cell has them, too, with counts of 0.
 void add_findings(ordered_json& line, const Cell& cell, const peeling::Measurement& m) {
     const bool ran = !m.refusal && m.peeled;
     line["fragments"] = m.paths.fragments;
     line["differing"] = m.paths.differing;
     line["unmatched"] = m.paths.unmatched;
-    // The size alone; its sign stands in the histogram.
+    // Only the magnitude; its sign is in the histogram.
     line["ulp_max"] = m.paths.largest < 0 ? -m.paths.largest : m.paths.largest;
     line["ulp_max_at"] = m.paths.differing > 0 ? witness(m.paths.where, cell.width) : ordered_json(nullptr);
     line["histogram"] = histogram(m.paths);
@@ -126,12 +125,12 @@ void add_findings(ordered_json& line, const Cell& cell, const peeling::Measureme
 // The double whose shortest decimals are those of the float: 0.1f becomes 0.1, not 0.10000000149.
 double shortest(float value) { return *to_number<double>(fmt::format("{}", value)); }
 
-// Results hold no path: a file's name alone.
+// Results contain no path: only a file's name.
 std::string without_folder(const std::string& name) {
     return scenes::is_procedural(name) ? name : std::filesystem::path(name).filename().string();
 }
 
-// One of the words of reports.md 5.2.
+// One of the outcomes of reports.md 5.2.
 std::string outcome(const CellResult& result) {
     if (!result.refusal.empty()) return "refused";
     if (!result.measured.peeled) return "compared";
@@ -141,9 +140,9 @@ std::string outcome(const CellResult& result) {
 }  // namespace
 
 ordered_json description(std::size_t number, const Cell& cell, const CellView& view) {
-    // The path that really writes: a remedy may replace the cell's own.
+    // The path that is really written: a remedy may replace the cell's own.
     const auto write = cell.remedy.depth_replace ? rasterizer::DepthPath::depth_replace : cell.write;
-    // A view that the scene brings has neither degrees nor planes that anybody named.
+    // A view of the scene's own has no given angles or planes.
     const auto unless_own = [&](const ordered_json& value) { return view.is_own ? ordered_json(nullptr) : value; };
     return {{"cell", number},
             {"scene", without_folder(cell.scene)},
@@ -181,7 +180,7 @@ ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& res
 
 std::vector<std::string> line_keys() {
     Cell cell;
-    cell.algorithm = peeling::find_algorithm("dual");  // any that has a name
+    cell.algorithm = peeling::find_algorithm("dual");  // any algorithm with a name
     std::vector<std::string> keys;
     const ordered_json line = to_line(0, cell, {.view = {}, .measured = {}, .refusal = "none"});
     for (const auto& [key, value] : line.items()) keys.push_back(key);
@@ -199,7 +198,7 @@ std::string to_csv(const ordered_json& line) {
             fields.push_back(csv_field(orbit_text(value)));
         else if (key == "safe_bias")
             fields.push_back(safe_text(value));
-        else if (key == "psnr" && value.is_null())  // of equal pictures, or of none
+        else if (key == "psnr" && value.is_null())  // of equal images, or of none
             fields.push_back(is_peeled ? "inf" : "");
         else
             fields.push_back(value.is_null() ? "" : csv_field(value));

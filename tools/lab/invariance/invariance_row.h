@@ -1,9 +1,9 @@
 // tools/lab/invariance/invariance_row.h - one measured cell as a line of results.jsonl and as a row of
 // results.csv.
 //
-// Rule     A line holds the cell's number, everything that says what was measured, then what was found, in one order
-//          of keys; a row holds the columns of csv_header(). Numbers are written in the shortest form that reads back
-//          to the same bits; nothing depends on time, threads or host.
+// Rule     A line has the cell's number, the description of the measurement, then the results, in a fixed order of
+//          keys; a row has the columns of csv_header(). Numbers are written in the shortest form that reads back to the
+//          same bits; nothing depends on time, threads or host.
 // Tests    tests/tools/invariance_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -17,16 +17,16 @@ namespace strata::tools {
 // The keys that are known before the cell runs: a line of an earlier run must begin with them.
 [[nodiscard]] nlohmann::ordered_json description(std::size_t number, const Cell& cell, const CellView& view);
 
-// The whole line, without its end.
+// The complete line, without a line end.
 [[nodiscard]] nlohmann::ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& result);
 
-// All keys of a whole line, in its order.
+// All keys of a complete line, in its order.
 [[nodiscard]] std::vector<std::string> line_keys();
 
-// results.csv of these lines.
+// The content of results.csv for these lines.
 [[nodiscard]] std::string csv_of(const Lines& lines);
 
 [[nodiscard]] std::string csv_header();
-[[nodiscard]] std::string to_csv(const nlohmann::ordered_json& line);  // both with their newline
+[[nodiscard]] std::string to_csv(const nlohmann::ordered_json& line);  // both with a line end
 
 }  // namespace strata::tools

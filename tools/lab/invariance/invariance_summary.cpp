@@ -21,7 +21,7 @@ std::string safe_text(const ordered_json& bias) {
 
 namespace {
 
-// Nine digits: as many as a plane's binary32 needs.
+// Nine digits, which identify a binary32 value.
 std::string plane_text(const ordered_json& distance) {
     return distance.is_null() ? "" : fmt::format("{:.9g}", distance.get<double>());
 }
@@ -31,7 +31,7 @@ std::string word_or_number(const ordered_json& line, const char* key) {
     return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// The choices that distinguish cells; the parts of a remedy stand in its name.
+// The choices that distinguish cells; the parts of a remedy are in its name.
 const std::vector<Knob>& every_knob() {
     const auto of = [](const char* key) {
         return [key](const ordered_json& line) { return word_or_number(line, key); };
@@ -87,7 +87,7 @@ Table summary_table(const Lines& lines) {
         table.columns.push_back({title, Align::right});
     table.columns.push_back({"outcome"});
     for (const ordered_json& line : lines) {
-        const bool is_refused = line.at("outcome") == "refused";  // its counts are 0, for nothing was counted
+        const bool is_refused = line.at("outcome") == "refused";  // nothing was counted: its counts are 0
         std::vector<std::string> row{line.at("cell").dump()};
         for (const Knob& knob : knobs) row.push_back(knob.text_of(line));
         for (const char* key : {"passes", "differing", "ulp_max", "duplicated", "lost", "pixels_touched"})

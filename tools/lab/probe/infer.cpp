@@ -1,4 +1,4 @@
-// tools/lab/probe/infer.cpp - strata infer: the profile of a device from its answers to the kit.
+// tools/lab/probe/infer.cpp - strata infer: infers the profile of a device from its answers to the probe kit.
 #include "tools/probe/infer.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ using probe::Inference;
 // The command line.
 struct InferOptions {
     std::string pack, output;
-    std::optional<probe::YDirection> orientation{};  // none: up, or down where the pack has no other
+    std::optional<probe::YDirection> orientation{};  // if absent: up, or down if the pack only has that
     bool json = false;
 };
 
@@ -53,7 +53,7 @@ std::string place_text(const probe::Contradiction& c) {
     return fmt::format("{} of {} at {},{}", c.target, c.item, c.x, c.y);
 }
 
-// What the profile leaves, scene by scene, and the fields whose evidence that breaks.
+// The differences that the profile leaves, scene by scene, and the fields whose evidence they invalidate.
 std::string left_over(const Inference& result) {
     std::string text;
     for (const FieldFinding& f : result.fields)

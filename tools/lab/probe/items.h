@@ -1,11 +1,11 @@
-// tools/lab/probe/items.h - options that probe and infer share: which scenes, and which way up.
+// tools/lab/probe/items.h - options that probe and infer share: the scenes, and the y direction.
 #pragma once
 #include "tools/probe/kit.h"
 #include "tools/strata/options/option.h"
 
 namespace strata::tools {
 
-// The kit, or so many unseen scenes instead.
+// The kit, or the given number of unseen scenes instead.
 [[nodiscard]] inline std::vector<probe::Item> items_of(int unseen) {
     return unseen > 0 ? probe::unseen_scenes(0, unseen) : probe::kit();
 }

@@ -1,4 +1,4 @@
-// tools/lab/probe/operations_table.h - what was found of operations, as text and as JSON.
+// tools/lab/probe/operations_table.h - findings about operations, as text and as JSON.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace strata::tools {
 
-// A row an operation, then the first counterexample of each that no hypothesis explains. Empty without findings.
+// One row per operation, then the first counterexample of each operation that no hypothesis explains. Empty without
+// findings.
 [[nodiscard]] std::string operations_text(const std::vector<probe::OperationFinding>& findings);
 [[nodiscard]] nlohmann::ordered_json operations_json(const std::vector<probe::OperationFinding>& findings);
 

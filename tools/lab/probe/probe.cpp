@@ -1,5 +1,5 @@
-// tools/lab/probe/probe.cpp - strata probe: the kit that measures a device, and its answers by a device that is a
-// profile.
+// tools/lab/probe/probe.cpp - strata probe: writes the kit that measures a device, and the answers that a profile gives
+// to it.
 #include <fmt/format.h>
 
 #include <memory>
@@ -24,7 +24,7 @@ namespace {
 // The command line.
 struct ProbeOptions {
     std::string output, profile, compare;
-    std::optional<probe::YDirection> orientation{};  // none: the profile's
+    std::optional<probe::YDirection> orientation{};  // if absent: the profile's
     int unseen = 0;
     bool json = false;
 };
@@ -34,7 +34,7 @@ std::vector<std::string> row(const std::string& name, const probe::Difference& d
             std::to_string(d.color)};
 }
 
-// Items that a device drew beside what the profile draws.
+// Compares items drawn by a device with those drawn by the profile.
 int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) {
     const pipeline::DeviceProfile given = scenes::load_profile(options.profile);
     const probe::YDirection y = options.orientation.value_or(probe::direction_of(given.origin));

@@ -1,5 +1,4 @@
-// tools/lab/reproduce/reproduce.cpp - strata reproduce: a paper's own figures and tables beside what this machine
-// finds.
+// tools/lab/reproduce/reproduce.cpp - strata reproduce: compares a paper's figures and tables with measured results.
 #include <filesystem>
 #include <memory>
 
@@ -14,11 +13,10 @@ namespace strata::tools {
 
 namespace {
 
-// The papers that have a page, in the order in which an error lists them.
+// The papers that have a page, in the order of error messages.
 const std::vector<std::string> papers{"carr2008", "everitt2001", "bavoil2008"};
 
-// Reads every model before anything is drawn, so that a wrong file ends the command at once. Throws
-// InputError.
+// Reads every model before anything is drawn, so that a wrong file ends the command at once. Throws InputError.
 std::vector<Model> load_models(const ReproduceOptions& options) {
     std::vector<Model> models;
     for (const std::string& path : options.models)
@@ -26,7 +24,7 @@ std::vector<Model> load_models(const ReproduceOptions& options) {
     return models;
 }
 
-// Everitt's figures have the teapot alone: models are not loaded for them.
+// Everitt's figures only show the teapot: no models are loaded for them.
 Page page_of(const ReproduceOptions& options) {
     if (options.paper == "everitt2001") return reproduce_everitt(options);
     const std::vector<Model> models = load_models(options);
@@ -38,7 +36,7 @@ int reproduce(const ReproduceOptions& options) {
     if (std::find(papers.begin(), papers.end(), options.paper) == papers.end())
         throw CLI::ValidationError("PAPER",
                                    "expected " + one_of(papers) + ", found " + found_but_near(options.paper, papers));
-    // A folder that cannot be made is told by what is there afterwards: it may exist already.
+    // Whether the folder could be created is checked afterwards, because it may already exist.
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
     if (!std::filesystem::is_directory(options.folder))

@@ -13,7 +13,7 @@ namespace strata::tools {
 
 namespace {
 
-// A model, seen from one view for all its pictures and counts.
+// A model with the view of all its images and counts.
 struct Subject {
     const Model& model;
     pipeline::View view;
@@ -26,7 +26,7 @@ peeling::RenderResult render(const Subject& subject, const std::string& algorith
         .render(*peeling::find_algorithm(algorithm));
 }
 
-// Square pictures on white; every alpha times `alpha`.
+// Square images on white; every alpha is multiplied by `alpha`.
 peeling::RenderOptions options_for(const ReproduceOptions& options, float alpha) {
     peeling::RenderOptions render;
     render.width = render.height = options.size;
@@ -36,8 +36,8 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, float alpha)
     return render;
 }
 
-// A row of the table of passes. Two exits of dual are run: ours ends when nothing is left, the
-// paper's when a pass blends nothing.
+// A row of the table of passes. dual is run with both exits: the exact one ends when nothing is left, the paper's when
+// a pass blends nothing.
 std::vector<std::string> pass_row(const ReproduceOptions& options, const Subject& subject) {
     peeling::RenderOptions exact = options_for(options, 0.6f), paper = exact;
     paper.termination.rule = pipeline::TerminationRule::paper;
@@ -57,8 +57,8 @@ std::vector<std::string> pass_row(const ReproduceOptions& options, const Subject
                        : "N is odd: the layer in the middle takes a pass of its own (E11)"};
 }
 
-// Gives each mesh vertex colours whose alpha goes from 0.2 at the bottom of that mesh to 0.8 at its
-// top, linear in y. A flat mesh has 0.2.
+// Gives each mesh vertex colours whose alpha increases linearly in y from 0.2 at the bottom of the mesh to 0.8 at its
+// top. A flat mesh has 0.2.
 void vary_alpha(scenes::Scene& scene) {
     for (pipeline::Mesh& mesh : scene.list.meshes) {
         float low = HUGE_VALF, high = -HUGE_VALF;
@@ -66,14 +66,14 @@ void vary_alpha(scenes::Scene& scene) {
             low = std::fmin(low, p[1]);
             high = std::fmax(high, p[1]);
         }
-        // A mesh without vertex colours gets white ones; colours that it has stay.
+        // A mesh without vertex colours gets white ones; existing colours are kept.
         mesh.colors.resize(mesh.positions.size(), {1, 1, 1, 1});
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             mesh.colors[i][3] = 0.2f + 0.6f * (high > low ? (mesh.positions[i][1] - low) / (high - low) : 0.0f);
     }
 }
 
-// Figure 4: three choices of alpha, and how far the two one-pass sums are from dual's picture.
+// Figure 4: three choices of alpha, and the difference of the two one-pass sums from dual's image.
 Section alphas(const ReproduceOptions& options, const Model& model, const pipeline::View& view) {
     Section section{"Figure 4 with " + model.name,
                     "Dual peeling is exact; the other two take one pass. The paper finds the average close to it for "
@@ -89,7 +89,7 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
         const Model& model;
         float alpha;
     };
-    // The varied model has its alphas in its vertices, which 1.0 leaves as they are.
+    // The varied model has its alphas in its vertices, which a factor of 1.0 does not change.
     for (const Column& column : {Column{"20", model, 0.2f}, {"60", model, 0.6f}, {"non-uniform", varied, 1.0f}}) {
         const Subject subject{column.model, view};
         const peeling::RenderOptions render_options = options_for(options, column.alpha);
@@ -109,7 +109,7 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
 
 }  // namespace
 
-// The teapot comes first, then the models that were given.
+// The teapot first, then the given models.
 Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>& given) {
     std::vector<Model> models{{"teapot", scenes::load_scene("teapot", {})}};
     models.insert(models.end(), given.begin(), given.end());

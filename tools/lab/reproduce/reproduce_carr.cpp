@@ -21,23 +21,23 @@ struct Run {
     int iterations = 0, passes = 0;
     // Rasterized in all geometry passes.
     std::uint64_t fragments = 0;
-    // Of all passes, without loading and set-up: of four runs where a run is short, else of one.
+    // Of all passes, without loading and set-up: of four runs if a run is short, else of one.
     Spread seconds{};
     pipeline::Image color{};
 };
 
-// Seconds; a shorter run is repeated, because one of its times says little.
+// Seconds; a shorter run is repeated, because its time varies.
 constexpr double short_run = 1.0;
 
-// Literal execution: every pass rasterizes all its geometry, as the paper's machine did. `paper_exit`: iterations as
-// the paper counts them, by queries during compositing.
+// Literal execution: every pass rasterizes all its geometry, as the paper's hardware did. `paper_exit`: iterations end
+// as in the paper, by queries during compositing.
 Run run(const scenes::Scene& scene, const pipeline::View& view, const std::string& algorithm,
         peeling::RenderOptions options, bool paper_exit) {
     options.execution = pipeline::Execution::literal;
-    // Neither comparison nor nearest depth belongs to the paper's times.
+    // The paper's times include neither comparison nor nearest depth.
     options.audit = options.nearest_depth = false;
     if (paper_exit) options.termination.rule = pipeline::TerminationRule::paper;
-    // coherent_ideal needs more than the hardware of the paper's time had.
+    // coherent_ideal needs more than the hardware of the paper had.
     const char* const profile = algorithm == "coherent_ideal" ? "ideal" : "geforce8";
     peeling::Renderer renderer(scene.list, view, *pipeline::find_profile(profile), options);
     const peeling::Algorithm& chosen = *peeling::find_algorithm(algorithm);
@@ -49,11 +49,11 @@ Run run(const scenes::Scene& scene, const pipeline::View& view, const std::strin
             spread_of(seconds), result.frame.color};
 }
 
-// Two decimals, or "-" where there is nothing to divide by.
+// Two decimals, or "-" if b is 0.
 std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
 
-// How many times as fast as the baseline; "noise" where the times do not tell: their runs overlap, or, where one of
-// them is of a single long run, they are within a factor of 2.
+// The speed relative to the baseline; "noise" if the runs overlap, or, if one of the times is of a single long run, if
+// they are within a factor of 2.
 std::string times_faster(const Spread& baseline, const Spread& own) {
     const double times = baseline.median / own.median;
     const bool is_single = baseline.runs == 1 || own.runs == 1;
@@ -71,17 +71,16 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, int size) {
 
 // ---- Figures 1 and 3
 
-// Pixels a side: literal peels of 1024 slices must end in reasonable time.
+// Pixels per side, small enough that literal peels of 1024 slices take a reasonable time.
 constexpr int beam_size = 32;
 const std::array beam_algorithms{"layer_peel", "hybrid", "coherent_stencil", "coherent_blend", "coherent_ideal"};
 
-// The paper's figure for a row of the table, and the reason why ours differs.
+// The paper's value for a row of the table, and the reason why ours differs.
 struct Printed {
     std::string figure, why;
 };
 
-// Empty texts for rows of which the paper says nothing. `iterations` are ours: what is counted
-// alike needs no reason.
+// Empty texts for rows that the paper does not have. `iterations` are ours: if they agree no reason is needed.
 Printed printed_of(int slices, const std::string& algorithm, int iterations) {
     constexpr auto other_times = "times are this machine's, not a GeForce 8800's; passes and fragments are counted";
     constexpr auto counted = "the stencil counts to 128 (E20): ceil(n/128) iterations for n slices, two for the cone";
@@ -125,7 +124,7 @@ std::vector<Measured> run_beams(const ReproduceOptions& options) {
     return runs;
 }
 
-// A curve an algorithm; `value` picks what of a run is drawn.
+// One curve per algorithm; `value` selects the value of a run.
 template <class Value>
 Chart chart_of(const std::vector<Measured>& runs, const std::string& label, Value value) {
     Chart chart{"slices", label};
@@ -138,8 +137,8 @@ Chart chart_of(const std::vector<Measured>& runs, const std::string& label, Valu
     return chart;
 }
 
-// The table, three charts and a picture. Rows of one number of slices stand together, layer_peel's
-// first: the others are compared with it.
+// The table, three charts and an image. Rows of one number of slices are consecutive, layer_peel's first, because the
+// others are compared with it.
 Section beam(const ReproduceOptions& options) {
     Section section{"Figures 1 and 3: slices of a volume and a cone", fmt::format(beam_text, beam_size)};
     section.sheet = {"figure3",
@@ -150,8 +149,7 @@ Section beam(const ReproduceOptions& options) {
     const Run* baseline = nullptr;
     for (const Measured& m : runs) {
         const Run& r = m.run;
-        // beam_algorithms begins with layer_peel, so a row of it comes before any row that divides
-        // by it.
+        // beam_algorithms begins with layer_peel, so its row precedes the rows that are divided by it.
         if (m.algorithm == "layer_peel") baseline = &r;
         const Printed printed = printed_of(m.slices, m.algorithm, r.iterations);
         section.sheet.rows.push_back({std::to_string(m.slices), m.algorithm, std::to_string(r.iterations),
@@ -176,17 +174,17 @@ Section beam(const ReproduceOptions& options) {
 
 // ---- Table 1
 
-// A row of the paper's Table 1, and where we look from.
+// A row of the paper's Table 1, and our view.
 struct PaperRow {
     const char* model;
     const char* view;
-    // Iterations as printed: of both coherent formulations, which agree, and of layer peeling.
+    // Iterations as printed: of the two coherent formulations, which agree, and of layer peeling.
     int coherent, layers;
     // Frame rates as printed, of formulation A, formulation B and layer peeling.
     double a_fps, b_fps, layer_fps;
-    // Degrees of our orbit: the paper prints no view.
+    // Degrees of our orbit: the paper does not give its view.
     double azimuth, elevation;
-    // Why ours differs, for the last column.
+    // The reason why ours differs, for the last column.
     const char* why;
 };
 
@@ -216,8 +214,8 @@ constexpr std::array paper_rows{
 // Iterations and geometry passes.
 std::string counts(int iterations, int passes) { return fmt::format("{} it, {} g", iterations, passes); }
 
-// The rows of one view: three orders of triangles, four algorithms in each. `in_paper` is false for
-// a model that the paper does not have: its row of `paper` then holds the view alone.
+// The rows of one view: three orders of triangles with four algorithms each. `in_paper` is false for a model that the
+// paper does not have: then `paper` only has the view.
 void add_rows(const ReproduceOptions& options, const Model& model, const PaperRow& paper, bool in_paper,
               Section& section) {
     peeling::RenderOptions render = options_for(options, options.size);
@@ -227,11 +225,10 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
         render.sort = sort;
         const Run layer = run(model.scene, view, "layer_peel", render, false);
         const auto row = [&](const std::string& algorithm, const Run& r, int iterations, int passes, double fps) {
-            // `iterations` is 0 for an algorithm that the paper did not time. coherent_ideal counts
-            // no empty iteration.
+            // `iterations` is 0 for an algorithm that the paper did not time. coherent_ideal counts no empty iteration.
             const bool is_paper = in_paper && iterations > 0, counts_empty = algorithm != "coherent_ideal";
             std::string why;
-            // One empty iteration more is how the paper's query ends, and no difference.
+            // The paper's query ends with one more, empty iteration, which is not a difference.
             if (is_paper && counts_empty && r.iterations - 1 == iterations)
                 why = "the last iteration, which finds nothing, is counted here";
             else if (is_paper && r.iterations != iterations)
@@ -246,16 +243,14 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
                  counts(r.iterations, r.passes), is_paper ? ratio(fps, paper.layer_fps) : "",
                  times_faster(layer.seconds, r.seconds), ratio(double(r.fragments), double(layer.fragments)), why});
         };
-        // Geometry passes an iteration: layer_peel 2, formulation A 6, formulation B 5
-        // (algorithms.md 9, 10.2 and 11).
+        // Geometry passes per iteration: layer_peel 2, formulation A 6, formulation B 5 (algorithms.md 9, 10.2 and 11).
         row("layer_peel", layer, paper.layers, 2 * paper.layers, paper.layer_fps);
         row("coherent_stencil", run(model.scene, view, "coherent_stencil", render, true), paper.coherent,
             6 * paper.coherent, paper.a_fps);
         row("coherent_blend", run(model.scene, view, "coherent_blend", render, true), paper.coherent,
             5 * paper.coherent, paper.b_fps);
         row("coherent_ideal", run(model.scene, view, "coherent_ideal", render, false), 0, 0, 0);
-        // The unsorted list leaves no picture: but for ties, layer_peel's does not depend on the
-        // order.
+        // The unsorted list has no image: except for ties, layer_peel's does not depend on the order.
         if (order != "as listed")
             section.pictures.push_back(write_picture(options.folder,
                                                      fmt::format("{}_{}.png", model.name, section.pictures.size()),
@@ -266,7 +261,7 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
     add("as listed", {});
 }
 
-// Table 1 for the given models; without one it holds its text alone.
+// Table 1 for the given models; without models only its text.
 Section table(const ReproduceOptions& options, const std::vector<Model>& models) {
     Section section{"Table 1: models",
                     fmt::format("{0}x{0}, every alpha 0.3. it: iterations, g: geometry passes. Coherent peels end by "

@@ -11,7 +11,7 @@ namespace strata::tools {
 
 namespace {
 
-// Square pictures of the size that was asked for.
+// Square images of the requested size.
 peeling::RenderOptions options_for(const ReproduceOptions& options) {
     peeling::RenderOptions render;
     render.width = render.height = options.size;
@@ -19,8 +19,7 @@ peeling::RenderOptions options_for(const ReproduceOptions& options) {
     return render;
 }
 
-// The scene of the paper's figures on the profile geforce3, peeled by two depth units as the
-// paper's Listing 1 describes.
+// The scene of the paper's figures on the profile geforce3, peeled with two depth units as in the paper's Listing 1.
 struct Teapot {
     scenes::Scene scene = scenes::load_scene("teapot", {});
     pipeline::View view = scenes::orbit_view(scene.bounds, 30, 20, 1.0);
@@ -31,11 +30,11 @@ struct Teapot {
     }
 };
 
-// Figure 3: each layer as a picture, and how many pixels it covers.
+// Figure 3: each layer as an image, and the number of pixels that it covers.
 Section layers(const ReproduceOptions& options, const Teapot& teapot) {
     peeling::RenderOptions render = options_for(options);
     render.alpha = 1.0f;
-    // A frame keeps its layers only where they are asked for.
+    // A frame keeps its layers only if requested.
     render.keep_layers = true;
     const peeling::RenderResult result = teapot.render(render);
     Section section{"Figure 3: simple depth peeling",
@@ -55,7 +54,7 @@ Section layers(const ReproduceOptions& options, const Teapot& teapot) {
     return section;
 }
 
-// Figure 5: the picture after n layers for every n, and how far it is from the whole one.
+// Figure 5: the image after n layers for every n, and its difference from the complete one.
 Section composites(const ReproduceOptions& options, const Teapot& teapot) {
     peeling::RenderOptions render = options_for(options);
     render.alpha = 0.5f;
@@ -72,12 +71,11 @@ Section composites(const ReproduceOptions& options, const Teapot& teapot) {
         {"layers", "largest difference / 255", "mean difference / 255", "pixels that differ", "diagnosed as truncated"},
         {}};
     for (int n = 1; n <= whole.audit.layers_max; ++n) {
-        // One pass peels one layer. A peel that is cut short is composited as far as it went.
+        // One pass peels one layer. A peel that is stopped early is composited as far as it went.
         render.max_passes = n;
         const peeling::RenderResult part = teapot.render(render);
         const PictureDifference d = difference(part.frame.color, whole.frame.color);
-        // Pixels that the run itself reports as cut short; the column stands beside the pixels that
-        // differ.
+        // Pixels that the run itself reports as truncated, in the column next to the pixels that differ.
         std::uint64_t truncated = 0;
         for (const auto& diagnostic : part.frame.diagnostics)
             if (diagnostic.fault == pipeline::Fault::truncated) truncated += diagnostic.pixels;

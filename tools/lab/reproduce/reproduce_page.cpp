@@ -14,8 +14,7 @@ namespace strata::tools {
 
 namespace {
 
-// Quoted where the text holds a comma, a quotation mark or a line's end; a quotation mark inside is
-// doubled.
+// Quoted if the text contains a comma, a quotation mark or a line end; a quotation mark inside is doubled.
 std::string csv_cell(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted{'"'};
@@ -27,7 +26,7 @@ std::string csv_cell(const std::string& text) {
     return quoted;
 }
 
-// A line of titles and a line a row.
+// A header line and one line per row.
 std::string csv(const Sheet& sheet) {
     std::string text;
     const auto add = [&](const std::vector<std::string>& cells) {
@@ -58,8 +57,8 @@ std::string html(const Sheet& sheet) {
     return text + fmt::format("</tbody></table></div>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
 }
 
-// The page needs no other file than its pictures, and has the report's style. {0} is the title, {2} the paper's
-// address, {3} a sentence.
+// The page needs no files except its images, and has the report's style. {0} is the title, {2} the paper's address, {3}
+// a sentence.
 constexpr auto head = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{0}</title><style>
 {1}</style></head><body>
@@ -76,7 +75,7 @@ void write_page(const std::string& folder, const Page& page) {
     for (const Section& section : page.sections) {
         text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", scenes::markup_text(section.title),
                             scenes::markup_text(section.text));
-        // A section without rows leaves no table and no CSV.
+        // A section without rows has no table and no CSV.
         if (!section.sheet.rows.empty()) {
             text += html(section.sheet);
             scenes::write_file(folder + '/' + section.sheet.file + ".csv", csv(section.sheet));
@@ -96,7 +95,7 @@ Picture write_picture(const std::string& folder, const std::string& file, const 
 }
 
 PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b) {
-    // Both images as people see them in 8 bits, whatever their format.
+    // Both images converted to 8 bits for viewing, whatever their format.
     const auto bytes = [](const pipeline::Image& image) {
         return scenes::as_straight_rgba8({.color = image, .premultiplied = true});
     };
@@ -105,7 +104,7 @@ PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b)
     const std::size_t pixels = x.codes.size() / 4;
     for (std::size_t p = 0; p < pixels; ++p) {
         double largest = 0;
-        // Alpha is left out: a finished picture's is 1.
+        // Alpha is not compared: a finished image's is 1.
         for (std::size_t c = 4 * p; c < 4 * p + 3; ++c)
             largest = std::max(largest, std::fabs(double(x.codes[c]) - double(y.codes[c])));
         found.largest = std::max(found.largest, largest);

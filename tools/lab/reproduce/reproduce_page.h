@@ -1,5 +1,4 @@
-// tools/lab/reproduce/reproduce_page.h - what `strata reproduce` leaves in its folder: one page, its tables as
-// CSV, its pictures.
+// tools/lab/reproduce/reproduce_page.h - the output of `strata reproduce`: one page, its tables as CSV, its images.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@
 
 namespace strata::tools {
 
-// A table of a page. Every row has a cell for every column.
+// A table of a page. Every row has as many cells as there are columns.
 struct Sheet {
     // The CSV's name without its ending: "table1" becomes table1.csv in the page's folder.
     std::string file;
@@ -19,19 +18,19 @@ struct Sheet {
     std::vector<std::vector<std::string>> rows;
 };
 
-// A file in the page's folder, and the words under it.
+// A file in the page's folder, and its caption.
 struct Picture {
     std::string file, caption;
 };
 
-// A heading, a paragraph, a table (without rows: none) and pictures.
+// A heading, a paragraph, a table (none without rows) and images.
 struct Section {
     std::string title, text;
     Sheet sheet{};
     std::vector<Picture> pictures{};
 };
 
-// The sentence of every page.
+// The sentence on every page.
 inline constexpr const char* page_sentence =
     "The paper's figures and tables by its algorithms on the devices that it was written for, next to the paper's own "
     "numbers where it has any, and why "
@@ -40,36 +39,35 @@ inline constexpr const char* page_sentence =
 // The page of one paper: its sections from top to bottom.
 struct Page {
     std::string title;
-    std::string sentence;   // what the page shows
-    std::string_view link;  // where the paper is to be had
+    std::string sentence;   // the content of the page
+    std::string_view link;  // a link to the paper
     std::vector<Section> sections{};
 };
 
-// A model that the command line gave, beside the paper's own.
+// A model given on the command line.
 struct Model {
     // The file's name without folder and ending; Table 1 of Carr et al. looks its rows up by it.
     std::string name;
     scenes::Scene scene;
 };
 
-// The command line: `paper` is one of the names in reproduce.cpp, `folder` takes the page.
+// The command line: `paper` is one of the names in reproduce.cpp, `folder` receives the page.
 struct ReproduceOptions {
     std::string paper, folder;
     std::vector<std::string> models;  // files
-    // Pixels a side of the pictures, 1 to 4096; threads at most, 0 being all.
+    // Pixels per side of the images, 1 to 4096; maximum number of threads, 0: all.
     int size = 256, threads = 0;
 };
 
-// index.html, a CSV for each sheet; the folder exists.
+// Writes index.html and a CSV per sheet; the folder must exist.
 void write_page(const std::string& folder, const Page& page);
-// Whether a picture's colours are times their alpha: a finished frame's are, a layer's as its algorithm says.
+// Whether an image's colours are premultiplied: a finished frame's are, a layer's as stated by its algorithm.
 enum class ColorForm : std::uint8_t { premultiplied, straight };
-// A picture as `folder`/file, whose 8-bit colours are straight.
+// Writes an image to `folder`/file with 8-bit colours that are not premultiplied.
 [[nodiscard]] Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
                                     const pipeline::Image& color, ColorForm form = ColorForm::premultiplied);
 
-// How far two pictures of one size are apart. A pixel's difference is the largest of its r, g and
-// b, in 1/255.
+// The difference of two images of one size. A pixel's difference is the largest of its r, g and b, in 1/255.
 struct PictureDifference {
     double largest = 0, mean = 0;
     // The number of pixels that differ.
@@ -77,7 +75,7 @@ struct PictureDifference {
 };
 [[nodiscard]] PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b);
 
-// The three pages. Each renders its scenes and writes its pictures into the folder, which exists.
+// The three pages. Each renders its scenes and writes its images into the folder, which must exist.
 [[nodiscard]] Page reproduce_carr(const ReproduceOptions& options, const std::vector<Model>& models);
 [[nodiscard]] Page reproduce_everitt(const ReproduceOptions& options);
 [[nodiscard]] Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>& models);

@@ -24,7 +24,7 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (c == '"' && is_quoted && i + 1 < text.size() && text[i + 1] == '"')
-            rows.back().back() += text[++i];  // a doubled one stands for itself
+            rows.back().back() += text[++i];  // a doubled quotation mark is one mark
         else if (c == '"')
             is_quoted = !is_quoted;
         else if (c == ',' && !is_quoted)
@@ -34,7 +34,7 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
         else
             rows.back().back() += c;
     }
-    if (rows.back().size() == 1 && rows.back()[0].empty()) rows.pop_back();  // behind the last line's end
+    if (rows.back().size() == 1 && rows.back()[0].empty()) rows.pop_back();  // after the end of the last line
     return rows;
 }
 

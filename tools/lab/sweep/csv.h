@@ -1,7 +1,7 @@
-// tools/lab/sweep/csv.h - JSON lines as rows of a CSV.
+// tools/lab/sweep/csv.h - converts JSON lines to CSV rows.
 //
-// Rule     RFC 4180: quotes only where a text needs them. A column is a JSON pointer; its title is the pointer without
-//          the first slash and with dots for the others. What a line lacks, or has as null, is an empty field.
+// Rule     RFC 4180, with quotes only if a text needs them. A column is a JSON pointer; its title is the pointer
+//          without the first slash and with dots for the others. A value that is missing or null is an empty field.
 // Tests    tests/tools/csv_test.cpp
 #pragma once
 #include <string>
@@ -13,10 +13,10 @@ namespace strata::tools {
 
 [[nodiscard]] std::string csv_field(const nlohmann::ordered_json& value);
 
-// The fields of each row of a CSV as it is written here.
+// The fields of each row of a CSV in the form written here.
 [[nodiscard]] std::vector<std::vector<std::string>> csv_rows(const std::string& text);
 
-// The header and a row a line.
+// The header and one row per line.
 [[nodiscard]] std::string csv_of_columns(const std::vector<std::string>& pointers, const Lines& lines);
 
 }  // namespace strata::tools

@@ -29,10 +29,10 @@ std::string digest_of(std::string_view text) {
     return digest.hexadecimal();
 }
 
-// What stands behind the text that the digest is of.
+// The text that follows the part covered by the digest.
 std::string ending_of(std::string_view text) { return fmt::format(",\"line_digest\":\"{}\"}}", digest_of(text)); }
 
-// The object of a line without its newline; null if it is not what was written.
+// The object of a line without its newline; null if it was changed.
 ordered_json parse_line(std::string_view line) {
     const std::size_t length = ending_of("").size();
     if (line.size() <= length) return nullptr;
@@ -42,7 +42,7 @@ ordered_json parse_line(std::string_view line) {
     return object.is_object() ? object : ordered_json(nullptr);
 }
 
-// JSON text is compared: numbers are written in one form.
+// JSON text is compared, because numbers are written in one form.
 void check_description(const std::string& path, std::size_t number, const ordered_json& line,
                        const ordered_json& expected) {
     for (const auto& [key, value] : expected.items()) {
@@ -53,7 +53,7 @@ void check_description(const std::string& path, std::size_t number, const ordere
     }
 }
 
-// The place of the line's cell among `cells`, which ascend.
+// The index of the line's cell in `cells`, which is ascending.
 std::size_t place_of(const std::string& path, std::size_t number, const ordered_json& line,
                      const std::vector<std::size_t>& cells) {
     const ordered_json cell = line.contains("cell") ? line["cell"] : ordered_json(nullptr);
@@ -139,7 +139,7 @@ Journal::~Journal() { ::close(descriptor_); }
 
 void Journal::fail() const { throw SystemError(path_, "write", std::strerror(errno)); }
 
-// A kill, or a power loss, costs the cell in work.
+// If the process is killed or the power fails, only the cell being measured is lost.
 void Journal::append(const ordered_json& line) {
     const std::string text = line_text(line);
     for (std::size_t done = 0; done < text.size();) {

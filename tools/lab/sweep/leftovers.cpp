@@ -11,7 +11,7 @@ namespace {
 
 template <class IsOurs>
 void remove_temporaries(const std::filesystem::path& folder, IsOurs is_ours) {
-    std::error_code error;  // a folder that is not there has none
+    std::error_code error;  // a missing folder has none
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         const std::string target = scenes::target_of_temporary(entry.path().filename().string());
         if (!target.empty() && is_ours(target)) std::filesystem::remove(entry.path(), error);

@@ -1,8 +1,7 @@
-// tools/lab/sweep/leftovers.h - temporary files that a killed run has left.
+// tools/lab/sweep/leftovers.h - removes temporary files of killed runs.
 //
-// Rule     The holder of a shard's lock is the only one that writes the shard's files, so temporaries of these names
-//          are a dead run's: results and timings in the folder, and in images/ the files that begin with a cell's
-//          number.
+// Rule     Only the holder of a shard's lock writes the shard's files, so temporary files of these names belong to a
+//          dead run: results and timings in the folder, and in images/ the files that begin with a cell's number.
 // Tests    tests/tools/sweep_lock_test.cpp
 #pragma once
 #include <string>

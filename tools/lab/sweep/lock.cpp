@@ -32,7 +32,8 @@ std::string holder_of(int descriptor) {
     return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "another run";
 }
 
-// The run before may have removed the file between our open() and our lock: then its name is free, or another file's.
+// The previous run may have removed the file between open() and flock(): then its name is free, or belongs to another
+// file.
 bool is_file_of(int descriptor, const std::string& path) {
     struct stat opened {
     }, named{};
@@ -63,11 +64,12 @@ Lock::Lock(const std::string& journal) {
     }
     place_ = scenes::enter_unfinished_file(path_);
     const std::string text = this_run();
-    // The words are for people: a lock without them holds as well.
+    // The text is informational: the lock is valid without it.
     if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, text.data(), text.size(), 0) < 0) return;
 }
 
-// The file goes before the lock does: no process then locks a file that is about to lose its name without seeing it.
+// The file is removed before the lock is released, so that no process locks a file that is about to lose its name
+// without detecting it.
 Lock::~Lock() {
     if (place_ >= 0) {
         ::unlink(path_.c_str());

@@ -1,7 +1,7 @@
-// tools/lab/sweep/lock.h - one run at a time writes to a journal.
+// tools/lab/sweep/lock.h - a lock file that prevents two runs from writing the same journal.
 //
-// Rule     A run holds the lock file `.NAME.lock` beside the journal NAME (flock). The system lets go of the lock when
-//          the process ends, however it ends: a lock file that is not held means nothing.
+// Rule     A run holds the lock file `.NAME.lock` in the folder of the journal NAME (flock). The kernel releases the
+//          flock when the process exits or is killed, so a leftover lock file is harmless.
 // Tests    tests/tools/sweep_lock_test.cpp
 #pragma once
 #include <string>
@@ -10,7 +10,8 @@ namespace strata::tools {
 
 class Lock {
   public:
-    // Throws InputError, with process and host of the run that holds it. A file system without locks is a warning.
+    // Throws InputError with the process and host that hold the lock. If the file system does not support flock, warns
+    // and continues unlocked.
     explicit Lock(const std::string& journal);
     Lock(const Lock&) = delete;
     Lock& operator=(const Lock&) = delete;
@@ -19,7 +20,7 @@ class Lock {
   private:
     std::string path_;
     int descriptor_ = -1;
-    int place_ = -1;  // in the table of files that a signal removes
+    int place_ = -1;  // slot in scenes/files/unfinished_files.h; -1: the file system has no locks
 };
 
 }  // namespace strata::tools

@@ -10,8 +10,7 @@ namespace strata::tools {
 
 std::vector<std::size_t> Shard::cells(std::size_t all) const {
     std::vector<std::size_t> mine;
-    // Strided, not in blocks: neighbouring cells take about as long, so that shards end at about
-    // the same time.
+    // Strided instead of blocks: neighbouring cells take about equally long, so that shards end at about the same time.
     for (std::size_t cell = index - 1; cell < all; cell += count) mine.push_back(cell);
     return mine;
 }

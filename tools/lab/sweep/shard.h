@@ -1,6 +1,6 @@
-// tools/lab/sweep/shard.h - a part of a sweep that one process runs, and the names of its files.
+// tools/lab/sweep/shard.h - the part of a sweep that one process runs, and the names of its files.
 //
-// Rule     Shard i of n holds the cells i, i + n, ... (from 1). A sweep in one shard has the plain names of files.
+// Rule     Shard i of n has the cells i, i + n, ... (from 1). A sweep in one shard has file names without a shard.
 // Tests    tests/tools/sweep_journal_test.cpp
 #pragma once
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace strata::tools {
 struct Shard {
     // From 1 to `count`.
     std::size_t index = 1, count = 1;
-    // Cells of a sweep of `all` that are this shard's, in order. Cells count from 0.
+    // The cells of a sweep of `all` that belong to this shard, ascending. Cells are numbered from 0.
     [[nodiscard]] std::vector<std::size_t> cells(std::size_t all) const;
 };
 
-// "2/5" is the shard 2 of 5. Nothing for a text that is not I/N with I from 1 to N.
+// "2/5" is shard 2 of 5. Empty for a text that is not I/N with I from 1 to N.
 [[nodiscard]] std::optional<Shard> to_shard(std::string_view text);
 
 // "results", "jsonl": results.jsonl, or results.2of5.jsonl.

@@ -42,7 +42,7 @@ int exit_status(const Lines& lines) {
     return 2;
 }
 
-// Pictures that the sweep has left in the folder, by name: 0007.png stands before 0007.errors.png.
+// Images that the sweep has written to the folder, by name: 0007.png before 0007.errors.png.
 std::vector<std::filesystem::path> pictures_in(const std::string& folder) {
     std::vector<std::filesystem::path> pictures;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -51,7 +51,7 @@ std::vector<std::filesystem::path> pictures_in(const std::string& folder) {
     return pictures;
 }
 
-// Takes the columns that have one value in every row out of a table; answers them as a sentence.
+// Removes the columns that have one value in every row from a table and returns them as a sentence.
 std::string without_constants(Table& table) {
     std::string text;
     for (std::size_t c = table.columns.size(); c-- > 0 && table.rows.size() > 1;) {
@@ -65,7 +65,7 @@ std::string without_constants(Table& table) {
     return text;
 }
 
-// A row a cell; a page of thousands of rows is of no use.
+// One row per cell; a page of thousands of rows is of no use.
 void add_cells(PlainPage& page, const std::string& csv) {
     constexpr std::size_t most_rows = 1000;
     page.heading("Cells");
@@ -96,7 +96,7 @@ PlainPage page_of(const Work& work, const std::string& folder, const std::string
     return page;
 }
 
-// What is made again from all lines.
+// Writes everything that is derived from all lines.
 int finish(const Work& work, const std::string& folder, const Lines& lines) {
     const std::string csv = work.csv(lines), summary = work.summary(lines);
     scenes::write_file(path_in(folder, "results.csv"), csv);
@@ -105,7 +105,7 @@ int finish(const Work& work, const std::string& folder, const Lines& lines) {
     return exit_status(lines);
 }
 
-// The line as the next run reads it, so that results.csv is the same from both.
+// The line as the next run reads it, so that results.csv is the same in both cases.
 ordered_json as_read(const ordered_json& line) { return ordered_json::parse(json_text(line)); }
 
 // Measures the cells of the shard whose line is null.
@@ -113,7 +113,7 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
                      const Found& found, Lines& lines) {
     const std::string results = shard_file(folder, "results", shard), timings = shard_file(folder, "timings", shard);
     const auto missing = std::count(lines.begin(), lines.end(), nullptr);
-    bool in_order = found.in_order || !found.changed.empty();  // a changed journal is written again
+    bool in_order = found.in_order || !found.changed.empty();  // a changed journal is rewritten
     if (missing == 0 && found.changed.empty() && !found.torn && in_order) return;
     const Found timed = read_journal(timings);
     Journal journal = journal_behind(results, found, lines), clock = journal_behind(timings, timed, timed.lines);
@@ -129,19 +129,19 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
                                                   lines.size() - static_cast<std::size_t>(missing - done), lines.size(),
                                                   results));
         const Measured measured = work.measure(expected.cells[i]);
-        // Pictures and the time are written first: a line in the journal means that its cell is complete.
+        // Images and times are written first: a line in the journal means that its cell is complete.
         clock.append(measured.timing);
         journal.append(measured.line);
         lines[i] = as_read(measured.line);
         ++done;
     }
     scenes::tell_when_interrupted("");
-    // Cells between others were missing, so their lines stand at the end: the finished file has all in order.
+    // If cells in between were missing, their lines are at the end: the finished file is rewritten in order.
     if (!in_order) scenes::write_file(results, text_of(lines));
 }
 
-// A folder of results may come from someone else. What is cut, appended to or filled must be in it: a journal that is a
-// link would be cut where the link leads.
+// A folder of results may come from someone else. Files that are truncated, appended to or filled must be in it: a
+// journal that is a link would otherwise be truncated at its target.
 void refuse_links(const std::string& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
@@ -165,15 +165,15 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
     Lines lines = lines_of_cells(results, found, expected);
     warn_of(results, found);
     measure_missing(work, folder, expected, shard, found, lines);
-    if (shard.count > 1) {  // what it found is told when the shards are merged
+    if (shard.count > 1) {  // findings are printed when the shards are merged
         print(fmt::format("{}: {} cells; --merge {} puts the shards together\n", results, lines.size(), shard.count));
         return 0;
     }
-    // results.csv is made again from all lines; only the journal grows.
+    // results.csv is written again from all lines; only the journal is appended to.
     return finish(work, folder, lines);
 }
 
-// Lines go to the places of their cells, so the merged files are those of a sweep in one shard.
+// Lines are put at the indices of their cells, so the merged files equal those of a sweep in one shard.
 int merge_shards(const Work& work, const std::string& folder, std::size_t shards) {
     if (!std::filesystem::is_directory(folder))
         throw InputError(folder, fmt::format("no such folder; it is to hold the results of {} shards", shards));
@@ -193,7 +193,7 @@ int merge_shards(const Work& work, const std::string& folder, std::size_t shards
             throw InputError(path, "lines", std::to_string(lines.size()) + ", one a cell of the shard",
                              std::to_string(lines.size() - missing));
         for (std::size_t i = 0; i < lines.size(); ++i) results[expected.cells[i]] = std::move(lines[i]);
-        // Times are joined shard by shard; each line names its cell.
+        // Times are concatenated shard by shard; each line has its cell's number.
         timings += text_of(read_journal(shard_file(folder, "timings", shard)).lines);
     }
     scenes::write_file(path_in(folder, "results.jsonl"), text_of(results));
