@@ -21,14 +21,13 @@ struct RegionTrace;
 namespace strata::tools {
 
 struct Composited {
-    std::uint64_t visible = 0;       // fragments of the frame in front of the opaque surface
-    int deepest = 0, layers = 0;     // largest number of fragments and of distinct keys at a pixel
-    std::uint64_t tied_pixels = 0;   // pixels with two visible fragments of one key
-    std::uint64_t lost_by_ties = 0;  // visible fragments that share their key with an earlier one
-    std::uint64_t lost = 0,
-                  repeated = 0;      // fragments, or keys where ties merge, shown never or repeatedly
-    std::uint64_t misplaced = 0;     // positions where the key decreases
-    std::uint64_t wrong_pixels = 0;  // pixels with any of the last three
+    std::uint64_t visible = 0;             // fragments of the frame in front of the opaque surface
+    int deepest = 0, layers = 0;           // largest number of fragments and of distinct keys at a pixel
+    std::uint64_t tied_pixels = 0;         // pixels with two visible fragments of one key
+    std::uint64_t lost_by_ties = 0;        // visible fragments that share their key with an earlier one
+    std::uint64_t lost = 0, repeated = 0;  // fragments, or keys where ties merge, shown never or repeatedly
+    std::uint64_t misplaced = 0;           // positions where the key decreases
+    std::uint64_t wrong_pixels = 0;        // pixels with any of the last three
     friend bool operator==(const Composited&, const Composited&) = default;
 };
 
