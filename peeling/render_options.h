@@ -44,20 +44,17 @@ struct RenderOptions {
     bool quantize_reference =
         true;  // false: the compared depth is not rounded like the stored one; true: as the profile
     VertexPaths vertex_paths{};
-    const pipeline::DrawList* second_list =
-        nullptr;  // the same surfaces split differently, drawn by all passes except the first
+    const pipeline::DrawList* second_list = nullptr;  // for passes after the first: surfaces split differently
     std::optional<bool> second_depth_clamp{};         // the depth clamp of those passes
     std::optional<pipeline::Format> color_format{};   // default: rgba8; rgba32f on a profile with exact depth ("ideal")
     std::optional<pipeline::Format> result_format{};  // of the final image; default: color_format
     std::optional<pipeline::Format> back_format{};    // of dual's back and of its layers; default: color_format
-    std::optional<float> alpha{};  // draws all materials as transparent, with their own alpha times this
-    pipeline::Rgba background{0, 0, 0,
-                              1};  // premultiplied; an image over a background with alpha below 1 is premultiplied, too
+    std::optional<float> alpha{};           // draws all materials as transparent, with their own alpha times this
+    pipeline::Rgba background{0, 0, 0, 1};  // premultiplied, like images over an alpha below 1
     pipeline::Termination termination{};
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
     Sort sort{};                        // the order in which triangles are submitted
-    std::vector<std::string> sorted{};  // meshes or materials that are submitted front to back, for hybrid, in addition
-                                        // to those that the scene names
+    std::vector<std::string> sorted{};  // meshes or materials in front-to-back order, for hybrid; adds to the scene's
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
     // Memory limit of replay for recorded fragments, in bytes. The audit has the same limit, but at least

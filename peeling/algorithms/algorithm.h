@@ -27,8 +27,7 @@ enum class ListOrder : std::uint8_t {
 
 struct Algorithm {
     std::string name;
-    int listed =
-        0;  // position in lists: ten times its section number in algorithms.md, or a number between two sections
+    int listed = 0;            // order in lists: ten times its section in algorithms.md, or between two sections
     std::string paper;         // author and year
     std::string section;       // section of the paper
     std::string summary;       // one sentence
@@ -44,23 +43,19 @@ struct Algorithm {
     bool is_oracle = false;         // not an algorithm of a device: no profile rejects it
     bool whole_frame = false;       // its queries are nested: the frame runs literally, whatever --execution says
     bool runs_loops = false;  // its loops run one after another: runs in tiles if each query depends on the tile alone
-    bool compares_own_codes =
-        false;  // compares only the code that it stores: rejected where options choose another depth
+    bool compares_own_codes = false;  // compares only its stored code: rejected where options choose another depth
     bool has_published_form = false;  // the listing has errata: --formulation published runs it as printed
-    int (*geometry_passes)(int layers) =
-        nullptr;  // the pass formula; null if the number of layers does not determine it
+    int (*geometry_passes)(int layers) = nullptr;  // the formula; null if layers do not determine it
     void (*run)(pipeline::Region&) = nullptr;
     // Used instead of `run` by an algorithm that carries state of its own. Regions run on several threads at once, and
     // some regions run twice.
     std::function<void(pipeline::Region&)> body{};
-    bool (*resolve_loop)(pipeline::Region&) =
-        nullptr;  // the whole loop computed from the record; returns false where it does not apply; may be null
-    std::vector<pipeline::Feature> features{};  // features that the profile must have
+    bool (*resolve_loop)(pipeline::Region&) = nullptr;  // the whole loop from the record, or false; may be null
+    std::vector<pipeline::Feature> features{};          // features that the profile must have
     int render_targets = 1;
     int samples = 1;
-    std::optional<rasterizer::DepthPath>
-        stores{};  // the depth path that it writes, whatever the options say; empty: the options' path
-    std::optional<rasterizer::DepthPath> compares{};  // the depth path that it compares, unless the options choose one
+    std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes; empty: by the options
+    std::optional<rasterizer::DepthPath> compares{};  // the compared path, unless the options choose one
 
     // True if a tile's fragments are worth recording: an algorithm that draws them once would not read them again.
     [[nodiscard]] bool draws_again() const {

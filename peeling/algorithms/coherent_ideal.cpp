@@ -31,8 +31,7 @@ class IdealPeel {
         region_.call(registers_, "registers");
         region_.call(peel_, "peel");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
-        const float start =
-            published_ ? 0.0f : below_every_depth;  // a strict comparison with zNear loses fragments of depth 0 (E23)
+        const float start = published_ ? 0.0f : below_every_depth;  // zNear loses depth 0: comparison is strict (E23)
         region_.clear(registers_, {.color = {0, 0, start, 0}});
     }
 
@@ -46,8 +45,7 @@ class IdealPeel {
             has_run = true;
             if (!(more = region_.any(found.tallied, idle()))) break;
         }
-        if (more && has_run && !region_.limit_reached())
-            composite_run();  // stopped by a limit that still allows this pass
+        if (more && has_run && !region_.limit_reached()) composite_run();  // a limit that still allows this pass
         ties_.report(region_);
         publish_over_background(region_, accumulated_, region_.opaque_color());
     }
@@ -97,11 +95,10 @@ class IdealPeel {
         state.color[1] = registers_;
         state.reads = {registers_, peel_, region_.opaque_depth()};
         state.ordered_rmw = true;
-        state.selection = {
-            .keeps = Keeps::interval,
-            .outside = Outside::writes_alike,
-            .near = {peel_, true, 0},
-            .far = {KeyBound{region_.opaque_depth(), published_}}};  // as published a run may end at the opaque depth
+        state.selection = {.keeps = Keeps::interval,
+                           .outside = Outside::writes_alike,
+                           .near = {peel_, true, 0},
+                           .far = {KeyBound{region_.opaque_depth(), published_}}};  // published: inclusive
         ties_.start();
         return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             composite_under(in, out);

@@ -33,8 +33,7 @@ class PixelTraces {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     const pipeline::Trace& trace_;
     rasterizer::Rect rect_;
-    std::vector<std::uint32_t>
-        head_;  // per pixel, its first entry; the `pixel` of an entry becomes the index of the next one
+    std::vector<std::uint32_t> head_;  // per pixel, its first entry; an entry's `pixel` is the index of the next
 };
 
 struct AuditedPixel {

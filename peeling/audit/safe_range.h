@@ -22,13 +22,13 @@
 namespace strata::peeling {
 
 struct SafeRange {
-    std::optional<std::int64_t> lowest,
-        highest;        // inclusive; lowest is empty without fragments; highest is empty if no layer can be lost
-    PathPair repeated;  // determines `lowest`: below it this fragment is peeled twice, or, with a bias, compares as in
-                        // front of the opaque surface
+    // Inclusive; lowest is empty without fragments, highest if no layer can be lost.
+    std::optional<std::int64_t> lowest, highest;
+    // Determines `lowest`: below it this fragment is peeled twice, or, with a bias, is in front of the opaque surface.
+    PathPair repeated;
     PathPair front, behind;  // determine `highest`: above it `behind` is lost once `front` is peeled
-    bool behind_opaque =
-        false;  // `highest` is limited by the opaque surface or the far end instead, which `front` would reach
+    // `highest` is limited by the opaque surface or the far end instead, which `front` would reach.
+    bool behind_opaque = false;
     [[nodiscard]] bool is_empty() const noexcept { return lowest && highest && *lowest > *highest; }
     [[nodiscard]] bool contains(std::int64_t n) const noexcept {
         return (!lowest || n >= *lowest) && (!highest || n <= *highest);

@@ -24,8 +24,7 @@ struct ListBlock {
     BlockLanes visible{};      // visible fragments per lane (before the opaque surface)
     BlockLanes hidden{};       // fragments per lane at the opaque surface or behind it
     BlockLanes has_ties{};     // nonzero: two visible fragments have equal keys
-    const std::uint64_t* levels =
-        nullptr;  // entries level by level: levels[k * block_lanes + lane] is (key << 32 | index); see sorted_lists.h
+    const std::uint64_t* levels = nullptr;                  // levels[k * block_lanes + lane]: (key << 32 | index)
     const pipeline::TileFragments::Color* color = nullptr;  // by index_of(entry); not premultiplied
 
     [[nodiscard]] std::uint32_t key(std::size_t lane, std::size_t k) const noexcept {

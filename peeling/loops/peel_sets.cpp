@@ -49,8 +49,7 @@ class Peel {
             has_layer = true;
             if (!(more = region_.any(found.passed, idle()))) break;
         }
-        if (more && has_layer && !region_.limit_reached())
-            composite_layer();  // stopped by a limit that still allows this pass
+        if (more && has_layer && !region_.limit_reached()) composite_layer();  // a limit that still allows this pass
         ties_.report(region_);
         publish_over_background(region_, accumulated_, region_.opaque_color());
     }

@@ -7,10 +7,7 @@
 
 namespace strata::peeling {
 
-enum class FrontAlpha : std::uint8_t {
-    covers,
-    lets_through
-};  // the meaning of a front's alpha: coverage or transmittance
+enum class FrontAlpha : std::uint8_t { covers, lets_through };  // the meaning of a front's alpha
 
 inline namespace strict {
 namespace scalar {

@@ -69,8 +69,7 @@ std::vector<FileImage> read_png(const std::string& path) {
     const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
     const Place place{path, ""};
-    const ImageHeader header =
-        read_image_header(bytes, place);  // all chunks are whole: libpng prints and leaks nothing
+    const ImageHeader header = read_image_header(bytes, place);  // chunks are whole: libpng prints nothing
     // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
     if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
         throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
