@@ -12,14 +12,14 @@ namespace strata::probe {
 
 namespace {
 
-// A kit's answers take a few MiB, all files together.
+// The answers to a kit take a few MiB in total.
 constexpr std::size_t largest_file = std::size_t{1} << 28;
 constexpr std::size_t block = 512;
 
 std::map<std::string, std::string> files_of_folder(const std::string& path) {
     std::map<std::string, std::string> files;
     const std::filesystem::path folder{path};
-    std::size_t left = largest_file;  // for all of them, as for an archive
+    std::size_t left = largest_file;  // in total, as for an archive
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         const std::string name = entry.path().lexically_relative(folder).generic_string();
         if (!entry.is_regular_file() ||
@@ -31,7 +31,7 @@ std::map<std::string, std::string> files_of_folder(const std::string& path) {
     return files;
 }
 
-// A field of a header, up to its first zero.
+// A field of a header, up to its first zero byte.
 std::string text_at(std::string_view header, std::size_t at, std::size_t length) {
     const std::string_view field = header.substr(at, length);
     return std::string{field.substr(0, field.find('\0'))};
@@ -62,7 +62,7 @@ std::map<std::string, std::string> files_of_tar(std::string_view bytes, const st
     return files;
 }
 
-// The part before the first slash, if all names have the same one.
+// The part before the first slash, if it is the same in all names.
 std::string shared_folder(const std::map<std::string, std::string>& files) {
     if (files.empty()) return {};
     const std::string& first = files.begin()->first;

@@ -17,7 +17,7 @@ bool is_nan(std::uint32_t code, ChannelType type) {
     return type == ChannelType::single && (code & 0x7fffffffu) > 0x7f800000u;
 }
 
-// The bits by which the codes of a place are off, of its worst channel: 0 to 32.
+// Calls `take` with the number of bits, 0 to 32, by which the codes of each position differ in the worst channel.
 void each_place(const Image& a, const Image& b, auto take) {
     const ChannelType type = pipeline::info(a.format).type;
     const auto channels = static_cast<std::size_t>(a.channels());
@@ -36,7 +36,7 @@ void add_places(const Image& a, const Image& b, std::vector<bool>& places) {
     each_place(a, b, [&](int off) { places.push_back(off == 0); });
 }
 
-// Sums up what `nearness` says of one image.
+// Sums up the points of one image.
 std::uint64_t points_of(const Image& a, const Image& b, std::uint64_t& equal) {
     std::uint64_t points = 0;
     each_place(a, b, [&](int off) {
@@ -54,7 +54,7 @@ bool is_covered(const Answer& answer, std::size_t pixel) {
     return std::any_of(first, first + channels, [](std::uint32_t code) { return code != 0; });
 }
 
-// Depths that are kept as binary32, where what was read back may be codes as well.
+// Converts a depth stored as binary32 if the device's answer was read back as codes.
 std::optional<Image> as_read(std::optional<Image> drawn, const std::optional<Image>& answer) {
     if (!drawn || drawn->format == answer->format || drawn->format != pipeline::Format::d32f) return drawn;
     const pipeline::DepthFormat format = pipeline::depth_format(answer->format);

@@ -1,7 +1,7 @@
-// tools/probe/comparison.h - a device's answers held against what a profile would have answered, pixel by pixel.
+// tools/probe/comparison.h - compares a device's answers with those of a profile, pixel by pixel.
 //
-// Rule     A pixel agrees if all codes of its colour do, and a depth if its code does; both count, each as a pixel.
-//          NaNs of float targets are all alike: which payload an operation leaves is no rule of a profile.
+// Rule     A pixel's colour agrees if all of its codes do, a depth if its code does; each counts as one pixel. All NaNs
+//          of float targets are equal, because a profile has no rule for the payload that an operation returns.
 // Tests    tests/tools/probe/infer_test.cpp
 #pragma once
 #include <string_view>
@@ -22,11 +22,11 @@ struct Tally {
     }
 };
 
-// Every pixel's colour, then every depth: 1 where the two answers have the same bits.
+// Every pixel's colour, then every depth: true if the two answers have the same bits.
 [[nodiscard]] std::vector<bool> equal_places(const Answer& a, const Answer& b);
 
-// Pixels of two answers that differ. A pixel is covered if its depth is not the cleared one, or, without a depth
-// buffer, its colour.
+// The numbers of pixels of two answers that differ. A pixel is covered if its depth is not the cleared one, or, without
+// a depth buffer, its colour.
 struct Difference {
     std::uint64_t pixels = 0, coverage = 0, depth = 0, color = 0;
     Difference& operator+=(const Difference& o) noexcept {
@@ -40,9 +40,9 @@ struct Difference {
 };
 [[nodiscard]] Difference difference(const Answer& a, const Answer& b);
 
-// How near an answer is: a place that agrees counts most_points, another one less the more bits its code is off; so a
-// search is drawn towards the right value while another field still spoils every code. The coverage is that of
-// `difference`.
+// The similarity of two answers: a position that agrees counts most_points, another one less, the more bits its code is
+// off. So a search moves towards the right value while another field still makes every code wrong. The coverage is that
+// of `difference`.
 struct Nearness {
     std::uint64_t coverage = 0, depth = 0, color = 0, equal = 0, places = 0;
 };
@@ -51,21 +51,21 @@ inline constexpr int most_points = 40;
 
 class Comparison {
   public:
-    // The pack and the items outlive it.
+    // `pack` and `items` must outlive it.
     Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y);
 
-    // Answered items whose names begin with the first of these, in the kit's order, then with the next.
+    // Answered items whose names begin with the first prefix, in the kit's order, then those of the next.
     [[nodiscard]] std::vector<std::size_t> items_of(const std::vector<std::string_view>& beginnings) const;
     [[nodiscard]] const Answer& answer(std::size_t number) const noexcept { return *items_[number].answer; }
     [[nodiscard]] const Item& item(std::size_t number) const noexcept { return *items_[number].item; }
     [[nodiscard]] std::size_t count() const noexcept { return items_.size(); }
 
-    // What a device that is the profile draws; the second form: where that is what the device drew. All false where the
-    // profile refuses what the device drew.
+    // The reply of a device with this profile. The second overload compares it with the device's reply: all false if
+    // the profile refuses what the device drew.
     [[nodiscard]] Reply drawn(const DeviceProfile& profile, std::size_t number) const;
     [[nodiscard]] std::vector<bool> equal(const Reply& drawn, std::size_t number) const;
     [[nodiscard]] Tally tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const;
-    // Whether the driver says that it has float depth buffers.
+    // True if the driver reports float depth buffers.
     [[nodiscard]] bool says_float_depth() const noexcept { return says_float_depth_; }
     [[nodiscard]] YDirection orientation() const noexcept { return y_; }
 

@@ -1,4 +1,5 @@
-// tools/probe/dice.h - random numbers of the kit: integers alone, so that a kit has the same bits everywhere.
+// tools/probe/dice.h - random numbers for the kit, computed with integers only, so that a kit has the same bits
+// everywhere.
 //
 // Source   xorshift64* (Vigna 2016, "An experimental exploration of Marsaglia's xorshift generators, scrambled").
 // Tests    tests/tools/probe/kit_test.cpp
@@ -18,7 +19,7 @@ class Dice {
     }
     // 0 to count - 1.
     constexpr int below(int count) noexcept { return static_cast<int>(next() % static_cast<std::uint32_t>(count)); }
-    // A multiple of 2^-16 from 0 to less than 1.
+    // A multiple of 2^-16 in [0, 1).
     constexpr float unit() noexcept { return static_cast<float>(next() >> 16) * 0x1p-16f; }
     constexpr float between(float low, float high) noexcept { return low + (high - low) * unit(); }
 

@@ -15,7 +15,7 @@ namespace {
 using pipeline::DeviceProfile;
 using rasterizer::DepthPath;
 
-// Without a depth buffer nothing asks for a depth: any format that paths know will do.
+// Without a depth buffer no depth is used, and any format that the depth paths support will do.
 DepthFormat format_of(const DeviceProfile& profile, const Item& item) {
     return profile.stored(item.depth.value_or(DepthFormat::d24));
 }

@@ -1,7 +1,7 @@
-// tools/probe/draw_item.h - an item of a kit drawn by a device that is a profile.
+// tools/probe/draw_item.h - draws an item of a kit on the device of a profile.
 //
-// Rule     One region, one pass a draw, by the profile's own depth path. An item that the device lacks something for is
-//          refused with a sentence.
+// Rule     One region and one pass per draw, with the profile's own depth path. An item that needs a missing feature is
+//          refused with a message.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include "pipeline/device/profile.h"

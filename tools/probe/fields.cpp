@@ -20,7 +20,8 @@ using rasterizer::WeightRule;
 using rasterizer::WindowZ;
 using rasterizer::WindowZRule;
 
-// Fragments outside the depth range are dropped by the chip's window z, whichever depth is stored (chip_values.cpp).
+// True if fragments outside the depth range are discarded by the NV2A's window z, whichever depth is stored
+// (chip_values.cpp).
 bool drops_by_window_z(const RasterRules& r) {
     return r.z_clip == rasterizer::ZClip::per_fragment && r.window_z == WindowZ::buffer_units;
 }
@@ -35,7 +36,7 @@ bool has_cut_reciprocal(const RasterRules& r) {
            (has_color_weights(r) && r.interpolation.perspective_color == PerspectiveColor::cut_products);
 }
 
-// Fields that matter only together with others.
+// Fields that only have an effect together with others.
 struct Dependence {
     std::string_view key;
     bool (*matters)(const RasterRules&);
@@ -82,7 +83,7 @@ const ProfileField& field(std::string_view key) {
 }
 
 bool matters(std::string_view key, const DeviceProfile& profile) {
-    // Tiles in binary32 round no blend.
+    // Tiles in binary32 do not round each blend.
     if (key == "blend_rounding" && profile.blend_storage != pipeline::BlendStorage::target) return false;
     const auto* const found = std::ranges::find(dependences, key, &Dependence::key);
     return found == std::end(dependences) || found->matters(profile.raster);
@@ -96,7 +97,7 @@ bool can_change(std::string_view key, const Item& item) {
     const auto is_one_of = [&](std::initializer_list<std::string_view> keys) {
         return std::ranges::find(keys, key) != keys.end();
     };
-    // Polygon offset may leave the depth range.
+    // Polygon offset may move depths out of the depth range.
     const bool has_offset = any_draw([](const Draw& draw) { return draw.offset.enabled; });
     if (is_one_of({"raster.clip", "raster.plane_corners", "raster.guard_band_px", "raster.z_clip", "raster.w_clip"}))
         return any_corner([](const ClipVertex& v) {
@@ -136,7 +137,7 @@ std::vector<const ProfileField*> probed_fields() {
     return fields;
 }
 
-// A guard band has too many values for a list: search.cpp has a search of its own.
+// A guard band has too many values for a list: guard_band_search.h searches it.
 std::vector<int> searched_values(const ProfileField& f, int current) {
     std::vector<int> values{current};
     if (f.key == "raster.guard_band_px") return values;
@@ -145,8 +146,8 @@ std::vector<int> searched_values(const ProfileField& f, int current) {
     return values;
 }
 
-// No frame of the kit is larger than 256 pixels, and no guard band is within the frame. Paths that need a texture
-// shader or a w buffer cannot draw a kit.
+// No frame of the kit is larger than 256 pixels, and a guard band inside the frame is not valid. Paths that need a
+// texture shader or a w buffer cannot draw a kit.
 bool is_valid(const DeviceProfile& profile) {
     const RasterRules& r = profile.raster;
     if (r.depth_path == DepthPath::depth_replace || r.depth_path == DepthPath::w_buffer) return false;
@@ -171,7 +172,7 @@ const std::vector<FieldGroup>& field_groups() {
           "raster.depth_rounding", "raster.plane_anchor"},
          {"raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.sum_bits",
           "raster.interpolant_bits", "raster.divide", "depth24", "raster.y_axis", "raster.tie_rule"}},
-        // Float depths show the last bit of a position, once it is known how they are made; and the other way round.
+        // Float depths depend on the last bit of a position, if the depth rule is known, and the reverse.
         {"positions in depth",
          Part::depth,
          {"positions.", "depth."},

@@ -6,9 +6,9 @@
 
 namespace strata::probe {
 
-// The nearest reach (kit.h) whose triangle the device did not draw as if no guard band cut it, and the one before: the
-// band is between them. Triangles that are whole agree in every pixel; of those that are cut one may, by chance, so
-// that the band is nearer.
+// The smallest reach (kit.h) whose triangle the device drew differently than without a guard band, and the one before:
+// the band is between them. Triangles that are not clipped agree in every pixel; a clipped one may, too, by chance, so
+// the band may be smaller.
 BandSearch::Bracket BandSearch::bracket(DeviceProfile profile) const {
     const Comparison& device = scores.device();
     const std::vector<int> reaches = guard_reaches();
@@ -27,8 +27,8 @@ BandSearch::Bracket BandSearch::bracket(DeviceProfile profile) const {
     return {whole, first < reaches.size() ? reaches[first] : field("raster.guard_band_px").highest};
 }
 
-// Only the true guard band explains all triangles that it cuts, and a near miss no more than a far one: so all values
-// are tried.
+// Only the correct guard band explains all triangles that it clips, and a value close to it explains no more than a
+// distant one, so all values are tried.
 int BandSearch::best(const DeviceProfile& profile, const Numbers& numbers, Part part) {
     Numbers bands = scores.device().items_of({"clip.guard-band"});
     if (bands.empty()) bands = numbers;

@@ -10,8 +10,8 @@ namespace strata::probe {
 
 namespace {
 
-// One of a field's scenes under one of its values: where it is what the device drew, and where it is what the profile
-// draws that was found.
+// One of a field's scenes under one of its values: where it equals the device's picture, and where it equals that of
+// the inferred profile.
 struct Hypothesis {
     std::vector<bool> equal{}, as_found{};
 };
@@ -30,7 +30,7 @@ Contradiction place_of(const Item& item, std::size_t place) {
     return {item.name, is_depth ? "depth" : "color", static_cast<int>(place % width), static_cast<int>(place / width)};
 }
 
-// The values that stand beside the one that was found. Of a guard band: a pixel less and more, and none.
+// The alternatives to the inferred value. For a guard band: a pixel less, a pixel more, and none.
 std::vector<int> other_values(const ProfileField& f, int found) {
     std::vector<int> values = searched_values(f, found);
     values.erase(values.begin());
@@ -66,7 +66,7 @@ class Evidence {
         return finding;
     }
 
-    // The best single change for every item, from what `of` has seen.
+    // The best single change for every item, among those examined by `of`.
     struct Change {
         std::string text{};
         std::uint64_t equal = 0;
@@ -77,7 +77,7 @@ class Evidence {
     }
 
   private:
-    // k of n for every value, over the places where at least one of them differs from what was found.
+    // k of n for every value, over the positions where at least one of them differs from the inferred one.
     void count(const ProfileField& f, const std::vector<std::size_t>& items, FieldFinding& finding) {
         std::vector<DeviceProfile> others;
         for (const int value : other_values(f, f.value(found_))) {
@@ -106,8 +106,8 @@ class Evidence {
         explain_coverage(f, others, items, finding);
     }
 
-    // A value that explains fewer pixels than another, but more of which are covered, is the one that was found
-    // (search.cpp).
+    // A value that explains fewer pixels than another, but whose coverage agrees at more pixels, is the one that was
+    // chosen (search.cpp).
     void explain_coverage(const ProfileField& f, const std::vector<DeviceProfile>& others,
                           const std::vector<std::size_t>& items, FieldFinding& finding) const {
         if (finding.runners_up.empty() || finding.runners_up.front().agree <= finding.agree) return;

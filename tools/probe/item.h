@@ -1,8 +1,8 @@
-// tools/probe/item.h - one small scene of a kit, and what a device drew of it. Plain values.
+// tools/probe/item.h - a small scene of a kit, and a device's picture of it. Plain values.
 //
-// Rule     Corners are in clip space and reach the rasterizer as they are: no client computes a position. A colour is
-//          interpolated by perspective and stored as it is; blending is the only arithmetic behind it. Rows are
-//          numbered as memory has them; `y` says where clip-space +y points to.
+// Rule     Corners are in clip space and reach the rasterizer unchanged: no client computes a position. A colour is
+//          interpolated with perspective and stored; the only arithmetic after that is blending. Rows are numbered as
+//          in memory; `y` is the direction of clip-space +y.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>
@@ -23,7 +23,7 @@ using rasterizer::ClipVertex;
 using rasterizer::DepthFormat;
 using rasterizer::YDirection;
 
-// The origin of a device that draws with clip-space +y there.
+// The origin of a device that draws with this y direction.
 [[nodiscard]] constexpr pipeline::Origin origin_of(YDirection y) noexcept {
     return y == YDirection::up ? pipeline::Origin::upper_left : pipeline::Origin::lower_left;
 }
@@ -31,38 +31,38 @@ using rasterizer::YDirection;
     return origin == pipeline::Origin::upper_left ? YDirection::up : YDirection::down;
 }
 
-// Triangles that are drawn with one state, three corners each. The depth test is ALWAYS with a write.
+// Triangles drawn with one state, three corners each. The depth test is ALWAYS, with depth writes.
 struct Draw {
     std::vector<ClipVertex> corners{};
-    // Off: the colour replaces what is there. One term for colour and alpha.
+    // Empty: the colour replaces the stored one. Colour and alpha have the same term.
     std::optional<pipeline::BlendTerm> blend{};
     rasterizer::PolygonOffset offset{};
-    // The fragment lives if its alpha is greater: a test that OpenGL 3.3 core and WebGL 2 do not have.
+    // The fragment is kept if its alpha is greater: an alpha test, which OpenGL 3.3 core and WebGL 2 do not have.
     std::optional<float> alpha_above{};
 };
 
 struct Item {
-    // As files are called, without the orientation: "coverage.ties".
+    // As used in file names, without the orientation: "coverage.ties".
     std::string name{};
     // Keys of pipeline/device/profile_fields.h.
     std::vector<std::string> decides{};
     int width = 64, height = 64;
     pipeline::Format color = pipeline::Format::rgba8;
-    // Cleared to 1. None: no depth buffer.
+    // Cleared to 1. Empty: no depth buffer.
     std::optional<DepthFormat> depth{};
     float depth_near = 0.0f, depth_far = 1.0f;
     // The colour buffer is cleared to 0.
     std::vector<Draw> draws{};
 };
 
-// What a device left in its targets. Codes as Image has them.
+// The content of a device's targets. Codes as in Image.
 struct Answer {
     pipeline::Image color{};
     std::optional<pipeline::Image> depth{};
     friend bool operator==(const Answer&, const Answer&) = default;
 };
 
-// An answer, or why there is none.
+// An answer, or the reason why there is none.
 struct Reply {
     std::optional<Answer> answer{};
     std::string refusal{};

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 void append(std::string& text, float value) { text += fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)); }
 
-// Position, then colour: 64 digits a corner.
+// Position, then colour: 64 digits per corner.
 std::string corners_text(const std::vector<ClipVertex>& corners) {
     std::string text;
     text.reserve(corners.size() * 64);

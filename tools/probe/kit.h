@@ -1,5 +1,5 @@
-// tools/probe/kit.h - the scenes that measure a device: each is made so that a few fields of a profile decide its
-// pixels.
+// tools/probe/kit.h - the scenes that measure a device: each is constructed so that a few fields of a profile determine
+// its pixels.
 //
 // Rule     Names are unique. A kit is the same bits on every machine; its digest is that of its JSON.
 // Tests    tests/tools/probe/kit_test.cpp
@@ -11,25 +11,26 @@
 
 namespace strata::probe {
 
-// Both orientations draw every item: clip-space +y up in memory as glClipControl(GL_UPPER_LEFT) has it, or down, which
-// is what OpenGL without that call does to a framebuffer object.
+// Both orientations draw every item: with clip-space +y up in memory as with glClipControl(GL_UPPER_LEFT), or down, as
+// OpenGL draws into a framebuffer object without that call.
 [[nodiscard]] const std::vector<Item>& kit();
 
-// Scenes that no field was thought of for: random triangles and models through a camera, to test a profile that was
-// inferred. `count` of them, from `first` on.
+// Scenes that are not designed for any field: random triangles and models through a camera, to test an inferred
+// profile.
 [[nodiscard]] Item unseen_scene(int number);
 [[nodiscard]] std::vector<Item> unseen_scenes(int first, int count);
 
-// {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats as the 8 hexadecimal digits of their
+// {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats are the 8 hexadecimal digits of their
 // bits. With operations: their list as "operations", its digest as "operations_digest".
 [[nodiscard]] std::string to_json(const std::vector<Item>& items, bool with_operations = false);
-// Of the array of items as JSON without a space: a pack names the kit that it answers by it.
+// Digest of the array of items as JSON without spaces, by which a pack identifies the kit that it answers.
 [[nodiscard]] std::string digest(const std::vector<Item>& items);
 
-// One HTML page that draws these items by WebGL 2 and offers the answers as an archive; it loads nothing.
+// An HTML page that draws these items with WebGL 2 and offers the answers as an archive; it loads no other file.
 [[nodiscard]] std::string page_of(const std::vector<Item>& items, bool with_operations = false);
 
-// How far the triangles reach that tell a guard band, in pixels: each a twenty-fourth further than the one before.
+// The reaches of the triangles that determine the guard band, in pixels: each is a twenty-fourth larger than the
+// previous one.
 [[nodiscard]] std::vector<int> guard_reaches();
 
 // Parts of the kit (kit_*.cpp).

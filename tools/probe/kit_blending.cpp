@@ -1,4 +1,4 @@
-// tools/probe/kit_blending.cpp - what the blender and the alpha test do to values that are already known.
+// tools/probe/kit_blending.cpp - scenes for blending and the alpha test, with colours whose stored values are known.
 #include "tools/probe/kit.h"
 #include "tools/probe/shapes.h"
 
@@ -11,7 +11,7 @@ using pipeline::BlendFactor;
 using pipeline::BlendTerm;
 using pipeline::Format;
 
-// Rows of 256 codes under columns of 256 codes: every pair of a byte. The alpha of both is the code, too.
+// 256 source codes by row and 256 destination codes by column: all pairs of bytes. Both alphas are the code, too.
 Item pairs_item(const BlendTerm& term, const std::string& name) {
     Item item{.name = name, .decides = {"blend_rounding"}, .width = 256, .height = 256};
     Draw under, over{.blend = term};
@@ -24,7 +24,7 @@ Item pairs_item(const BlendTerm& term, const std::string& name) {
     return item;
 }
 
-// Each of the values under each of them.
+// Each of the values blended onto each of them.
 Item crossed_item(Format format, const BlendTerm& term, const std::vector<float>& values, const std::string& field,
                   const std::string& name) {
     const auto side = static_cast<int>(values.size()) * 4;
@@ -41,8 +41,8 @@ Item crossed_item(Format format, const BlendTerm& term, const std::vector<float>
     return item;
 }
 
-// Boxes over one another in one draw, each of a few thirds of what the format tells apart: what rounds every blend
-// loses other parts of the sum than what rounds it once. Some lie across tiles of 64 pixels.
+// Overlapping boxes in one draw, each of a few thirds of the format's smallest step: rounding every blend loses other
+// parts of the sum than rounding once. Some boxes cross borders of tiles of 64 pixels.
 Item overlaps_item(Format format, float step, const std::string& name) {
     Item item{.name = name, .decides = {"blend_storage"}, .width = 144, .height = 80, .color = format};
     Dice dice{71};
@@ -56,8 +56,8 @@ Item overlaps_item(Format format, float step, const std::string& name) {
     return item;
 }
 
-// A NaN that the blender makes itself, for one in a vertex drops its triangle: 3e38 twice is an infinity, and that
-// times 0 a NaN. Numbers meet it from both sides.
+// A NaN that blending produces, because a triangle with a NaN in a vertex is dropped: 3e38 twice is an infinity, and
+// that times 0 is NaN. It is combined with numbers on either side.
 Item nan_item(BlendEquation equation, const std::string& name) {
     Item item{.name = name, .decides = {"min_max_nan"}, .width = 32, .height = 32, .color = Format::rgba32f};
     const auto layer = [&](BlendTerm term, const Color& color, float x0, float x1) {
@@ -81,7 +81,7 @@ std::vector<float> small_values() {
             0x1p-100f, 0x1p-30f,  0x1p-60f,  0.5f,       0x1p-64f,  0x1p-70f,    1.0f};
 }
 
-// Alphas a hair from the reference of the test: 8 bits do not see the hair.
+// Alphas slightly off the reference of the test, by less than 8 bits can represent.
 Item alpha_item(Format format, const std::string& name) {
     Item item{.name = name, .decides = {"alpha_test"}, .color = format};
     Dice dice{70};

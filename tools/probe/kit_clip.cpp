@@ -1,4 +1,5 @@
-// tools/probe/kit_clip.cpp - triangles that leave the view volume: where they are cut, and by which arithmetic.
+// tools/probe/kit_clip.cpp - scenes with triangles that leave the view volume: where they are clipped, and with which
+// arithmetic.
 #include "tools/probe/kit.h"
 #include "tools/probe/shapes.h"
 
@@ -13,7 +14,7 @@ Item plain_item(const std::string& name, const std::vector<std::string>& decides
     return {.name = name, .decides = decides, .width = 61, .height = 47};
 }
 
-// One corner beyond: left or right, up or down, near or far, behind the eye.
+// The location of a corner outside: left or right, up or down, near or far, behind the eye.
 enum class Beyond : std::uint8_t { side, near_far, eye, all };
 
 Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const std::string& name, int triangles = 24) {
@@ -30,7 +31,7 @@ Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const st
                 p[k].z = dice.between(1.0f, 3.0f) * (dice.below(2) == 0 ? 1.0f : -1.0f);
             p[k].w = dice.between(0.5f, 4.0f);
         }
-        // The corner is written in clip space: w < 0 with x and y of its size.
+        // The corner is given in clip space: w < 0, with x and y of its magnitude.
         const Color color = code_color(i);
         add_triangle(item, draw, p, {color, color, color});
         if (beyond == Beyond::eye) draw.corners[draw.corners.size() - 3].w = -dice.between(0.1f, 2.0f);
@@ -39,8 +40,8 @@ Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const st
     return item;
 }
 
-// The same in a larger frame of other sides, with a depth range that is no power of two: the last bit of a new corner's
-// window position shows in x, y and z.
+// The same in a larger frame with other sides, and with a depth range that is not a power of two: x, y and z depend on
+// the last bit of a new corner's window position.
 Item corners_item(Beyond beyond, std::uint64_t seed, const std::string& name) {
     Item item = beyond_item(beyond, DepthFormat::d32f, seed, name, 90);
     item.width = 149;
@@ -50,8 +51,7 @@ Item corners_item(Beyond beyond, std::uint64_t seed, const std::string& name) {
     return item;
 }
 
-// Slopes of a few codes that cross the near or the far plane: whether a fragment is outside is a matter of the last
-// bit.
+// Slopes of a few codes that cross the near or the far plane: whether a fragment is outside depends on the last bit.
 Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& name) {
     Item item = plain_item(name, {"raster.z_clip", "raster.depth_limits", "raster.window_z_rule", "raster.weights",
                                   "raster.sum_bits", "raster.reciprocal_bits", "raster.reciprocal_deficit"});
@@ -73,8 +73,8 @@ Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& na
     return item;
 }
 
-// Row y holds a triangle that reaches so far out of the frame on both sides. A guard band that is nearer cuts it, and
-// the rounding of the new corners shows in the frame's middle, which is as far from the one as from the other.
+// Row y contains a triangle that reaches that far out of the frame on both sides. A smaller guard band clips it, and
+// the rounding of the new corners has an effect in the frame's middle, which is equally far from both.
 Item guard_item(DepthFormat format, const std::string& name) {
     Item item = plain_item(name, {"raster.guard_band_px"});
     const std::vector<int> all = guard_reaches();

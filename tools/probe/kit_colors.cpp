@@ -1,4 +1,4 @@
-// tools/probe/kit_colors.cpp - interpolated colours and their conversion to a target's codes.
+// tools/probe/kit_colors.cpp - scenes for interpolated colours and their conversion to a target's codes.
 #include <cmath>
 
 #include "tools/probe/kit.h"
@@ -19,10 +19,10 @@ const std::vector<std::string> color_fields{
 struct Frame {
     int width = 61, height = 47, triangles = 30;
 };
-// A few pixels of ten thousand tell one reciprocal from another.
+// A few of ten thousand pixels distinguish two reciprocals.
 constexpr Frame large{251, 199, 250};
 
-// Colours at every corner; w is 1 or differs.
+// Different colours at the corners; w is 1 or varies.
 Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const std::string& name,
                  const Frame& frame = {}) {
     Item item{.name = name, .decides = color_fields, .width = frame.width, .height = frame.height, .color = format};
@@ -42,8 +42,8 @@ Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const s
     return item;
 }
 
-// Corners on pixel centres: a weight that is a whole number of 256ths lies on the edge of its 8 bits, whichever the
-// area, and the last bits of a reciprocal decide it. With a w of powers of two, too.
+// Corners on pixel centres: a weight that is a whole number of 256ths is on the edge of its 8 bits for any area, and
+// the last bits of a reciprocal decide it. Also with w that are powers of two.
 Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
     Draw draw;
@@ -64,7 +64,7 @@ Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::strin
     return item;
 }
 
-// A cell of 8 x 8 pixels for each triangle whose weights at a pixel are others by one reciprocal than by another one.
+// One cell of 8 x 8 pixels per triangle whose weights at a pixel differ between two reciprocals.
 Item split_weights_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
     Draw draw;
@@ -75,14 +75,14 @@ Item split_weights_item(std::uint64_t seed, const std::string& name) {
             if (!found) continue;
             std::array<Place, 3> p;
             std::array<Color, 3> c;
-            // A hair that every snapping drops, whichever way rows are numbered in every second cell.
+            // An offset that every snapping rule rounds away, for either direction of rows in every second cell.
             constexpr float hair = 0x1p-14f;
             for (std::size_t k = 0; k < 3; ++k) {
                 p[k].x = static_cast<float>(left) + static_cast<float>(found->x[k]) / 16.0f + hair;
                 p[k].y = static_cast<float>(top) + static_cast<float>(found->y[k]) / 16.0f +
                          (left / 8 % 2 == 0 ? hair : -hair);
                 p[k].w = found->w[k];
-                // Far apart: a weight's step of 1/256 is a code.
+                // Very different colours: a weight's step of 1/256 is one code.
                 c[k] = {k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f, 1.0f};
             }
             add_triangle(item, draw, p, c);
@@ -91,7 +91,7 @@ Item split_weights_item(std::uint64_t seed, const std::string& name) {
     return item;
 }
 
-// Triangles of a pixel and less: which way round they are is a matter of their snapped corners.
+// Triangles of at most about a pixel, whose facing depends on their snapped corners.
 Item slivers_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = color_fields, .width = 96, .height = 96, .color = Format::rgba32f};
     item.decides.emplace_back("raster.subpixel_bits");
@@ -104,7 +104,7 @@ Item slivers_item(std::uint64_t seed, const std::string& name) {
             std::array<Color, 3> c;
             const bool lies = dice.below(2) == 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                // Around the centre, in a strip that is thin one way.
+                // Around the centre, in a strip that is thin in one direction.
                 const float thin = 1.0f / static_cast<float>(4 << dice.below(7));
                 const float along = dice.between(-1.0f, 1.0f), across = dice.between(-thin, thin);
                 p[k].x = static_cast<float>(x) + 0.5f + (lies ? along : across);
@@ -118,7 +118,7 @@ Item slivers_item(std::uint64_t seed, const std::string& name) {
     return item;
 }
 
-// Flat colours a hair from the middle between two codes of 8 bits, and all tenths that people write.
+// Flat colours slightly off the middle between two 8-bit codes, and all tenths.
 Item codes_item() {
     Item item{.name = "color.codes", .decides = {"unorm_rounding", "raster.color", "raster.vertex_color_bits"}};
     Draw draw;
@@ -140,7 +140,7 @@ Item codes_item() {
     return item;
 }
 
-// Flat values of many exponents, on and beside the middle between two halves.
+// Flat values of many exponents, at and near the middle between two halves.
 Item halves_item() {
     Item item{.name = "color.halves", .decides = {"half_rounding"}, .color = Format::rgba16f};
     Draw draw;

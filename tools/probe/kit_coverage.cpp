@@ -1,4 +1,4 @@
-// tools/probe/kit_coverage.cpp - which pixels a triangle covers: subpixel bits, their rounding, and the side of ties.
+// tools/probe/kit_coverage.cpp - scenes for coverage: subpixel bits, their rounding, and the tie rule.
 #include <algorithm>
 
 #include "tools/probe/kit.h"
@@ -11,8 +11,8 @@ namespace {
 const std::vector<std::string> coverage_fields{"raster.subpixel_bits", "raster.snap", "raster.coverage",
                                                "raster.tie_rule"};
 
-// By how much an edge misses a pixel's centre: a hair on either side of every place where rounding to 4, 8 or 12 bits,
-// cut or nearest, decides whether it still does; and 0. The hair is 2^-16 pixel.
+// The distance of an edge from a pixel's centre: slightly on either side of every position where rounding to 4, 8 or 12
+// bits, truncated or to nearest, decides the coverage; and 0. The offset is 2^-16 pixel.
 float near_miss(Dice& dice) {
     constexpr int bits[]{4, 8, 12};
     const int n = bits[dice.below(3)];
@@ -37,7 +37,7 @@ Item snap_item(std::uint64_t seed, const std::string& name) {
     return item;
 }
 
-// Triangles whose corners are multiples of half a pixel: edges of many slopes through centres.
+// Triangles whose corners are multiples of half a pixel: edges of many slopes pass through centres.
 Item ties_item() {
     Item item{.name = "coverage.ties", .decides = {"raster.tie_rule", "raster.coverage"}};
     Draw draw;
@@ -55,8 +55,7 @@ Item ties_item() {
     return item;
 }
 
-// Triangles of all sizes over each other, each of a colour of its own, some reaching out of the frame by its guard
-// band.
+// Overlapping triangles of all sizes, each with its own colour; some extend beyond the frame into the guard band.
 Item random_item(int count, float size, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = coverage_fields};
     Draw draw;

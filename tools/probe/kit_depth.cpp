@@ -1,4 +1,4 @@
-// tools/probe/kit_depth.cpp - a fragment's depth: its plane, its conversion to a code, and polygon offset.
+// tools/probe/kit_depth.cpp - scenes for a fragment's depth: its plane, its conversion to a code, and polygon offset.
 #include "tools/probe/kit.h"
 #include "tools/probe/shapes.h"
 #include "tools/probe/split_depths.h"
@@ -27,7 +27,7 @@ void add_slopes(const Item& item, Draw& draw, Dice& dice, int count) {
     }
 }
 
-// The sides are odd: a rule that is anchored at the frame's middle differs from one at its corner.
+// The frame's sides are odd, so a rule that is anchored at the frame's middle differs from one at its corner.
 Item slopes_item(DepthFormat format, int count, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = depth_fields, .width = 61, .height = 47};
     item.depth = format;
@@ -38,7 +38,7 @@ Item slopes_item(DepthFormat format, int count, std::uint64_t seed, const std::s
     return item;
 }
 
-// A cell of 8 x 8 pixels for each triangle that parts two neighbouring reciprocals.
+// One cell of 8 x 8 pixels per triangle that distinguishes two neighbouring reciprocals.
 Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = depth_fields, .width = 128, .height = 128};
     item.depth = DepthFormat::d24;
@@ -49,7 +49,7 @@ Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
         const std::optional<SplitDepths> found = split_depths(dice, pairs[static_cast<std::size_t>(i) % pairs.size()]);
         if (!found) continue;
         const auto left = static_cast<float>(i % 16 * 8), top = static_cast<float>(i / 16 * 8);
-        // A hair that every snapping drops, whichever way rows are numbered in every second cell.
+        // An offset that every snapping rule rounds away, for either direction of rows in every second cell.
         constexpr float hair = 0x1p-14f;
         std::array<Place, 3> p;
         for (std::size_t k = 0; k < 3; ++k)
@@ -62,7 +62,7 @@ Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
     return item;
 }
 
-// Flat depths that lie a hair from the middle between two codes, and from a code.
+// Flat depths slightly off the middle between two codes, and slightly off a code.
 Item codes_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = {"raster.depth_rounding", "raster.depth_path", "raster.window_z", "depth24"}};
     item.depth = format;
@@ -96,7 +96,7 @@ Item offset_item(DepthFormat format, const std::string& name) {
     return item;
 }
 
-// Far and near the eye, where a unit that follows the exponent of z changes with it.
+// At several distances from the eye, because a unit that follows the exponent of z changes with it.
 Item offset_flat_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = {"raster.offset_unit", "raster.offset_rule"}};
     item.depth = format;

@@ -1,8 +1,9 @@
-// tools/probe/kit_positions.cpp - the way from clip space to the window: the divide by w, and how the viewport rounds.
+// tools/probe/kit_positions.cpp - scenes for the transform from clip space to the window: the division by w, and the
+// viewport's rounding.
 //
-// Rule     Two ways of computing a position differ in its last bit. A flat depth under a depth range that is no power
-//          of two shows that bit; where there is no float depth buffer, an edge shows it that lies so near the place
-//          where snapping or coverage changes its mind that the two ways end on different sides.
+// Rule     Two ways of computing a position differ in its last bit. A flat depth under a depth range that is not a
+//          power of two depends on that bit. Without a float depth buffer an edge is used that is so close to a
+//          threshold of snapping or coverage that the two ways end on different sides.
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -42,7 +43,7 @@ WindowTransform transform(const Item& item, const Way& way) {
     return {state, rules};
 }
 
-// A clip x and w that the two ways put on different sides of window x `target`; w is 0 if none was found.
+// Finds clip x and w that the two ways put on different sides of window x `target`; w is 0 if none was found.
 ClipVertex split(Dice& dice, const Item& item, const Way& a, const Way& b, float target) {
     const WindowTransform first = transform(item, a), second = transform(item, b);
     for (int attempt = 0; attempt < 400; ++attempt) {
@@ -56,7 +57,7 @@ ClipVertex split(Dice& dice, const Item& item, const Way& a, const Way& b, float
     return none;
 }
 
-// A box of 3 x 3 pixels whose left or right side is at `x` and w of `at`; its other sides are far from all centres.
+// A box of 3 x 3 pixels whose left or right edge is at `x` and w of `at`; its other edges are far from all centres.
 void add_split_box(const Item& item, Draw& draw, const ClipVertex& at, float left, float top, bool is_left) {
     const float other = is_left ? left + 2.0f : left;
     const auto place = [&](float x, float y, bool delicate) {
@@ -69,12 +70,12 @@ void add_split_box(const Item& item, Draw& draw, const ClipVertex& at, float lef
     for (const ClipVertex& v : {a, b, c, a, c, d}) draw.corners.push_back(v);
 }
 
-// Two numbers of `ways`.
+// Two indices of `ways`.
 struct Pair {
     std::size_t a, b;
 };
 
-// A box of 3 x 3 pixels for each pair, threshold and side in turn.
+// A box of 3 x 3 pixels per pair, threshold and side.
 Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = position_fields, .width = width, .height = height};
     Draw draw;
@@ -95,14 +96,14 @@ Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint
     return item;
 }
 
-// Every way beside every other one, in the order of 5 rows of 4.
+// Every way paired with every other, in 5 rows of 4.
 std::vector<Pair> all_pairs() {
     std::vector<Pair> pairs;
     for (std::size_t step = 1; step < 5; ++step)
         for (std::size_t a = 0; a < 5; ++a) pairs.push_back({a, (a + step) % 5});
     return pairs;
 }
-// Ways that differ in the viewport alone.
+// Ways that differ only in the viewport.
 std::vector<Pair> viewport_pairs() { return {{0, 1}, {2, 3}, {1, 0}, {3, 2}}; }
 
 Item flat_item(DepthFormat format, const std::string& name) {

@@ -48,7 +48,7 @@ ordered_json operation_json(const Operation& o) {
 
 bool is_nan(std::uint32_t bits) { return (bits & 0x7fffffffu) > 0x7f800000u; }
 
-// Binary32 in the order of numbers; the zeros are neighbours.
+// Maps binary32 to integers in numerical order; the two zeros are neighbours.
 std::int64_t rank(std::uint32_t bits) {
     const auto magnitude = static_cast<std::int64_t>(bits & 0x7fffffffu);
     return (bits >> 31) != 0 ? -1 - magnitude : magnitude;

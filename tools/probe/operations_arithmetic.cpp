@@ -16,7 +16,7 @@ Hypothesis of(std::string name, Three formula) {
             }};
 }
 
-// Normal numbers from 2^-20 to 2^20, either sign; without, positive ones.
+// Normal numbers from 2^-20 to 2^20, of either sign if `is_signed`, else positive.
 std::uint32_t ordinary(Dice& dice, bool is_signed) {
     const std::uint32_t mantissa = dice.next() & 0x7fffffu;
     const auto exponent = static_cast<std::uint32_t>(107 + dice.below(40));
@@ -24,7 +24,7 @@ std::uint32_t ordinary(Dice& dice, bool is_signed) {
     return sign | exponent << 23 | mantissa;
 }
 
-// x, y and z of every texel. z is near -x y where `cancelling`, so that a product's own rounding shows.
+// x, y and z of every texel. If `cancelling`, z is close to -x y, so that the rounding of the product has an effect.
 std::vector<Texel> triples(std::uint64_t seed, bool is_signed, bool cancelling) {
     Dice dice{seed};
     std::vector<Texel> all;
@@ -42,7 +42,7 @@ std::uint32_t small(Dice& dice) {
     return (word & 0x807fffffu) | (word >> 28 & 3u) << 23;
 }
 
-// Numbers around the smallest normal one. A product's factors: one of them, and one from 1/2 to 2.
+// Numbers around the smallest normal one. For a product: one of them, and a factor from 1/2 to 2.
 std::vector<Texel> small_pairs(bool product) {
     Dice dice{771};
     std::vector<Texel> all;
@@ -65,7 +65,7 @@ float reciprocal(float a, float, float) { return 1.0f / a; }
 float root(float a, float, float) { return std::sqrt(a); }
 float root_by_inverse(float a, float, float) { return a * (1.0f / std::sqrt(a)); }
 float root_of_inverse(float a, float, float) { return 1.0f / (1.0f / std::sqrt(a)); }
-// Both steps in binary64, whose error is far below half a unit in the last place of binary32.
+// Both steps are in binary64, whose error is far below half a unit in the last place of binary32.
 float inverse_root(float a, float, float) { return static_cast<float>(1.0 / std::sqrt(double{a})); }
 float inverse_of_root(float a, float, float) { return 1.0f / std::sqrt(a); }
 float root_of_reciprocal(float a, float, float) { return std::sqrt(1.0f / a); }
@@ -88,7 +88,7 @@ void add_arithmetic(std::vector<Operation>& list) {
     list.push_back(operation("shader.mul-add-through-bits", "is a product that became bits contracted?",
                              "F(U(a * b)) + c", triples(902, true, true),
                              {of("rounded twice", rounded_twice), of("fused", fused)}));
-    // GLSL 3.30 has the word by an extension, GLSL ES 3.00 has it not.
+    // GLSL 3.30 supports the keyword with an extension, GLSL ES 3.00 does not.
     Operation precise = operation("shader.mul-add-precise", "is a * b + c contracted where it is `precise`?", "exact",
                                   triples(907, true, true), {of("rounded twice", rounded_twice), of("fused", fused)});
     std::string& text = precise.programs.front().fragment;

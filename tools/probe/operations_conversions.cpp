@@ -19,7 +19,7 @@ constexpr std::array<std::uint32_t, 16> corners_of_numbers{
     0,           0x80000000u, 0x7f800000u, 0xff800000u, 0x7fc00000u, 0xffc00000u, 0x3f800000u, 0xbf800000u,
     0x00800000u, 0xb0000000u, 0x4effffffu, 0x4f000000u, 0xcf000000u, 0xcf000001u, 0x4f7fffffu, 0x4f800000u};
 
-// Zeros, infinities, NaNs, ones and the ends of integers, each with each; then any finite numbers.
+// Zeros, infinities, NaNs, ones and the ends of integer ranges, each with each; then arbitrary finite numbers.
 std::vector<Texel> odd_pairs() {
     std::vector<Texel> all;
     for (const std::uint32_t a : corners_of_numbers)
@@ -49,17 +49,17 @@ std::uint32_t rest_below_one(std::uint32_t a, std::uint32_t b) {
     return plain == 0x3f800000u ? 0x3f7fffffu : plain;
 }
 
-// A minimum that answers by its number where the other is NaN.
+// A minimum that returns the number if the other operand is NaN.
 std::uint32_t rest_never_nan(std::uint32_t a, std::uint32_t b) {
     return std::isnan(float_of(rest(a, b))) ? 0x3f7fffffu : rest_below_one(a, b);
 }
 
-// The definitions of GLSL, and the two other ways that a comparison can fail.
+// The definitions of GLSL, and the two other results that a failed comparison can give.
 std::uint32_t least_defined(std::uint32_t a, std::uint32_t b) { return float_of(b) < float_of(a) ? b : a; }
 std::uint32_t least_second(std::uint32_t a, std::uint32_t b) { return float_of(a) < float_of(b) ? a : b; }
 std::uint32_t greatest_defined(std::uint32_t a, std::uint32_t b) { return float_of(a) < float_of(b) ? b : a; }
 std::uint32_t greatest_second(std::uint32_t a, std::uint32_t b) { return float_of(b) < float_of(a) ? a : b; }
-// By `plain`, but of a number and NaN the number.
+// `plain`, except that of a number and NaN the number is returned.
 template <One plain>
 std::uint32_t number_first(std::uint32_t a, std::uint32_t b) {
     return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : plain(a, b);
@@ -79,29 +79,29 @@ std::uint32_t uint_saturated(std::uint32_t a, std::uint32_t) {
     if (!(f > 0.0f)) return 0;
     return f >= 0x1p32f ? 0xffffffffu : static_cast<std::uint32_t>(f);
 }
-// By 64 bits, of which the low ones count; what they do not hold has 0 there.
+// Conversion to 64 bits, of which the low ones are used; values outside give 0.
 std::uint32_t uint_low_bits(std::uint32_t a, std::uint32_t) {
     const float f = float_of(a);
     return f >= -0x1p63f && f < 0x1p63f ? static_cast<std::uint32_t>(static_cast<std::int64_t>(f)) : 0;
 }
-// AVX-512's conversion: all ones for what has no value.
+// AVX-512's conversion: all ones for values out of range.
 std::uint32_t uint_all_ones(std::uint32_t a, std::uint32_t b) {
     return float_of(a) > -1.0f && float_of(a) < 0x1p32f ? uint_saturated(a, b) : 0xffffffffu;
 }
-// As compilers do it with signed conversions alone: from 2^31 on behind a subtraction, whose bit comes back by
-// exclusive or.
+// The code of compilers for a processor with only signed conversions: from 2^31 on it subtracts 2^31, and restores the
+// bit by exclusive or.
 std::uint32_t uint_by_halves(std::uint32_t a, std::uint32_t b) {
     return float_of(a) >= 0x1p31f ? int_indefinite(word_of(float_of(a) - 0x1p31f), b) ^ 0x80000000u
                                   : int_indefinite(a, b);
 }
 
-// The same with both halves together: the upper one counts where the lower one is negative.
+// The same with both halves combined by or: the upper one is used if the lower one is negative.
 std::uint32_t uint_by_either_half(std::uint32_t a, std::uint32_t b) {
     const std::uint32_t low = int_indefinite(a, b);
     return (low >> 31) != 0 ? low | int_indefinite(word_of(float_of(a) - 0x1p31f), b) : low;
 }
 
-// The same, the upper half by a sum that ends at 32 bits, and 0 of what has the sign of negative numbers.
+// As uint_by_halves, with the upper half added modulo 2^32, and 0 for values with the sign bit set.
 std::uint32_t uint_by_signless_halves(std::uint32_t a, std::uint32_t b) {
     return (a >> 31) != 0 ? 0 : uint_by_halves(a, b);
 }
@@ -111,7 +111,7 @@ std::uint32_t float_cut(std::uint32_t a, std::uint32_t) {
     const int width = std::bit_width(a);
     return word_of(static_cast<float>(width > 24 ? a >> (width - 24) << (width - 24) : a));
 }
-// The lower 31 bits, rounded; then the upper one is added, and the sum rounded again.
+// The lower 31 bits are rounded; then the upper one is added, and the sum is rounded again.
 std::uint32_t float_by_halves(std::uint32_t a, std::uint32_t) {
     return word_of(static_cast<float>(a & 0x7fffffffu) + ((a >> 31) != 0 ? 0x1p31f : 0.0f));
 }

@@ -1,4 +1,4 @@
-// tools/probe/operations_discard.cpp - which alphas `if (a < t) discard` keeps: of values that come as bits, and of an
+// tools/probe/operations_discard.cpp - which alphas `if (a < t) discard` keeps, for values read as bits and for an
 // attribute.
 #include <array>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace strata::probe {
 
 namespace {
 
-constexpr int ulps = 2;  // a threshold's distance from its alpha, at most
+constexpr int ulps = 2;  // the largest distance of a threshold from its alpha
 
-// Thresholds: zeros, the smallest numbers, codes of 8 bits and the middles between two, and any.
+// Thresholds: zeros, the smallest numbers, 8-bit codes and the middles between two of them, and arbitrary values.
 float threshold(int i, Dice& dice) {
     constexpr std::array odd{0.0f, -0.0f, 0x1p-149f, 0x1p-130f, 0x1p-126f, 0x1.8p-126f, 0.5f, 1.0f, INFINITY};
     if (i < static_cast<int>(odd.size())) return odd[static_cast<std::size_t>(i)];
@@ -22,7 +22,7 @@ float threshold(int i, Dice& dice) {
     return i % 3 == 0 ? code : i % 3 == 1 ? code + 0.5f / 255.0f : dice.unit();
 }
 
-// Alphas of a threshold: its neighbours, what shares its code or half of it, its negative and NaN.
+// Alphas for a threshold: its neighbours, values with the same code or half, its negative and NaN.
 std::vector<Texel> alphas_and_thresholds() {
     Dice dice{831};
     std::vector<Texel> all;
@@ -56,7 +56,7 @@ float half_of(float value) {
     return pipeline::half_to_float(pipeline::to_half<pipeline::HalfRounding::nearest_even>(value));
 }
 
-// Kept unless a < t: a NaN is. Or kept if a >= t: it is not.
+// keeps_nan: kept unless a < t, so a NaN is kept. Otherwise: kept if a >= t, so it is not.
 template <bool keeps_nan>
 Hypothesis compared(std::string name, float (*rounded)(float)) {
     return {std::move(name), [rounded](const Texel& given) {
@@ -81,7 +81,7 @@ Operation by_value() {
     return o;
 }
 
-// A constant attribute on its way to the fragment, by its value and w.
+// The interpolated value of a constant attribute with value a and w.
 float by_reciprocals(float a, float w) {
     const float inverse = 1.0f / w, product = a * inverse;
     return product * (1.0f / inverse);
@@ -99,9 +99,9 @@ float by_quotients(float a, float w) {
     return quotient / inverse;
 }
 
-// SwiftShader's planes of a / w and 1 / w (its Pipeline/SetupRoutine.cpp) from the third corner on, which lies a
-// quarter of a pixel above the centre: `own` and `other` are the corners' parts of their slope along y, which cancel
-// but for roundings. Along x they are 0.
+// SwiftShader's planes of a / w and 1 / w (its Pipeline/SetupRoutine.cpp), starting at the third corner, which is a
+// quarter of a pixel above the centre: `own` and `other` are the corners' parts of the slope along y, which cancel
+// except for rounding. Along x they are 0.
 float by_planes(float a, float w) {
     const float inverse = 1.0f / w, square = w * w, scale = 1.0f / (square * 0.25f);
     const float own = square * 0.5f * (scale * inverse), other = -0.25f * w * scale;
@@ -116,7 +116,7 @@ Hypothesis arriving(std::string name, float (*arrived)(float, float)) {
             }};
 }
 
-// A triangle a pixel, as in test.facing: its corners have one alpha, in the place of z, and one w. The threshold is the
+// One triangle per pixel, as in test.facing: its corners have one alpha, stored in z, and one w. The threshold is the
 // alpha or a neighbour of it.
 Operation by_attribute() {
     constexpr int side = 32;
@@ -132,7 +132,7 @@ Operation by_attribute() {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const float alpha = static_cast<float>(1 + dice.below(254)) / 255.0f;
-            // A quarter of them: powers of two, through which everything comes.
+            // A quarter of them are powers of two, with which every rule is exact.
             const float w = dice.below(4) == 0 ? static_cast<float>(1 << dice.below(3)) : dice.between(0.5f, 4.0f);
             const std::uint32_t t = word_of(alpha) + static_cast<std::uint32_t>(dice.below(2 * ulps + 1)) - ulps;
             const float at_x = (static_cast<float>(2 * x + 1) / side - 1.0f) * w;

@@ -1,4 +1,4 @@
-// tools/probe/operations_packing.cpp - floats that a shader packs into halves of a word.
+// tools/probe/operations_packing.cpp - operations in which a shader packs floats into the halves of a word.
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +10,11 @@ namespace strata::probe {
 
 namespace {
 
-// GLSL 3.30 has the functions by an extension.
+// GLSL 3.30 supports the functions with an extension.
 constexpr auto packing = "#ifndef GL_ES\n#extension GL_ARB_shading_language_packing : require\n#endif\n";
 
-// Two numbers a texel: middles between two codes and a hair from them, both ends and beyond.
+// Two numbers per texel: middles between two codes and values slightly off them, both ends of the range and values
+// beyond.
 std::vector<Texel> beside_codes(int greatest, bool is_signed) {
     Dice dice{841};
     const auto one = [&] {
@@ -29,7 +30,7 @@ std::vector<Texel> beside_codes(int greatest, bool is_signed) {
     return all;
 }
 
-// Of every exponent that a half has and beside it, on, beside and between halves.
+// For every exponent of a half and some beyond: numbers at, near and between halves.
 std::vector<Texel> beside_halves() {
     Dice dice{842};
     const auto one = [&] {
@@ -79,15 +80,15 @@ template <pipeline::HalfRounding rounding>
 std::uint32_t half_code(float value) {
     return pipeline::to_half<rounding>(value);
 }
-// A float's half where the smallest are 0.
+// A float's half, with denormals flushed to 0.
 template <pipeline::HalfRounding rounding>
 std::uint32_t normal_half_code(float value) {
     const std::uint32_t code = half_code<rounding>(value);
     return (code & 0x7c00u) == 0 ? code & 0x8000u : code;
 }
 
-// By shifts: what is cut below a denormal is not seen again when it is rounded, and the exponent of 65,536 and more is
-// 31 with whatever mantissa, until 131,008 and more are all ones.
+// Conversion by shifts: bits shifted out of a denormal are ignored by the rounding, and numbers from 65,536 on have the
+// exponent 31 with any mantissa, until those from 131,008 on are all ones.
 std::uint32_t half_code_by_shifts(float value) {
     const std::uint32_t word = word_of(value), size = word & 0x7fffffffu, places = 113u - (size >> 23);
     const bool is_normal = size > 0x38800000u;

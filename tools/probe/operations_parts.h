@@ -1,4 +1,4 @@
-// tools/probe/operations_parts.h - what the parts of the list of operations share.
+// tools/probe/operations_parts.h - functions that the parts of the list of operations share.
 #pragma once
 #include <bit>
 

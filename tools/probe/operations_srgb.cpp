@@ -1,8 +1,8 @@
-// tools/probe/operations_srgb.cpp - sRGB both ways: codes of a texture to linear values, linear values to codes of a
+// tools/probe/operations_srgb.cpp - sRGB conversions: codes of a texture to linear values, linear values to codes of a
 // target.
 //
-// Source   the drivers' own rules, tried on their pictures. Mesa 22: util/format_srgb.py (a table in 8 decimal digits;
-//          104 lines after F. Giesen, "Float to sRGB8", https://gist.github.com/rygorous/2203834),
+// Source   the drivers' source code, verified on their pictures. Mesa 22: util/format_srgb.py (a table in 8 decimal
+//          digits; 104 lines after F. Giesen, "Float to sRGB8", https://gist.github.com/rygorous/2203834),
 //          gallivm/lp_bld_format_srgb.c (a cubic, and roots). SwiftShader: Pipeline/Constants.cpp (a table of
 //          65,280ths) and Pipeline/ShaderCore.cpp (powers).
 // Tests    tests/tools/probe/operations_rules_test.cpp
@@ -47,7 +47,7 @@ double exact_formula(std::uint32_t code) {
 
 float formula_once(std::uint32_t code) { return static_cast<float>(exact_formula(code)); }
 
-// As a table in a source text has it.
+// The value as printed in a source file's table.
 float formula_in_digits(std::uint32_t code) {
     const std::string digits = fmt::format("{:.7e}", exact_formula(code));
     float value = 0;
@@ -55,7 +55,7 @@ float formula_in_digits(std::uint32_t code) {
     return value;
 }
 
-// A line for the first 16 codes, then a cubic: even and odd powers by themselves.
+// A line for the first 16 codes, then a cubic polynomial with even and odd powers summed separately.
 template <bool is_fused>
 float cubic(std::uint32_t code) {
     const auto x = static_cast<float>(code);
@@ -98,8 +98,8 @@ std::uint32_t code_below(float linear) {
     return static_cast<std::uint32_t>(std::floor(scenes::encode_srgb(std::clamp(linear, 0.0f, 1.0f)) * 255.0f));
 }
 
-// Eight pieces an octave from 2^-13 on: in the upper half where it begins, in steps of 2^-7 code, in the lower its
-// slope.
+// Eight pieces per octave from 2^-13 on: the upper half of an entry is its start, in steps of 2^-7 code, the lower half
+// its slope.
 constexpr std::array<std::uint32_t, 104> pieces{
     0x0073000d, 0x007a000d, 0x0080000d, 0x0087000d, 0x008d000d, 0x0094000d, 0x009a000d, 0x00a1000d, 0x00a7001a,
     0x00b4001a, 0x00c1001a, 0x00ce001a, 0x00da001a, 0x00e7001a, 0x00f4001a, 0x0101001a, 0x010e0033, 0x01280033,
@@ -120,7 +120,7 @@ std::uint32_t by_pieces(float linear) {
     return ((piece >> 16 << 9) + (piece & 0xffffu) * (word >> 12 & 0xffu)) >> 16;
 }
 
-// a x^(3/8) + b x^(1/2) + c, by square roots, which are rounded; the driver has them of the processor's estimates.
+// a x^(3/8) + b x^(1/2) + c, with rounded square roots; the driver computes them from the processor's estimates.
 std::uint32_t by_roots(float linear) {
     const float x = std::clamp(linear, 0.0f, 1.0f), root = std::sqrt(x);
     const auto a = static_cast<float>(0.675f * 1.0622 * 255.0f), b = static_cast<float>(0.325f * 1.0622 * 255.0f);
@@ -129,13 +129,13 @@ std::uint32_t by_roots(float linear) {
     return static_cast<std::uint32_t>(std::nearbyint(code));
 }
 
-// SwiftShader's power of binary32 before "Mediump" (its SWIFTSHADER_LEGACY_PRECISION): the exponent plus a quotient of
-// two polynomials of the mantissa m, and the other way round a polynomial of the fraction.
+// SwiftShader's binary32 power before "Mediump" (its SWIFTSHADER_LEGACY_PRECISION): log2 is the exponent plus a
+// quotient of two polynomials of the mantissa m; exp2 is a polynomial of the fraction.
 template <bool is_fused>
 float logarithm_of_2(float x) {
     const std::uint32_t word = word_of(x);
     const float m = float_of((word & 0x7fffffu) | 0x3f800000u);
-    // The exponent's bits as the upper ones of a mantissa.
+    // The exponent's bits as the upper bits of a mantissa.
     const float exponent = (float_of((word & 0x7f800000u) >> 8 | 0x3f800000u) - 1.4960938f) * 256.0f;
     const auto sum = sum_of<is_fused>;
     const float over = sum(sum(9.5428179e-2f, m, 4.7779095e-1f), m, 1.9782813e-1f);
@@ -165,7 +165,7 @@ Operation encoded() {
     o.programs = one_pass("result = vec4(F(given.x), F(given.x), F(given.x), 1.0);", "", true);
     o.result = ResultKind::srgb8;
     for (std::uint32_t code = 0; code < 256; ++code) {
-        // The values of the codes and of their borders, and the nearest representable neighbours at 2^-10 of them.
+        // The value of the code, and the border to the next code with values a relative 2^-10 below and above it.
         const float middle = scenes::decode_srgb(static_cast<float>(code) / 255.0f);
         const float border = scenes::decode_srgb((static_cast<float>(code) + 0.5f) / 255.0f);
         for (const float value : {middle, border * (1.0f - 0x1p-10f), border, border * (1.0f + 0x1p-10f)})

@@ -1,5 +1,5 @@
-// tools/probe/operations_tests.cpp - which side faces, what a stencil keeps, and whether two shaders place a corner
-// alike.
+// tools/probe/operations_tests.cpp - operations for facing, stencil operations, and the invariance of positions between
+// two shaders.
 #include <algorithm>
 #include <utility>
 
@@ -10,8 +10,8 @@ namespace strata::probe {
 
 namespace {
 
-// One triangle around the middle of every pixel, in both turns, from a pixel's size to a quarter of it, so that
-// four subpixel bits keep it.
+// One triangle around the middle of every pixel, in both windings, from one pixel to a quarter in size, so that it has
+// an area with four subpixel bits.
 Operation facing() {
     Operation o{.name = "test.facing", .question = "which turn is the front?", .width = 16};
     o.result = ResultKind::words;
@@ -55,8 +55,8 @@ Hypothesis stencil_as(std::string name, bool wraps) {
     return {std::move(name), [wraps](const Texel& t) { return one_word(after(t[1], t[0], wraps) >> t[3] & 1); }};
 }
 
-// Inputs: the value before, the operation, when it applies (0 the stencil test fails, 1 the depth test fails, 2 both
-// pass), and the bit that is shown.
+// Inputs: the stencil before, the operation, the case in which it applies (0 the stencil test fails, 1 the depth test
+// fails, 2 both pass), and the bit that is shown.
 Operation stencil() {
     Operation o{.name = "test.stencil", .question = "do INCR and DECR end at 255 and 0?", .width = 8 * 4 * 3};
     o.result = ResultKind::words;
@@ -71,7 +71,7 @@ Operation stencil() {
     return o;
 }
 
-// Corners that are multiplied by a matrix without short numbers. The second shader computes more of the position.
+// Corners multiplied by a matrix whose elements use all bits. The second shader computes more of the position.
 std::vector<ShaderPair> placed_twice(const std::string& declared, const std::string& second) {
     const std::string matrix =
         "const highp mat4 m = mat4(0.9713, 0.0312, 0.1177, 0.0531, -0.0271, 0.9617, 0.0713, 0.0317,"
@@ -86,7 +86,7 @@ std::vector<ShaderPair> placed_twice(const std::string& declared, const std::str
              "in highp vec4 other;\nvoid main() { result = uvec4(1u, floatBitsToUint(other.x + other.w), 0u, 0u); }"}};
 }
 
-// A grid of triangles over the picture, so that every pixel has one depth.
+// A grid of triangles over the picture; every pixel has one depth.
 Operation invariance(const std::string& name, const std::string& declared, const std::string& second) {
     Operation o{.name = name, .question = "does a second shader place the corners alike?"};
     o.result = ResultKind::words;

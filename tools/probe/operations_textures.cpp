@@ -1,5 +1,5 @@
-// tools/probe/operations_textures.cpp - texel choice, weights of a bilinear lookup, sRGB both ways, and shadow
-// comparisons.
+// tools/probe/operations_textures.cpp - operations for texel selection, weights of bilinear filtering, sRGB
+// conversions, and shadow comparisons.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Operation operation(std::string name, std::string question, const std::string& b
     return o;
 }
 
-// 25 texels, 0 to 24: coordinates at and beside every edge, from outside to outside, then anywhere.
+// 25 texels with values 0 to 24: coordinates at and next to every texel edge, including outside, then arbitrary ones.
 Operation nearest_texel() {
     constexpr int texels = 25;
     Operation o = operation("texture.nearest", "which texel is the nearest?",
@@ -51,7 +51,7 @@ Operation nearest_texel() {
     return o;
 }
 
-// Weights of a fixed number of bits; 0: all of binary32.
+// Weights with a fixed number of bits; 0: all of binary32.
 float weight_of(float u, int weight_bits, bool nearest) {
     const float exact = std::clamp(u * 2.0f - 0.5f, 0.0f, 1.0f);
     if (weight_bits == 0) return exact;
@@ -61,7 +61,7 @@ float weight_of(float u, int weight_bits, bool nearest) {
 
 float code_nearest(float weight) { return std::floor(weight * 255.0f + 0.5f) / 255.0f; }
 float code_nearest_scaled(float weight) { return std::floor(weight * 255.0f + 0.5f) * (1.0f / 255.0f); }
-// The weight of a texel that is kept as the upper 8 of 16 bits.
+// The weight of a texel that is stored as the upper 8 of 16 bits.
 float of_65280ths(float weight) { return weight * 65280.0f * (1.0f / 65280.0f); }
 float code_cut(float weight) { return std::floor(weight * 255.0f) / 255.0f; }
 
@@ -98,21 +98,21 @@ Operation weights(const std::string& format) {
     return o;
 }
 
-// The depth of a code: the quotient, rounded to binary32.
+// The depth of a code: the quotient rounded to binary32.
 float depth_of(std::uint32_t code, int depth_bits) {
     if (depth_bits == 32) return float_of(code);
     return static_cast<float>(code) / static_cast<float>((1u << depth_bits) - 1u);
 }
 double code_of(double reference, int depth_bits) { return std::clamp(reference, 0.0, 1.0) * ((1u << depth_bits) - 1u); }
 
-// The next code whose quotient and whose product with a reciprocal are two numbers.
+// The next code whose quotient differs from its product with a reciprocal.
 std::uint32_t parting_code(std::uint32_t from, int depth_bits) {
     const float step = depth_of(1, depth_bits);
     while (static_cast<float>(from) * step == depth_of(from, depth_bits)) ++from;
     return from;
 }
 
-// Of texel number i of 64: both ends, codes that part two ways to a depth, and any.
+// The code of texel i of 64: both ends, codes that distinguish two conversions to a depth, and arbitrary ones.
 std::uint32_t shadow_texel(std::uint32_t i, int depth_bits, Dice& dice) {
     const float depth = dice.unit();
     if (i == 0) return 0;
@@ -123,7 +123,7 @@ std::uint32_t shadow_texel(std::uint32_t i, int depth_bits, Dice& dice) {
                  : static_cast<std::uint32_t>(depth * static_cast<float>(greatest));
 }
 
-// 64 texels; references at each, beside it by some representable numbers and by parts of a code, and outside of 0 to 1.
+// 64 texels; references at each, off by some representable numbers and by fractions of a code, and outside 0 to 1.
 Operation shadow(const std::string& format, int depth_bits) {
     Operation o = operation("texture.shadow-" + format,
                             "is the reference rounded to the format, or clamped, before it is compared?",
@@ -162,7 +162,7 @@ Operation shadow(const std::string& format, int depth_bits) {
     add("clamped, against the code times a reciprocal", [](float r, std::uint32_t code, int n) {
         return std::clamp(r, 0.0f, 1.0f) <= static_cast<float>(code) * depth_of(1, n);
     });
-    // Kept as binary32: of 32 bits, the code's upper ones repeated below, and 2^32 - 1, which is rounded, too.
+    // Stored as binary32: from 32 bits, with the code's upper bits repeated below, and 2^32 - 1 rounded, too.
     if (depth_bits == 24) {
         add("as it is, against the binary32 of 32 bits", [](float r, std::uint32_t code, int) {
             return r <= static_cast<float>(code << 8 | code >> 16) * 0x1p-32f;

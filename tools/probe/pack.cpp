@@ -32,8 +32,8 @@ std::string file_name(YDirection y, const Item& item, std::string_view target) {
     return fmt::format("probe/{}/{}/{}.npy", name(y), item.name, target);
 }
 
-// Codes of a depth that a shader read: the nearest to the float, whose own rounding is far less than half a code.
-// Floats of 24 bits that are farther from every code than two roundings of binary32 are what the buffer holds
+// Converts a depth that a shader read to the nearest code; the float's own rounding is far less than half a code. If
+// 24-bit floats are farther from every code than two roundings of binary32, the buffer contains the floats themselves
 // (Depth24::binary32).
 Image from_texels(const NumberArray& array, pipeline::Format format, int width, int height) {
     Image codes{format, width, height}, floats{pipeline::Format::d32f, width, height};
@@ -73,7 +73,7 @@ std::optional<Answer> read_answer(const Files& files, YDirection y, const Item& 
     return answer;
 }
 
-// Features and limits are what the driver says, not what a picture shows.
+// Features and limits are reported by the driver, not determined from pictures.
 bool is_feature(const pipeline::ProfileField& field) {
     return field.key.starts_with("has_") || field.key.starts_with("max_");
 }

@@ -5,14 +5,14 @@ namespace strata::probe {
 
 namespace {
 
-// The page has each mark once.
+// Replaces a mark, which occurs once in the page.
 void put(std::string& page, std::string_view mark, std::string_view text) {
     page.replace(page.find(mark), mark.size(), text);
 }
 
 }  // namespace
 
-// A kit has no '</' that could end the element that holds it.
+// A kit contains no '</' that could end the element that contains it.
 std::string page_of(const std::vector<Item>& items, bool with_operations) {
     std::string page{probe_html()};
     put(page, "/*SCRIPT*/", probe_js());

@@ -1,4 +1,4 @@
-// tools/probe/page_parts.h - the files of page/ as text, put into the library by the build.
+// tools/probe/page_parts.h - the files of page/ as text, embedded in the library by the build.
 #pragma once
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// tools/probe/scenes.cpp - scenes that no field was thought of for: random triangles and models through a camera, cut
-// at every plane of the view volume, in frames of many sizes and formats.
+// tools/probe/scenes.cpp - scenes that are not designed for any field: random triangles and models through a camera,
+// clipped at every plane of the view volume, in frames of many sizes and formats.
 #include <fmt/format.h>
 
 #include "pipeline/vertices/prepare.h"
@@ -14,13 +14,13 @@ namespace {
 
 using pipeline::Format;
 
-// Two of three are triangles at random.
+// Two of three are random triangles.
 std::string scene_name(int number) {
     if (number % 3 != 2) return fmt::format("random:seed={},triangles={}", 1000 + number, 80 + number % 7 * 40);
     return number % 2 == 0 ? "teapot" : "planes:count=5";
 }
 
-// From within the bounds and from outside: planes cut everywhere.
+// From inside and outside the bounds, so that all planes clip.
 pipeline::View view_of(const scenes::Scene& scene, Dice& dice, double aspect) {
     const auto azimuth = double{dice.between(0, 360)};
     const auto elevation = double{dice.between(-80, 80)};

@@ -43,7 +43,7 @@ const Nearness& Scores::of(const DeviceProfile& profile, std::size_t number) {
 
 std::uint64_t Scores::points(const DeviceProfile& profile, std::size_t number, Part part) {
     const std::uint64_t points = part_of(of(profile, number), part);
-    // A point less is enough where nothing else tells the two.
+    // One point less is enough to decide where nothing else distinguishes the two.
     const bool is_alike = profile.raster.depth_path == rasterizer::DepthPath::window_z || !refuses_float_depth_;
     return !is_alike && part == Part::both && device_.item(number).depth && points > 0 ? points - 1 : points;
 }

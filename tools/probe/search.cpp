@@ -18,7 +18,7 @@ struct Candidate {
 
 using Keys = std::vector<std::string_view>;
 
-// Coverage is searched before depth and colours: a start whose rules do not go with spans must not keep them out.
+// Coverage is searched before depth and colours: a start whose rules are inconsistent with spans must not exclude them.
 DeviceProfile with_rules_of_spans(DeviceProfile profile) {
     rasterizer::RasterRules& rules = profile.raster;
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return profile;
@@ -32,8 +32,8 @@ DeviceProfile with_rules_of_spans(DeviceProfile profile) {
     return profile;
 }
 
-// All valid combinations of the fields from number `next` on. Fields that do not matter keep their values, and one that
-// matters because of an earlier one is searched after it.
+// All valid combinations of the fields from index `next` on. Fields without effect keep their values, and one that has
+// an effect because of an earlier one is searched after it.
 void combine(const Keys& keys, std::size_t next, DeviceProfile profile, std::vector<DeviceProfile>& to) {
     if (next == keys.size()) {
         profile = with_rules_of_spans(std::move(profile));
@@ -48,7 +48,7 @@ void combine(const Keys& keys, std::size_t next, DeviceProfile profile, std::vec
     }
 }
 
-// What a search looks at.
+// The scenes and the part of their pictures that a search compares.
 struct View {
     Scores& scores;
     Numbers numbers;
@@ -59,7 +59,7 @@ struct View {
     [[nodiscard]] bool is_perfect(const Candidate& c) const { return c.points == scores.most(numbers, part); }
 };
 
-// The best of each kind: of equal values of the first two fields. Earlier candidates win ties.
+// The best candidate of each kind, which is given by the values of the first two fields. Earlier candidates win ties.
 std::vector<Candidate> best_of_kinds(const Keys& keys, const std::vector<Candidate>& all, std::size_t most) {
     std::map<std::pair<int, int>, std::size_t> best;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -78,7 +78,7 @@ std::vector<Candidate> best_of_kinds(const Keys& keys, const std::vector<Candida
     return kept;
 }
 
-// Tries all values of these fields together. True if that gained.
+// Tries all values of these fields together. True if one is better.
 bool improve(const View& view, const Keys& keys, Candidate& best) {
     std::vector<DeviceProfile> tried;
     combine(keys, 0, best.profile, tried);
@@ -92,7 +92,8 @@ bool improve(const View& view, const Keys& keys, Candidate& best) {
     return gained;
 }
 
-// A field that cannot change any of the scenes, or has no effect, need not be tried; with a second one it may have.
+// A field that cannot change any of the scenes, or has no effect, need not be tried by itself; together with a second
+// one it may have an effect.
 bool is_of_use(const View& view, std::string_view key) {
     return std::ranges::any_of(view.numbers, [&](std::size_t n) { return view.scores.can_change(key, n); });
 }
@@ -123,7 +124,7 @@ std::vector<Candidate> scored(const View& view, std::vector<DeviceProfile> profi
     return all;
 }
 
-// Kinds that go on to all scenes.
+// The number of kinds that are continued on all scenes.
 constexpr std::size_t most_kinds = 6;
 
 DeviceProfile search_group(const FieldGroup& group, Scores& scores, const DeviceProfile& start) {
@@ -153,8 +154,7 @@ void search_guard_band(const View& view, BandSearch& bands, Candidate& best) {
     best.points = view.points(best.profile);
 }
 
-// A guard band is cut like the view volume where it is as near: whether there is one is known when it has been
-// searched.
+// A guard band close to the frame clips like the view volume: whether there is one is known only after the search.
 DeviceProfile search_clip(const FieldGroup& group, BandSearch& bands, const DeviceProfile& start) {
     Scores& scores = bands.scores;
     const View view{scores, scores.device().items_of(group.items), group.part};
@@ -169,7 +169,7 @@ DeviceProfile search_clip(const FieldGroup& group, BandSearch& bands, const Devi
     return other.points > best.points ? other.profile : best.profile;
 }
 
-// What the groups left: fields that can change a scene that is not explained, until the whole kit gains no more.
+// Tries the fields that can change a scene still unexplained after the groups, until the whole kit gains no more.
 DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
     Scores& scores = bands.scores;
     View all{scores, scores.device().items_of({""}), Part::both};
@@ -179,7 +179,7 @@ DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
     };
     for (std::uint64_t before = 0; before != best.points && !all.is_perfect(best);) {
         before = best.points;
-        // The scenes that are not explained come first: a worse profile is told by them.
+        // The unexplained scenes come first, because they reveal a worse profile sooner.
         std::ranges::stable_partition(all.numbers, [&](std::size_t n) { return !is_explained(n); });
         View wrong{scores, {}, Part::both};
         for (const std::size_t n : all.numbers)
@@ -193,7 +193,7 @@ DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
     return best.profile;
 }
 
-// The groups one after the other, from one device on.
+// All groups one after another, starting from one device.
 Candidate searched_from(BandSearch& bands, DeviceProfile profile) {
     Scores& scores = bands.scores;
     for (const FieldGroup& group : field_groups())

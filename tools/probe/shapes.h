@@ -1,4 +1,4 @@
-// tools/probe/shapes.h - triangles of a kit, from pixels to clip space.
+// tools/probe/shapes.h - triangles of a kit, given in pixels and converted to clip space.
 //
 // Numbers  Where a frame's sides are powers of two and a position is a multiple of 2^-16 pixel, the way to clip space
 //          and back is exact.
@@ -16,12 +16,12 @@ inline namespace strict {
 using Color = std::array<float, 4>;
 inline constexpr Color white{1, 1, 1, 1};
 
-// A place in the frame, in pixels from the first row and column of memory, with clip z and w.
+// A position in the frame, in pixels from the first row and column of memory, with clip z and w.
 struct Place {
     float x = 0, y = 0, z = 0, w = 1;
 };
 
-// The corner that lands there if clip-space +y points down in memory; turned over if it points up.
+// The corner that is mapped to that position; clip y is negated if clip-space +y points up in memory.
 [[nodiscard]] inline ClipVertex corner(const Item& item, const Place& p, const Color& color) {
     ClipVertex v;
     v.x = (p.x * 2.0f / static_cast<float>(item.width) - 1.0f) * p.w;
@@ -36,7 +36,7 @@ inline void add_triangle(const Item& item, Draw& draw, const std::array<Place, 3
     for (std::size_t i = 0; i < 3; ++i) draw.corners.push_back(corner(item, p[i], c[i]));
 }
 
-// Two triangles; corners in the order of a walk around it.
+// Two triangles; corners in order around the quad.
 inline void add_quad(const Item& item, Draw& draw, const std::array<Place, 4>& p, const Color& color) {
     add_triangle(item, draw, {p[0], p[1], p[2]}, {color, color, color});
     add_triangle(item, draw, {p[0], p[2], p[3]}, {color, color, color});
@@ -46,7 +46,7 @@ inline void add_box(const Item& item, Draw& draw, float x0, float y0, float x1, 
     add_quad(item, draw, {Place{x0, y0, z, w}, {x1, y0, z, w}, {x1, y1, z, w}, {x0, y1, z, w}}, color);
 }
 
-// One of 252 opaque greys and colours that 8 bits store without a rounding.
+// One of 252 opaque greys and colours that 8 bits represent exactly.
 [[nodiscard]] inline Color code_color(int number) {
     return {static_cast<float>(number % 7) / 255.0f * 32.0f, static_cast<float>(number / 7 % 6) / 255.0f * 48.0f,
             static_cast<float>(number % 251 + 4) / 255.0f, 1.0f};

@@ -13,13 +13,13 @@ using rasterizer::DepthHypothesis;
 using rasterizer::EdgeValues;
 
 constexpr int most_triangles = 4000;
-constexpr int cell = 8;  // pixels a side
+constexpr int cell = 8;  // pixels per side
 
 std::int64_t twice_area(const SplitDepths& t) {
     return std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - std::int64_t{t.y[1] - t.y[0]} * (t.x[2] - t.x[0]);
 }
 
-// At the centre of a pixel; none outside.
+// At the centre of a pixel; empty outside.
 std::optional<EdgeValues> edges_of(const SplitDepths& t, int pixel_x, int pixel_y) {
     const int x = 16 * pixel_x + 8, y = 16 * pixel_y + 8;
     EdgeValues e{};
@@ -31,7 +31,7 @@ std::optional<EdgeValues> edges_of(const SplitDepths& t, int pixel_x, int pixel_
     return e;
 }
 
-// In the units of a buffer of 24 bits.
+// In the units of a 24-bit buffer.
 rasterizer::WindowZ24 window_z(const SplitDepths& t, std::int64_t area, const DepthHypothesis& hypothesis) {
     std::array<double, 3> z{};
     for (std::size_t k = 0; k < 3; ++k) z[k] = (double{t.z[k]} * 0.5 + 0.5) * 16777215.0;
@@ -75,7 +75,7 @@ std::optional<SplitDepths> split_depths(Dice& dice, const TwoReciprocals& two) {
         for (std::size_t k = 0; k < 3; ++k) {
             t.x[k] = dice.below(16 * cell);
             t.y[k] = dice.below(16 * cell);
-            // Far apart: a weight's last bit is about a code.
+            // Very different depths: a weight's last bit is about one code.
             t.z[k] = k == 0 ? dice.between(-0.99f, -0.9f) : dice.between(0.7f, 0.99f);
         }
         if (twice_area(t) < 0) {

@@ -1,8 +1,9 @@
-// tools/probe/split_depths.h - a triangle on which two of the chip's reciprocals give different window depths.
+// tools/probe/split_depths.h - searches a triangle for which two candidates for the NV2A's reciprocal give different
+// window depths.
 //
-// Rule     Its area's reciprocal differs between the two, which the last bit of a depth of 24 bits shows at a pixel: by
-//          one unit of 2^-32 in a reciprocal's deficit at one pixel of 256 (window_z.h, cut_weight.h). So the triangle
-//          is sought.
+// Rule     The two differ in the reciprocal of the area, which changes the last bit of a 24-bit depth at few pixels:
+//          for a difference of 2^-32 in the deficit at one pixel of 256 (window_z.h, cut_weight.h). So a suitable
+//          triangle is searched at random.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>
@@ -23,10 +24,10 @@ struct SplitDepths {
 
 using TwoReciprocals = std::pair<rasterizer::DepthHypothesis, rasterizer::DepthHypothesis>;
 
-// Neighbours: reciprocals that differ by one unit of the deficit, or of an exact area by one bit.
+// Neighbours: reciprocals whose deficit differs by one unit, or by one bit from the exact area's.
 [[nodiscard]] std::vector<TwoReciprocals> neighbouring_reciprocals();
 
-// None if chance finds none soon.
+// Empty if none is found soon.
 [[nodiscard]] std::optional<SplitDepths> split_depths(Dice& dice, const TwoReciprocals& two);
 
 }  // namespace strata::probe

@@ -12,7 +12,7 @@ using rasterizer::DepthHypothesis;
 using rasterizer::EdgeValues;
 using rasterizer::PerspectiveColor;
 
-// The pixel that is looked at: its centre in 1/16 pixel.
+// The pixel's centre in 1/16 pixel.
 constexpr int center = 56;
 constexpr int most_tries = 3000;
 
@@ -24,8 +24,8 @@ DepthHypothesis random_reciprocal(Dice& dice) {
     return hypothesis;
 }
 
-// Edge values at the centre, all positive; the corners are exchanged if they run the other way round. None if it is
-// outside.
+// Edge values at the centre, all positive; the corners are exchanged if they have the other winding. Empty if the
+// centre is outside.
 std::optional<EdgeValues> edges_of(SplitTriangle& t) {
     EdgeValues e{};
     for (int turn = 0; turn < 2; ++turn) {
@@ -48,7 +48,7 @@ std::array<std::int32_t, 3> weights_of(const SplitTriangle& t, const EdgeValues&
     return rasterizer::ColorWeights{t.w, inverse_w, e[0] + e[1] + e[2], hypothesis, rule}.at(e);
 }
 
-// The w of corner k that makes its weight `share` of all; the others' stand.
+// The w of corner k that makes its weight `share` of the total, with the others unchanged.
 float solved_w(const SplitTriangle& t, const EdgeValues& e, std::size_t k, double share) {
     const auto part = [&](std::size_t i) { return static_cast<double>(e[i]) / double{t.w[i]}; };
     const double others = part((k + 1) % 3) + part((k + 2) % 3);

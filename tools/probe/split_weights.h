@@ -1,7 +1,8 @@
-// tools/probe/split_weights.h - a triangle on which two of the chip's reciprocals give different 8-bit weights.
+// tools/probe/split_weights.h - searches a triangle for which two candidates for the NV2A's reciprocal give different
+// 8-bit weights.
 //
-// Rule     The weight of one corner at a pixel lies within 2^-24 of itself of a whole number of 256ths: its w is solved
-//          for that, and rounded. The last bits of the reciprocal decide on which side the cut weight comes to lie
+// Rule     The weight of one corner at a pixel is within a relative 2^-24 of a whole number of 256ths: its w is solved
+//          for that, and rounded. The last bits of the reciprocal decide to which side the weight is truncated
 //          (color_weights.h).
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
@@ -18,7 +19,7 @@ struct SplitTriangle {
     std::array<float, 3> w{};
 };
 
-// None if chance finds none soon.
+// Empty if none is found soon.
 [[nodiscard]] std::optional<SplitTriangle> split_triangle(Dice& dice);
 
 }  // namespace strata::probe
