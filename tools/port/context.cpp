@@ -20,17 +20,17 @@ void require(bool ok, const std::string& what) {
 
 bool is_software(const std::string& driver) { return driver != "hardware"; }
 
-// Mesa reads these when the driver starts; what the caller's shell says must not win over --threads.
+// Mesa reads these variables when the driver starts; the caller's environment must not override --threads.
 void choose(const std::string& driver, int threads) {
     if (!is_software(driver)) return;
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     setenv("GALLIUM_DRIVER", driver == "softpipe" ? "softpipe" : "llvmpipe", 1);
-    // SSE 4.1 is the last set before fused multiply-add that llvmpipe still runs on.
+    // SSE 4.1 is the last instruction set before fused multiply-add that llvmpipe supports.
     if (driver == "llvmpipe_sse") setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 1);
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
-// The first device of EGL's that is not Mesa's software one. A proprietary driver has no other way without a window.
+// EGL's first device that is not Mesa's software one. Proprietary drivers have no other way to draw without a window.
 EGLDisplay first_gpu() {
     const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
     const auto query_text =
@@ -50,7 +50,7 @@ EGLDisplay first_gpu() {
     return EGL_NO_DISPLAY;
 }
 
-// Mesa's surfaceless platform draws on the processor when told so (choose()), and on a GPU of Mesa's otherwise.
+// Mesa's surfaceless platform draws on the CPU if requested (choose()), otherwise on a GPU that Mesa supports.
 EGLDisplay display_of(const std::string& driver) {
     const EGLDisplay gpu = is_software(driver) ? EGL_NO_DISPLAY : first_gpu();
     return gpu != EGL_NO_DISPLAY ? gpu
@@ -82,7 +82,7 @@ HeadlessContext::HeadlessContext(const std::string& driver, int threads, Context
     context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version.data());
     require(context_ != EGL_NO_CONTEXT, is_core ? "eglCreateContext (3.3 core)" : "eglCreateContext (3.3 compatible)");
     require(eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE, "eglMakeCurrent");
-    // Without this check a machine with a GPU driver would be taken for Mesa's, and one without for a GPU.
+    // Without this check a GPU's driver could be used instead of Mesa's software driver, or the reverse.
     const std::string found = renderer();
     const bool found_software = found.starts_with("softpipe") || found.starts_with("llvmpipe");
     require(is_software(driver) ? found.starts_with(driver == "softpipe" ? "softpipe" : "llvmpipe") : !found_software,

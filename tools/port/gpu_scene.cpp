@@ -10,8 +10,8 @@ namespace strata::port {
 
 namespace {
 
-// Positions are in clip space already: the shader passes them on, so that no matrix product can
-// differ from the pack's. SHIFT is added by those ports alone that are half a pixel wrong.
+// Positions are already in clip space: the shader passes them through, so that no matrix product can differ from the
+// pack's. SHIFT is only added by ports with a half-pixel mistake.
 constexpr auto vertex_text = R"(
 layout(location = 0) in vec4 clip;
 layout(location = 1) in vec4 front;
@@ -33,8 +33,7 @@ void main() {
 }
 )";
 
-// OpenGL picks the side by the winding in the window, as Strata does; a one-sided mesh saves the
-// second colour.
+// OpenGL selects the side by the winding in the window, as Strata does; a one-sided mesh omits the second colour.
 constexpr auto shade_text = R"(
 INTERPOLATION in vec4 front_color;
 #ifdef TWO_SIDED

@@ -1,4 +1,5 @@
-// tools/port/gpu_scene.h - the scene in OpenGL buffers: the vertex shader passes clip-space positions and colours on.
+// tools/port/gpu_scene.h - the scene in OpenGL buffers; the vertex shader passes clip-space positions and colours
+// through.
 #pragma once
 #include "tools/port/mesh.h"
 #include "tools/port/way.h"
@@ -7,25 +8,24 @@ namespace strata::port {
 
 enum class Surfaces : std::uint8_t { opaque, transparent };
 
-// The scene in buffers of the context. It binds its vertex array when it is made and relies on it
-// in draw(): one GpuScene lives at a time.
+// The scene in buffers of the context. The constructor binds its vertex array and draw() relies on it: only one
+// GpuScene may exist at a time.
 class GpuScene {
   public:
-    // Uploads the mesh, which may end afterwards.
+    // Uploads the mesh, which is not needed afterwards.
     GpuScene(const Mesh& mesh, Size size, const Way& way);
 
-    // Draws those triangles in their order, in one call for each run of equal facing state. Sets
-    // culling and front face; program, framebuffer, textures and blending are the caller's.
+    // Draws the selected triangles in order, in one call per run of equal facing state. Sets culling and front face;
+    // the caller sets program, framebuffer, textures and blending.
     void draw(Surfaces surfaces = Surfaces::transparent) const;
     [[nodiscard]] bool has(Surfaces surfaces) const { return !runs_[static_cast<std::size_t>(surfaces)].empty(); }
 
-    // A program whose fragment text may call `vec4 shade()`, the interpolated straight colour of the fragment's side,
-    // and name its own texel TEXEL.
+    // A program whose fragment text may call `vec4 shade()`, the interpolated colour of the fragment's side, not
+    // premultiplied, and use TEXEL, its own texel.
     [[nodiscard]] Handle make_program(const std::string& fragment, const std::vector<std::string>& samplers = {}) const;
 
   private:
-    // Neighbouring triangles with the same facing state: `count` indices from byte `first_byte` of
-    // the index buffer.
+    // Consecutive triangles with the same facing state: `count` indices from byte `first_byte` of the index buffer.
     struct Run {
         GLsizei count = 0;
         std::uintptr_t first_byte = 0;
@@ -35,7 +35,7 @@ class GpuScene {
 
     Way way_;
     Size size_;
-    bool two_sided_;  // some vertex has a colour of its own for the back
+    bool two_sided_;  // some vertex has a separate colour for the back
     std::array<std::vector<Run>, 2> runs_;
     Handle vertices_, indices_, layout_;
 };

@@ -1,4 +1,4 @@
-// tools/port/main.cpp - strata_port: a golden pack drawn by OpenGL, a candidate written.
+// tools/port/main.cpp - strata_port: draws a golden pack with OpenGL and writes a candidate.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,7 +25,7 @@ void list_mistakes() {
         fmt::print("{:<24}{:<18}{}\n", mistake.name, mistake.algorithm, mistake.words);
 }
 
-// Those that were asked for, or else all of the pack's that the port has.
+// The requested algorithms, or all of the pack's that the port supports.
 std::vector<std::string> chosen(const Options& options, const Pack& pack) {
     if (!options.algorithms.empty()) return options.algorithms;
     std::vector<std::string> found;

@@ -10,11 +10,11 @@ struct Vertex {
     std::array<float, 4> clip{}, front{}, back{};
 };
 
-// Neighbouring triangles with one state.
+// Consecutive triangles with one state.
 struct Draw {
     std::uint32_t first_index = 0, index_count = 0;
     bool transparent = true, double_sided = true;
-    bool mirrored = false;  // the model's matrix turns the winding around
+    bool mirrored = false;  // the model's matrix reverses the winding
 };
 
 struct Mesh {

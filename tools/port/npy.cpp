@@ -11,13 +11,13 @@ namespace strata::port {
 namespace {
 
 constexpr std::size_t header_size = 128;
-constexpr std::size_t words_at = 10;  // behind the magic text, the version and the length of the header
+constexpr std::size_t words_at = 10;  // after the magic text, the version and the length of the header
 
 [[noreturn]] void refuse(const std::string& file, const std::string& expected, const std::string& found) {
     throw std::runtime_error(fmt::format("{}: expected {}, found {}", file, expected, found));
 }
 
-// What stands between `before` and `after` in the header.
+// The text between `before` and `after` in the header.
 std::string between(const std::string& text, const std::string& before, char after) {
     const std::size_t start = text.find(before);
     if (start == std::string::npos) return {};

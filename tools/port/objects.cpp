@@ -10,8 +10,8 @@ namespace strata::port {
 
 namespace {
 
-// `as_written` before a variable: its sum is what the text says, not an interpolation that rounds otherwise, as
-// softpipe makes of x (1 - t) + y t. Without the extension drivers do as they like.
+// `as_written` before a variable: its sum is computed as written, not by an interpolation with other rounding, which
+// softpipe uses for x (1 - t) + y t. Without the extension drivers may rearrange it.
 constexpr auto as_written = R"(#version 330 core
 #extension GL_ARB_gpu_shader5 : enable
 #ifdef GL_ARB_gpu_shader5
@@ -91,7 +91,7 @@ Handle texture_of(GLenum sized, GLenum external, GLenum type, Size size) {
     return handle;
 }
 
-// Binds a new framebuffer; the caller attaches.
+// Creates and binds a framebuffer; the caller attaches targets.
 Handle new_framebuffer() {
     GLuint name = 0;
     glGenFramebuffers(1, &name);

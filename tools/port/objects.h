@@ -1,4 +1,4 @@
-// tools/port/objects.h - OpenGL 3.3 objects that end with their owner, and the few calls the algorithms share.
+// tools/port/objects.h - owning handles of OpenGL 3.3 objects, and functions that the algorithms share.
 #pragma once
 #include <GL/glcorearb.h>
 
@@ -17,11 +17,11 @@ struct Size {
     }
 };
 
-// How a target is stored, and how its codes are read back.
+// The storage format of a target, and the format in which its codes are read back.
 struct Format {
     const char* name = "";
     GLenum sized = 0, external = 0, type = 0;
-    int channels = 0, bytes = 0;  // of a channel in client memory
+    int channels = 0, bytes = 0;  // bytes: of a channel in client memory
     friend bool operator==(const Format&, const Format&) = default;
 };
 inline constexpr Format rgba8{"rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
@@ -37,27 +37,27 @@ inline constexpr Format d16{"d16", GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_
 // Read back as the upper bits of a word; read_back() shifts them down.
 inline constexpr Format d24{"d24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 1, 4};
 inline constexpr Format d32f{"d32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4};
-inline constexpr Format s8{"s8", 0, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, 1};  // beside a depth alone
+inline constexpr Format s8{"s8", 0, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, 1};  // of a depth-stencil texture
 
-// nullptr for a name that no format above has.
+// nullptr if no format above has the name.
 [[nodiscard]] const Format* find_format(const std::string& name);
 
-// Codes as they lie in memory: rows from row 0 on, channels beside each other, little endian.
+// Codes in memory: rows from row 0, interleaved channels, little endian.
 struct Image {
     Format format;
     Size size;
     std::vector<std::uint8_t> bytes;
 };
 
-// An OpenGL name that `destroy` gives back. The context must still be current when the handle ends.
-// A default one owns nothing.
+// An OpenGL name that is passed to `destroy` at the end. The context must still be current then. A default handle owns
+// nothing.
 class Handle {
   public:
     Handle() = default;
     Handle(GLuint name, void (*destroy)(GLuint)) : name_{name}, destroy_{destroy} {}
     Handle(Handle&& other) noexcept
         : name_{std::exchange(other.name_, 0)}, destroy_{std::exchange(other.destroy_, nullptr)} {}
-    // A swap: what this handle owned ends with `other`.
+    // Swaps: the object that this handle owned is destroyed with `other`.
     Handle& operator=(Handle&& other) noexcept {
         std::swap(name_, other.name_);
         std::swap(destroy_, other.destroy_);
@@ -73,24 +73,25 @@ class Handle {
     void (*destroy_)(GLuint) = nullptr;
 };
 
-// Every texture and program from now on has `samples` a pixel, shaded one by one; what is read back is sample `shown`,
-// and with -1 the resolve of all. Formats are rgba8, floats and d32f then. With 1 nothing is different.
+// From now on every texture and program has `samples` samples per pixel, shaded one by one. read_back() returns sample
+// `shown`, or for -1 the resolve of all. Formats are then rgba8, floats and d32f. With 1 nothing changes.
 void set_samples(int samples, int shown);
 [[nodiscard]] int samples_shown();
 
-// A two-dimensional texture without mipmaps, nearest lookups, contents undefined.
+// A two-dimensional texture without mipmaps, with nearest filtering and undefined contents.
 [[nodiscard]] Handle make_texture(const Format& format, Size size);
-// A depth texture with a stencil beside it; d24 or d32f.
+// A depth texture with a stencil; d24 or d32f.
 [[nodiscard]] Handle make_depth_stencil(const Format& depth, Size size);
 // A query of GL_SAMPLES_PASSED.
 [[nodiscard]] Handle make_query();
 
-// A framebuffer whose draw buffer k is color[k]; without colours it has none. Throws std::runtime_error if OpenGL calls
-// it incomplete.
+// A framebuffer whose draw buffer k is color[k]; without colours it has none. Throws std::runtime_error if OpenGL
+// reports it as incomplete.
 [[nodiscard]] Handle make_framebuffer(std::initializer_list<GLuint> color, GLuint depth = 0);
 [[nodiscard]] Handle make_stencil_framebuffer(GLuint depth_stencil);
 
-// Sampler k of `samplers` reads unit k, unless `units_set` is false. std::runtime_error with the compiler's words.
+// Sampler k of `samplers` reads unit k, unless `units_set` is false. Throws std::runtime_error with the compiler's
+// message.
 struct ProgramText {
     std::string head, vertex, fragment;
     std::vector<std::string> samplers;
@@ -98,25 +99,25 @@ struct ProgramText {
 };
 [[nodiscard]] Handle make_program(const ProgramText& text);
 
-// A program that runs once a pixel. The samplers are those of units 0, 1, ...
+// A program that runs once per pixel. Samplers read units 0, 1, ...
 [[nodiscard]] Handle make_full_screen_program(const std::string& fragment, const std::vector<std::string>& samplers);
 
-// One triangle over the viewport with `program`; depth test off. Blending and targets are the caller's.
+// One triangle over the viewport with `program`, without depth test. The caller sets blending and targets.
 void draw_full_screen(const Handle& program);
 
 // Textures on units 0, 1, ...
 void bind(std::initializer_list<GLuint> textures);
 
-// The query's answer. The call waits until every draw inside the query is finished.
+// The query's result. Waits until every draw inside the query is finished.
 [[nodiscard]] std::uint64_t samples_passed(const Handle& query);
 
-// One sample of a texture of several, whatever set_samples says.
+// One sample of a multisampled texture, independent of set_samples.
 [[nodiscard]] Image read_sample(GLuint texture, int sample, const Format& format, Size size);
 
 // A texture's codes; s8: the stencil of a depth-stencil texture.
 [[nodiscard]] Image read_back(GLuint texture, const Format& format, Size size);
 
-// Throws std::runtime_error with OpenGL's error, if there is one, and what was being done.
+// Throws std::runtime_error with OpenGL's error, if there is one, and the action `doing`.
 void check_errors(const std::string& doing);
 
 }  // namespace strata::port

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// A manifest, and where it stands for messages.
+// A parsed manifest.json, and its path for error messages.
 struct Manifest {
     std::string folder, file;
     ordered_json json;
@@ -38,7 +38,7 @@ struct Manifest {
         if (!at(place).is_number_integer()) refuse(place, "an integer", at(place).dump());
         return at(place).get<int>();
     }
-    // Its bits in hexadecimal are the number.
+    // Component i of a vector; the manifest stores binary32 bits as hex text in "bits".
     [[nodiscard]] float real(const std::string& place, std::size_t i) const {
         const std::string bits = text(fmt::format("{}/bits/{}", place, i));
         return std::bit_cast<float>(static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16)));
@@ -60,7 +60,7 @@ Manifest load(const std::string& folder) {
     return manifest;
 }
 
-// `usual` where the pack leaves the choice open.
+// Returns `usual` if the value is null.
 Format format_at(const Manifest& manifest, const std::string& place, const Format& usual) {
     if (manifest.at(place).is_null()) return usual;
     const Format* const format = find_format(manifest.text(place));
@@ -74,7 +74,7 @@ bool choice(const Manifest& manifest, const std::string& place, const std::strin
     return found == yes;
 }
 
-// Choices that change the pixels and that the port does not make; a pack that does not name one has the usual.
+// Rejects state that the port does not implement. A missing key means the default.
 void check_state(const Manifest& manifest) {
     const ordered_json& state = manifest.at("/state");
     if (state.value("depth_order", "less") != "less")
@@ -87,7 +87,7 @@ void check_state(const Manifest& manifest) {
         manifest.refuse("/state/polygon_offset", "none: the port has no polygon offset", "one");
 }
 
-// Materials that the port has no programs for.
+// Rejects materials for which the port has no shader.
 void check_material(const Manifest& manifest, std::uint32_t number) {
     const std::string place = fmt::format("/scene/materials/{}", number);
     const ordered_json& texture = manifest.at(place + "/texture");
@@ -110,7 +110,7 @@ void append_vertices(const Manifest& manifest, const std::string& place, Mesh& m
         mesh.vertices.push_back({four(clip, i), four(front, i), four(back, i)});
 }
 
-// Neighbouring triangles with equal flags become one draw.
+// Appends the vertices, then merges consecutive triangles with equal flags into one draw.
 void append_draws(const Manifest& manifest, const std::string& place, Mesh& mesh) {
     constexpr unsigned double_sided = 1, mirrored = 2;
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -1,5 +1,4 @@
-// tools/port/pack.h - what a port reads of a golden pack, and what it writes: oracle/PACK.md, by a reader of the port's
-// own.
+// tools/port/pack.h - reads a golden pack and writes a candidate (oracle/PACK.md), with the port's own reader.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,21 +8,20 @@
 
 namespace strata::port {
 
-// What the buffers of a pack say. Everything else that a pack can say and the port cannot draw is refused when it is
-// read.
+// The data that the port uses. Reading rejects every feature of a pack that the port cannot draw.
 struct Pack {
     Mesh mesh;
     Size size;
     TargetFormats formats;
     std::array<float, 4> background{0, 0, 0, 1};
     bool zero_to_one = false;             // clip depths
-    std::vector<std::string> algorithms;  // that it has results of
+    std::vector<std::string> algorithms;  // the algorithms of its results
 };
 
-// Throws std::runtime_error with file, place, what was expected and what was found.
+// Throws std::runtime_error with the file, the JSON pointer, the expected and the found value.
 [[nodiscard]] Pack read_pack(const std::string& folder);
 
-// What one algorithm made: the picture, and targets and layers if there is a record of them.
+// The result of one algorithm: the picture, and targets and layers if they were recorded.
 struct Candidate {
     std::string algorithm;
     Image picture;

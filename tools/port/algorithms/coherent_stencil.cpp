@@ -1,6 +1,6 @@
-// tools/port/algorithms/coherent_stencil.cpp - runs of fragments that arrive in depth order, found by counting in the
-// stencil buffer. Carr, Mech and Miller 2008, section 5; algorithms.md 10. Passes: 1 + 6 an iteration, its end by a
-// query of the first.
+// tools/port/algorithms/coherent_stencil.cpp - runs of fragments that are submitted in depth order, found by counting
+// in the stencil buffer. Carr, Mech and Miller 2008, section 5; algorithms.md 10. Passes: 1 + 6 per iteration; it ends
+// by a query of the first.
 #include <fmt/format.h>
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace strata::port {
 
 namespace {
 
-// A range of depths and nothing else. Each pass keeps another one: the condition says which fragments stay.
+// Keeps a range of depths; each pass has another condition.
 constexpr auto find_text = R"(
 uniform sampler2D first_depth;
 uniform sampler2D second_depth;
@@ -37,8 +37,9 @@ void main() {{
 }}
 )";
 
-// The end of the run: the least of what arrived earlier, what interrupts it, and the opaque surface. A colour holds it:
-// a depth of 24 bits that is read and written through gl_FragDepth comes back as another code.
+// The end of the run: the least of the fragments submitted earlier, of those that interrupt it, and of the opaque
+// surface. It is stored in a colour, because a 24-bit depth that is read and written through gl_FragDepth may change
+// its code.
 constexpr auto reached_text = R"(
 uniform sampler2D previous_depth;
 uniform sampler2D breaker_depth;
@@ -51,7 +52,7 @@ void main() {
 }
 )";
 
-// A depth with the stencil beside it. OpenGL keeps both in one texture, so the stencil moves by copies.
+// A depth with a stencil. OpenGL stores both in one texture, so the stencil is transferred by copies.
 struct DepthStencil {
     Handle texture, framebuffer;
     explicit DepthStencil(const JobInput& in)
@@ -100,7 +101,7 @@ struct CoherentTargets {
     }
 };
 
-// Clears the depth, and the stencil to 0 or to what another target's is.
+// Clears the depth, and the stencil to 0 or to another target's stencil.
 void start(const CoherentTargets& t, const DepthStencil& to, float depth, const DepthStencil* stencil_of) {
     const Size size = t.input.size;
     if (stencil_of == nullptr) {
@@ -115,7 +116,7 @@ void start(const CoherentTargets& t, const DepthStencil& to, float depth, const 
     glClearBufferfv(GL_DEPTH, 0, &depth);
 }
 
-// One test of depth and stencil for both faces. Operations: where the stencil test fails, the depth test fails, both
+// A depth and stencil test for both faces. Operations: if the stencil test fails, if the depth test fails, if both
 // pass.
 struct Test {
     GLenum depth, stencil;
@@ -131,7 +132,7 @@ void use(const Test& test) {
     glStencilOp(test.operations[0], test.operations[1], test.operations[2]);
 }
 
-// Draws the geometry with the program, which reads two depths and the opaque one. Answers the samples that passed.
+// Draws the geometry with the program, which reads two depths and the opaque one. Returns the samples that passed.
 std::uint64_t draw(const CoherentTargets& t, const Handle& program, GLuint first, GLuint second) {
     bind({first, second, t.opaque.depth()});
     glUseProgram(program.name());
@@ -155,7 +156,7 @@ void show(const CoherentTargets& t, const std::string& kind, const DepthStencil&
               query);
 }
 
-// P1: the nearest fragment that is left; the stencil counts how often the depth was updated.
+// P1: the nearest remaining fragment; the stencil counts the updates of the depth.
 std::uint64_t find_nearest(const CoherentTargets& t, bool from_the_start, Record* record) {
     start(t, t.nearest, far_plane, nullptr);
     use({GL_LESS, GL_ALWAYS, 0, {GL_KEEP, GL_KEEP, t.input.way.stencil_increment}});
@@ -164,7 +165,8 @@ std::uint64_t find_nearest(const CoherentTargets& t, bool from_the_start, Record
     return found;
 }
 
-// P2 to P4 and the quad: what arrived before the nearest one, the run behind it, and what interrupts that.
+// P2 to P4 and the quad: the fragments submitted before the nearest one, the run that starts there, and the fragments
+// that interrupt it.
 void find_run(const CoherentTargets& t, bool from_the_start, Record* record) {
     start(t, t.previous, far_plane, t.input.way.stencil_kept ? &t.nearest : nullptr);
     use({GL_LESS, GL_LESS, 1, {GL_KEEP, GL_KEEP, GL_DECR}});
@@ -186,7 +188,7 @@ void find_run(const CoherentTargets& t, bool from_the_start, Record* record) {
     show(t, "full_screen", t.breaker, {}, record);
 }
 
-// P5 and P6: the run, then what lies exactly at its end.
+// P5 and P6: the run, then the fragments exactly at its end.
 void composite(const CoherentTargets& t, Record* record) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
     glDisable(GL_DEPTH_TEST);
@@ -196,7 +198,8 @@ void composite(const CoherentTargets& t, Record* record) {
     glBlendFuncSeparate(factors[0], factors[1], factors[2], factors[3]);
     const std::uint64_t run = draw(t, t.composite_run, t.nearest.texture.name(), t.reached.name());
     show(t, "geometry", t.breaker, run, record);
-    glFlush();  // ends the pass: softpipe would blend on in the same tiles, unrounded (fragment-stages.md 9.5)
+    glFlush();  // ends the pass: otherwise softpipe would keep blending in the same tiles, unrounded
+                // (fragment-stages.md 9.5)
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
     const std::uint64_t end = draw(t, t.composite_end, t.reached.name(), 0);
     show(t, "geometry", t.breaker, end, record);

@@ -1,6 +1,6 @@
-// tools/port/algorithms/depth_units.cpp - one layer a pass, the second depth test by a shadow compare; layers are
-// composited at the end. Everitt 2001, Listing 1 with the depth texture of its shadow mapping; algorithms.md 2. Passes:
-// N + 1.
+// tools/port/algorithms/depth_units.cpp - one layer per pass, with a shadow comparison as the second depth test; layers
+// are composited at the end. Everitt 2001, Listing 1 with the depth texture of its shadow mapping; algorithms.md 2.
+// Passes: N + 1.
 #include <fmt/format.h>
 
 #include <memory>
@@ -11,8 +11,8 @@ namespace strata::port {
 
 namespace {
 
-// The compare of the depth texture answers whether the fragment lies behind the layer peeled before. Its coordinates
-// are the middle of the fragment's own texel.
+// The depth texture's comparison tells whether the fragment is behind the layer peeled before. Its coordinates are the
+// centre of the fragment's own texel.
 constexpr auto peel_text = R"(
 uniform sampler2DShadow peeled_depth;
 layout(location = 0) out vec4 layer;
@@ -31,7 +31,7 @@ layout(location = 0) out vec4 copied;
 void main() { copied = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
 )";
 
-// A saved layer: straight colours, and depths that the next pass compares with.
+// A saved layer: colours that are not premultiplied, and depths for the next pass's comparison.
 struct Layer {
     Handle color, depth, framebuffer;
     explicit Layer(const JobInput& in)
@@ -65,7 +65,7 @@ struct UnitTargets {
     }
 };
 
-// The nearest layer behind `peeled`, which is none before the first. Answers the samples that it drew.
+// Draws the nearest layer behind `peeled`, which is null in the first pass. Returns the samples that passed.
 std::uint64_t peel(const UnitTargets& t, const Layer* peeled, const Layer& to) {
     t.opaque.copy_depth_to(to.framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, to.framebuffer.name());
@@ -81,7 +81,7 @@ std::uint64_t peel(const UnitTargets& t, const Layer* peeled, const Layer& to) {
     return samples_passed(t.query);
 }
 
-// OVER, from the farthest layer to the nearest. A pixel without such a layer has alpha 0 there.
+// OVER, from the farthest layer to the nearest. A pixel without such a layer has alpha 0.
 void composite(const UnitTargets& t, const std::vector<Layer>& layers, std::size_t left_out, Record* record) {
     if (t.input.way.background_used) {
         t.opaque.copy_color_to(t.composite);

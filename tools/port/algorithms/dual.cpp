@@ -1,5 +1,5 @@
-// tools/port/algorithms/dual.cpp - the nearest and the farthest layer a pass, under one MAX equation, to the last
-// layer. Bavoil and Myers 2008; algorithms.md 5. Passes: 1 + max(1, ceil(N/2)), its end by a query of the pixels whose
+// tools/port/algorithms/dual.cpp - the nearest and the farthest layer per pass, under one MAX equation, to the last
+// layer. Bavoil and Myers 2008; algorithms.md 5. Passes: 1 + max(1, ceil(N/2)); it ends by a query of the pixels whose
 // min-max depth is not empty.
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ void main() {
 }
 )";
 
-// Nothing else is discarded: the front colour survives MAX by passing through (E13).
+// Nothing else is discarded: the front colour is kept under MAX because every fragment writes it (E13).
 constexpr auto dual_text = R"(
 uniform sampler2D last_min_max;
 uniform sampler2D last_front;
@@ -53,8 +53,7 @@ void main() {{
 }}
 )";
 
-// Blends the far layer of a pass into the back colours. A pixel without one has alpha 0 and is left
-// out.
+// Blends the far layer of a pass into the back colours. A pixel without one has alpha 0 and is discarded.
 constexpr auto blend_back_text = R"(
 uniform sampler2D back;
 layout(location = 0) out vec4 color;
@@ -64,8 +63,8 @@ void main() {
 }
 )";
 
-// Passes one sample for each pixel that has fragments between its ends; its colour is masked.
-// Counted by the query.
+// Passes one sample per pixel that has fragments between its ends; colour writes are masked. The query counts the
+// samples.
 constexpr auto what_is_left_text = R"(
 uniform sampler2D min_max;
 layout(location = 0) out vec4 color;
@@ -75,8 +74,7 @@ void main() {
 }
 )";
 
-// Everything that a run draws with. Pairs of targets take turns: a pass reads one of each and
-// writes the other.
+// The targets and programs of a run. Pairs of targets alternate: a pass reads one of each and writes the other.
 struct DualTargets {
     JobInput input;
     Opaque opaque;
@@ -109,8 +107,7 @@ struct DualTargets {
     }
 };
 
-// MAX applies to all three targets of a peel, min-max depths and colours alike; no depth test takes
-// part.
+// MAX applies to all three targets of a peel, min-max depths and colours alike; there is no depth test.
 void use_max(GLenum equation) {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
@@ -140,8 +137,7 @@ void initialize(const DualTargets& t, Record* record) {
                {"back", t.back.name(), t.input.formats.color}});
 }
 
-// One geometry pass: fragments at the ends of `last` become colours, those between them the next
-// ends.
+// One geometry pass: fragments at the ends of `last` become colours, those between them determine the next ends.
 void peel_both_ends(const DualTargets& t, std::size_t last) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[1 - last].name());
     glClearBufferfv(GL_COLOR, 0, t.input.way.empty_min_max.data());
@@ -153,8 +149,8 @@ void peel_both_ends(const DualTargets& t, std::size_t last) {
     t.input.scene.draw();
 }
 
-// Blends the far layers with OVER. Answers for how many pixels min_max[`min_max`] still holds
-// depths: 0 ends the peel.
+// Blends the far layers with OVER. Returns the number of pixels for which min_max[`min_max`] still contains depths: 0
+// ends the peel.
 std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
     glBlendEquation(GL_FUNC_ADD);
@@ -162,7 +158,7 @@ std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the back colours have no alpha of their own
     bind({t.back_dump.name()});
     draw_full_screen(t.blend_program);
-    // The query shall count and write nothing.
+    // The query only counts; nothing is written.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     bind({t.min_max[min_max].name()});
     glBeginQuery(GL_SAMPLES_PASSED, t.query.name());
@@ -172,7 +168,7 @@ std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     return samples_passed(t.query);
 }
 
-// Whatever a pass has drawn or cleared by then.
+// Records the targets after a pass.
 void show(const DualTargets& t, const std::string& kind, std::optional<std::uint64_t> query, Record* record) {
     const Format &color = t.input.formats.color, &min_max = t.input.way.min_max;
     show_pass(record, t.input.size, kind,
@@ -185,13 +181,13 @@ void show(const DualTargets& t, const std::string& kind, std::optional<std::uint
               query);
 }
 
-// Peels to the last layer, or to `max_passes` geometry passes. Answers the geometry passes.
+// Peels to the last layer, or to `max_passes` geometry passes. Returns the number of geometry passes.
 int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
     initialize(t, record);
     int passes = 1;
     std::size_t last = 0;
-    // The exit asks for depths that are left, not for colours: it saves the empty pass that the
-    // paper's own query needs for even N (E11).
+    // The exit asks for remaining depths, not for colours, which saves the empty pass that the paper's own query needs
+    // for even N (E11).
     for (bool left = true; left && passes < max_passes; ++passes) {
         peel_both_ends(t, last);
         show(t, "geometry", {}, record);

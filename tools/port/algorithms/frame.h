@@ -1,5 +1,4 @@
-// tools/port/algorithms/frame.h - what every algorithm starts and ends with: the opaque scene, and the finished
-// picture.
+// tools/port/algorithms/frame.h - the start and the end of every algorithm: the opaque scene, and the finished picture.
 #pragma once
 #include "tools/port/algorithms/job.h"
 
@@ -11,10 +10,10 @@ inline constexpr float far_plane = 1.0f;
 // Viewport, clip control and scissor; `clip_depth` is the scene's.
 void set_window(Size size, const Way& way, GLenum clip_depth);
 
-// The opaque surfaces, colour over the background and depth. A scene without any has the clear values there.
+// The opaque surfaces: colour over the background, and depth. A scene without any has the clear values.
 class Opaque {
   public:
-    // Depths are stored as `depth`, which is that of the peel's keys.
+    // Depths are stored in the format `depth`, which must be that of the peel.
     Opaque(const JobInput& input, const Format& depth);
     void draw(const GpuScene& scene) const;
 
@@ -23,8 +22,8 @@ class Opaque {
     void copy_color_to(const Handle& framebuffer) const;
     [[nodiscard]] GLuint color() const { return color_.name(); }
     [[nodiscard]] GLuint depth() const { return depth_.name(); }
-    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface, z as it is stored. The sampler opaque_depth
-    // is the program's affair, and so is stored() where depths are no floats.
+    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface, for z as stored. The program declares the
+    // sampler opaque_depth, and stored() if depths are not floats.
     [[nodiscard]] std::string hidden_text() const;
 
   private:
@@ -35,12 +34,11 @@ class Opaque {
     Handle color_, depth_, framebuffer_, program_;
 };
 
-// The last quad: the front over what stands behind it. `through` is GLSL for the share of that which is seen through
-// `front`.
+// The last quad: the front over the colour behind it. `through` is a GLSL expression for the transmittance of `front`.
 class Finish {
   public:
     Finish(const JobInput& input, const std::string& through);
-    // Draws and reads back.
+    // Draws the quad and reads it back.
     void draw(GLuint front, GLuint behind, Image& picture, Record* record) const;
 
   private:
@@ -49,12 +47,12 @@ class Finish {
     Handle target_, framebuffer_, program_;
 };
 
-// Reads a finished target of the frame's format as the port hands it over.
+// Reads a finished target of the frame's format in the form of the port's results.
 [[nodiscard]] Image read_picture(GLuint texture, const JobInput& input);
 
-// GLSL: `float stored(float z)`, a depth as the driver stores and reads it back: code times the binary32 reciprocal of
-// the greatest code, which for d24 is another float than the quotient. Compared raw, a fragment would lie behind itself
-// and the peel would never end.
+// GLSL: `float stored(float z)`, a depth as the driver stores it and reads it back: the code times the binary32
+// reciprocal of the greatest code, which for d24 may differ from the quotient. If z were compared directly, a fragment
+// could be behind itself and the peel would never end.
 [[nodiscard]] std::string stored_text(const Format& depth);
 
 }  // namespace strata::port

@@ -1,5 +1,5 @@
-// tools/port/algorithms/front_to_back.cpp - one layer a pass, nearest first, to the last layer.
-// Everitt 2001, Bavoil and Myers 2008; algorithms.md 4. Passes: N + 1, its end by an occlusion query of the peel.
+// tools/port/algorithms/front_to_back.cpp - one layer per pass, nearest first, to the last layer.
+// Everitt 2001, Bavoil and Myers 2008; algorithms.md 4. Passes: N + 1; it ends by an occlusion query of the peel.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace strata::port {
 
 namespace {
 
-// Layers are premultiplied, as UNDER needs them. Behind the first pass, what is not behind the depth peeled before is
+// Layers are premultiplied, as UNDER needs them. After the first pass, fragments not behind the depth peeled before are
 // discarded: equal depths are one layer.
 constexpr auto peel_text = R"(
 uniform sampler2D peeled_depth;
@@ -31,8 +31,7 @@ layout(location = 0) out vec4 copied;
 void main() { copied = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
 )";
 
-// Everything that a run draws with. The two depth buffers take turns: a pass tests against one and
-// reads the other.
+// The targets and programs of a run. The two depth buffers alternate: a pass tests against one and reads the other.
 struct PeelTargets {
     JobInput input;
     Opaque opaque;
@@ -62,7 +61,7 @@ struct PeelTargets {
     }
 };
 
-// Pass number `pass`: the nearest layer behind that of the pass before. Returns the samples that it drew.
+// Pass number `pass`: draws the nearest layer behind that of the previous pass. Returns the samples that passed.
 std::uint64_t peel_layer(const PeelTargets& t, int pass) {
     const std::size_t nearest = t.nearest(pass);
     t.opaque.copy_depth_to(t.peel[nearest]);
@@ -79,8 +78,7 @@ std::uint64_t peel_layer(const PeelTargets& t, int pass) {
     return samples_passed(t.query);
 }
 
-// UNDER: the layer is multiplied with the transmittance in destination alpha, which then shrinks by
-// 1 - alpha.
+// UNDER: the layer is multiplied by the transmittance in destination alpha, which is then multiplied by 1 - alpha.
 void blend_under(const PeelTargets& t) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
     glEnable(GL_BLEND);
@@ -91,7 +89,7 @@ void blend_under(const PeelTargets& t) {
     draw_full_screen(t.under_program);
 }
 
-// The depth of the first pass is the pack's nearest.1; the other one is not there before the second.
+// The depth of the first pass is the pack's nearest.1; the other one does not exist before the second.
 void show(const PeelTargets& t, const std::string& kind, int pass, std::optional<std::uint64_t> query, Record* record) {
     const TargetFormats& formats = t.input.formats;
     const NamedTexture layer{"layer", t.layer.name(), formats.color},
@@ -103,8 +101,8 @@ void show(const PeelTargets& t, const std::string& kind, int pass, std::optional
         show_pass(record, t.input.size, kind, {layer, first, second, accumulated}, query);
 }
 
-// Peels to the last layer, or to `max_passes` geometry passes. Answers the geometry passes, the
-// empty last one included.
+// Peels to the last layer, or to `max_passes` geometry passes. Returns the number of geometry passes, including the
+// empty last one.
 int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* record) {
     t.opaque.draw(t.input.scene);
     const std::array<float, 4> transparent{0, 0, 0, t.input.way.transmittance_start};
@@ -116,7 +114,7 @@ int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* 
         left = drawn > t.input.way.query_limit;
         show(t, "geometry", passes, drawn, record);
         if (left) blend_under(t);
-        show(t, "full_screen", passes, {}, record);  // of an empty layer, too: it would be neutral
+        show(t, "full_screen", passes, {}, record);  // blended for an empty layer, too, which is neutral
         if (record != nullptr && drawn > 0)
             record->layers.push_back(
                 {read_back(t.layer.name(), t.input.formats.color, t.input.size),
@@ -131,7 +129,7 @@ int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* 
 Job front_to_back_job(const JobInput& input) {
     const auto t = std::make_shared<PeelTargets>(input);
     return {"front_to_back", [t](Image& picture, int max_passes, Record* record) {
-                // One that loses its last layer knows how many there are: the empty pass is no layer.
+                // A port that loses its last layer knows the number of layers: the empty pass is not one.
                 const int lost = t->input.way.passes_left_out;
                 if (lost > 0) max_passes = front_to_back(*t, max_passes, picture, nullptr) - 1 - lost;
                 return front_to_back(*t, max_passes, picture, record);

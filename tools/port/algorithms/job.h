@@ -1,4 +1,4 @@
-// tools/port/algorithms/job.h - an algorithm with its targets and programs made: what is left is what the clock sees.
+// tools/port/algorithms/job.h - an algorithm with its targets and programs created, so that only drawing is timed.
 #pragma once
 #include <functional>
 #include <initializer_list>
@@ -10,7 +10,7 @@
 
 namespace strata::port {
 
-// What a job's targets store; the pictures of `depth` are depths, those of the others colours.
+// Formats of a job's targets; images of `depth` are depths, the others colours.
 struct TargetFormats {
     Format color = rgba8;  // or rgba16f, rgba32f
     Format depth = d32f;   // or d16, d24
@@ -34,23 +34,23 @@ struct NamedPicture {
     Image image;
 };
 
-// Every target after a pass, as it is read back, and what the query of that pass answered.
+// Every target after a pass, as read back, and the result of the pass's query.
 struct PassShown {
     std::string kind;  // geometry or full_screen
     std::vector<NamedPicture> targets;
     std::optional<std::uint64_t> query;
 };
 
-// What a run tells of itself.
+// The recorded passes and layers of a run.
 struct Record {
     std::vector<PassShown> passes{};
     std::vector<std::array<Image, 2>> layers{};  // colour and depth, nearest first
 };
-// Nothing is done without a record.
+// Does nothing without a record.
 void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
                std::optional<std::uint64_t> query = {});
 
-// One algorithm that is ready to run: only `draw` is timed.
+// An algorithm that is ready to run: only `draw` is timed.
 struct Job {
     std::string name;
     // From the first clear to finished pixels in client memory; returns the geometry passes, at most `max_passes`.
@@ -62,12 +62,12 @@ struct Job {
 // depth_units, and the sums of weighted averages.
 [[nodiscard]] const std::vector<std::string>& job_names();
 
-// Makes all targets and programs of the algorithm, which keeps a reference to the scene. Throws
-// std::invalid_argument for a name that is not in job_names().
+// Creates all targets and programs of the algorithm, which keeps a reference to the scene. Throws std::invalid_argument
+// for a name that is not in job_names().
 [[nodiscard]] Job make_job(const std::string& name, const JobInput& input);
 
-// The jobs by themselves, for job.cpp. Those of single_pass.cpp come first; count_fragments()
-// answers the fragments of every pixel, without depth test.
+// The jobs, for job.cpp. The first ones are in single_pass.cpp; count_fragments() returns the number of fragments of
+// every pixel, without depth test.
 [[nodiscard]] Job depth_job(const JobInput& input);
 [[nodiscard]] Job weighted_average_job(const JobInput& input);
 [[nodiscard]] Job weighted_average_pow_job(const JobInput& input);

@@ -1,4 +1,4 @@
-// tools/port/algorithms/single_pass.cpp - one walk over the triangles: a depth pass, weighted averages, a count of
+// tools/port/algorithms/single_pass.cpp - algorithms of one geometry pass: a depth pass, weighted averages, a count of
 // fragments. weighted_average: Bavoil and Myers 2008; algorithms.md 7. Half-float sums and count, as Strata's.
 #include <fmt/format.h>
 
@@ -21,8 +21,8 @@ void main() {{
 }}
 )";
 
-// The power by repeated squaring from the lowest bit of n, as algorithms.md 7 writes it: pow() is another function on
-// every driver.
+// The power by repeated squaring from the lowest bit of n, as in algorithms.md 7, because pow() differs between
+// drivers.
 constexpr auto average_text = R"(
 uniform sampler2D sums;
 uniform sampler2D count;
@@ -77,8 +77,8 @@ struct AverageTargets {
               {"sums", "count", "behind_target"})} {}
 };
 
-// The geometry pass: what stands before the opaque surfaces, whose depth is binary32, is added up in any order; or
-// everything.
+// The geometry pass: sums the fragments in front of the opaque surfaces, whose depth is binary32, in any order; or all
+// fragments.
 enum class Adds : std::uint8_t { visible, all };
 void accumulate(const AverageTargets& t, Adds adds) {
     const GpuScene& scene = t.input.scene;
@@ -117,7 +117,7 @@ Job average_job(const std::string& name, const JobInput& input, const std::strin
             }};
 }
 
-// The targets of job `depth`: depth alone, no colour is written.
+// The target of job `depth`: depth only, no colour is written.
 struct DepthTargets {
     JobInput input;
     Handle depth, framebuffer, program, query;
@@ -141,7 +141,8 @@ Job depth_job(const JobInput& input) {
                 glDepthFunc(t->input.way.depth_func);
                 glClearBufferfv(GL_DEPTH, 0, &far_plane);
                 glUseProgram(t->program.name());
-                // As peels are counted: without a query softpipe steps D16 along its spans (mesa-rasterizers.md 3.3).
+                // With a query, as peels have: without one softpipe steps D16 along its spans (mesa-rasterizers.md
+                // 3.3).
                 glBeginQuery(GL_SAMPLES_PASSED, t->query.name());
                 t->input.scene.draw();
                 glEndQuery(GL_SAMPLES_PASSED);
@@ -153,12 +154,12 @@ Job depth_job(const JobInput& input) {
 Job weighted_average_job(const JobInput& input) {
     return average_job("weighted_average", input, "power", Adds::visible);
 }
-// Of all fragments, so that its sums are those of sums_job.
+// Over all fragments, so that its sums are those of sums_job.
 Job weighted_average_pow_job(const JobInput& input) {
     return average_job("weighted_average_pow", input, "pow", Adds::all);
 }
 
-// The sums themselves, before a colour is made of them.
+// The sums themselves, before the resolve.
 Job sums_job(const JobInput& input) {
     const auto t = std::make_shared<AverageTargets>(input, "power");
     return {"sums", [t](Image& picture, int, Record*) {
@@ -169,7 +170,7 @@ Job sums_job(const JobInput& input) {
 }
 
 std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size) {
-    // A binary32 count is exact up to 2^24 fragments a pixel.
+    // A binary32 count is exact up to 2^24 fragments per pixel.
     const Handle count = make_texture(r32f, size), framebuffer = make_framebuffer({count.name()});
     const Handle program = scene.make_program("layout(location = 0) out float count;\nvoid main() { count = 1.0; }");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());

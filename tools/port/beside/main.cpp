@@ -1,5 +1,5 @@
-// tools/port/beside/main.cpp - strata_port_beside: a scene by the port, one line of JSON a job; fragments and pictures
-// compared with Strata's on request.
+// tools/port/beside/main.cpp - strata_port_beside: draws a scene with the port and prints one line of JSON per job; on
+// request compares fragments and pictures with Strata's.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The command line. Empty texts: not given. `budget` and `warm_up` are seconds.
+// The command line. Empty texts: not given. `budget` and `warm_up` are in seconds.
 struct Options {
     std::string scene, camera, size = "1024x1024", driver = "llvmpipe", profile, coverage, image, mistakes;
     std::optional<float> alpha;
@@ -45,8 +45,7 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
-// Loads the scene and looks at it as `strata render` does: from a camera file, or from the orbit
-// 30,20.
+// Loads the scene with the view of `strata render`: a camera file's, or the orbit 30,20.
 Subject load(const Options& options) {
     Subject subject;
     subject.size = parse_size(options.size);
@@ -59,8 +58,8 @@ Subject load(const Options& options) {
     return subject;
 }
 
-// The largest difference of two codes at the same place: 1/255 for colours. Codes of float depths
-// are their bits, which for depths from 0 to 1 differ by units in the last place.
+// The largest difference of two codes at the same pixel and channel: in 1/255 for colours. Codes of float depths are
+// their bits, which for depths from 0 to 1 differ by units in the last place.
 std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image& b) {
     std::uint32_t largest = 0;
     for (std::size_t i = 0; i < a.codes.size(); ++i)
@@ -68,7 +67,7 @@ std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image
     return largest;
 }
 
-// The number of pixels with a code that differs.
+// The number of pixels in which a code differs.
 std::size_t pixels_that_differ(const pipeline::Image& a, const pipeline::Image& b) {
     const auto channels = static_cast<std::size_t>(a.channels());
     std::size_t differ = 0;
@@ -77,7 +76,7 @@ std::size_t pixels_that_differ(const pipeline::Image& a, const pipeline::Image& 
     return differ;
 }
 
-// Where the two pictures differ first, and the codes of either.
+// The first difference of the two pictures, with both codes.
 ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Image& ours, Size size) {
     const auto channels = static_cast<std::size_t>(ours.channels()), width = static_cast<std::size_t>(size.width);
     const auto [their, our] = std::ranges::mismatch(theirs.codes, ours.codes);
@@ -88,16 +87,15 @@ ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Ima
     return {{"x", pixel % width}, {"y", pixel / width}, {"mesa", codes(theirs)}, {"strata", codes(ours)}};
 }
 
-// Wall-clock seconds of one run. Reading the pixels back ends it, so nothing is left in llvmpipe's
-// queues.
+// Wall-clock seconds of one run. It ends by reading the pixels back, so nothing remains in llvmpipe's queues.
 double seconds_of(const Job& job, Image& pixels, int most_passes, int& passes) {
     const auto start = std::chrono::steady_clock::now();
     passes = job.draw(pixels, most_passes, nullptr);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Two passes compile every program and touch every target; the job goes on for `warm_up`. Then one time after another
-// until `budget` is spent.
+// Two passes compile every program and touch every target; further warm-up runs follow for `warm_up`. Then runs are
+// timed until `budget` is spent.
 ordered_json measure(const Job& job, const Options& options, Image& pixels) {
     // More passes than any scene has layers.
     constexpr int all = 1000000;
@@ -113,8 +111,7 @@ ordered_json measure(const Job& job, const Options& options, Image& pixels) {
     return {{"algorithm", job.name}, {"geometry_passes", passes}, {"seconds", seconds}};
 }
 
-// Peels that end after 1, 2, 3 ... geometry passes on both sides: their pictures hold every layer as soon as it is
-// there.
+// Compares peels that stop after 1, 2, 3 ... geometry passes on both sides, so that their pictures show every layer.
 ordered_json compare_each_pass(const Job& job, const Options& options, const Subject& subject,
                                const pipeline::DeviceProfile& profile, int passes) {
     Image pixels;
@@ -127,7 +124,7 @@ ordered_json compare_each_pass(const Job& job, const Options& options, const Sub
     return {{"pictures", pictures}, {"differ", differ}};
 }
 
-// Measures a job and prints its line of JSON, at once: the caller pairs runs of two programs.
+// Measures a job and prints its line of JSON immediately, because the caller pairs runs of two programs.
 void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
     Image pixels;
     ordered_json line = measure(job, options, pixels);
@@ -147,7 +144,7 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
     if (!options.image.empty() && pixels.format == rgba8) scenes::write_image(options.image, {.color = image});
 }
 
-// The number of pixels in which the two programs draw another number of fragments.
+// The number of pixels in which the two programs draw different numbers of fragments.
 std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, const Options& options, Size size,
                   const pipeline::DeviceProfile& profile) {
     const std::vector<std::uint32_t> theirs = count_fragments(scene, size);
@@ -186,8 +183,7 @@ int run_all(const Options& options) {
         const JobInput input{.scene = scene, .size = subject.size, .formats = options.formats, .way = way};
         run(make_job(name, input), options, subject, profile);
     }
-    // --coverage alone writes the counts; a difference fails the run only where --check asks for
-    // it.
+    // --coverage alone writes the counts; a difference is a failure only with --check.
     const bool counts = options.check || !options.coverage.empty();
     return counts && check(scene, soup, options, subject.size, profile) > 0 && options.check ? 1 : 0;
 }

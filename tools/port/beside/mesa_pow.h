@@ -1,7 +1,7 @@
 // tools/port/beside/mesa_pow.h - GLSL's pow, exp2 and log2 as llvmpipe computes them.
 //
-// Rule     pow(x, y) = exp2(log2(x) * y), 0 for x = 0. Both are polynomials whose even and odd terms are summed apart,
-//          every step a * b + c fused where the processor has FMA. Division is IEEE's.
+// Rule     pow(x, y) = exp2(log2(x) * y), 0 for x = 0. Both are polynomials whose even and odd terms are summed
+//          separately, every step a * b + c, fused if the processor has FMA. Division is IEEE's.
 // Source   mesa-rasterizers.md 2.10.
 // Tests    tools/bench/driver_differences.py: weighted averages that end in pow, pixel by pixel
 #pragma once
@@ -31,7 +31,7 @@ class MesaPow {
                     exponent);
     }
 
-    // 2 to the floor of x, times P of the rest.
+    // 2 to the power floor(x), times P of the fraction.
     [[nodiscard]] float exp2(float x) const {
         const float inside = std::max(std::min(128.0f, x), -126.99999f), whole = std::floor(inside);
         const float power = std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23);
@@ -46,7 +46,7 @@ class MesaPow {
         const float product = a * b;
         return product + c;
     }
-    // (c0 + x^2 (c2 + ...)) + x (c1 + x^2 (c3 + ...)), from the last coefficient of either on.
+    // (c0 + x^2 (c2 + ...)) + x (c1 + x^2 (c3 + ...)), each evaluated from its last coefficient.
     template <std::size_t count>
     [[nodiscard]] float polynomial(const std::array<float, count>& c, float x) const {
         const float square = x * x;

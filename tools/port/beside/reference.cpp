@@ -20,7 +20,7 @@ namespace strata::port {
 
 namespace {
 
-// The OpenGL program has neither textures nor an alpha test, and no pass for opaque materials.
+// The OpenGL program supports neither textures nor an alpha test, and has no pass for opaque materials.
 void check_materials(const Subject& subject) {
     for (const pipeline::Material& m : subject.scene.list.materials) {
         if (m.texture >= 0) throw InputError(subject.scene.name, m.name, "a material without texture", "one with");
@@ -82,7 +82,7 @@ FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipel
     auto count = [&counts](const rasterizer::FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++counts[batch.pixel[i]];
     };
-    // The whole frame as one tile. No values are needed: counting looks at coverage alone.
+    // The whole frame as one tile. No values are needed: only coverage is counted.
     rasterizer::TileRasterizer(state.viewport)
         .draw(geometry, triangles, {}, {.shader_z = false, .code = false, .color = false},
               rasterizer::BatchSink{count});
@@ -91,7 +91,7 @@ FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipel
 
 namespace {
 
-// A target that one pass adds to: by the blender, or by the tiles that a profile keeps in binary32 (fragment-stages.md
+// A target to which one pass adds: with blending, or in tiles that a profile keeps in binary32 (fragment-stages.md
 // 9.5).
 class Sums {
   public:
@@ -135,7 +135,7 @@ class Sums {
     pipeline::ColorCodes codes_{};
 };
 
-// Premultiplied colours added up by blends of one pass, in submission order.
+// Premultiplied colours summed by blending in one pass, in submission order.
 Rendered sums(const Subject& subject, const pipeline::DeviceProfile& profile, pipeline::Format format) {
     const rasterizer::Rect frame{0, 0, subject.size.width, subject.size.height};
     Sums adding{frame, profile, format};
@@ -150,7 +150,7 @@ Rendered sums(const Subject& subject, const pipeline::DeviceProfile& profile, pi
     return {adding.image(), 1};
 }
 
-// The average that ends in the driver's pow: the sums as they are stored, the count as an exact number, over black.
+// The average that ends in the driver's pow: the stored sums, the count as an exact number, over black.
 Rendered average_by_pow(const Subject& subject, const pipeline::DeviceProfile& profile, pipeline::Format format,
                         pipeline::Format sum_format) {
     const Rendered summed = sums(subject, profile, sum_format);
@@ -188,12 +188,11 @@ Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, 
     options.depth = pipeline::depth_format(strata_format(formats.depth));
     options.max_passes = max_passes;
     options.threads = subject.threads;
-    // The audit compares nothing here, and the nearest depth is wanted for `depth` alone.
+    // Without audit, and the nearest depth only for `depth`.
     options.audit = false;
     options.nearest_depth = depth;
     peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
-    // weighted_average finds the nearest binary32 depths in one pass; codes of fixed point are those that a peel
-    // stores.
+    // weighted_average finds the nearest binary32 depths in one pass; fixed-point codes are those that a peel stores.
     const std::string finder = formats.depth == d32f ? "weighted_average" : "front_to_back";
     const std::string name = depth ? finder : job;
     auto result = renderer.render(*peeling::find_algorithm(name));

@@ -1,4 +1,4 @@
-// tools/port/beside/reference.h - Strata's side of the comparison: the same vertices, the fragments and the pictures.
+// tools/port/beside/reference.h - Strata's side of the comparison: the same vertices, its fragments and its pictures.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -13,8 +13,7 @@
 
 namespace strata::port {
 
-// The picture that both programs draw: scene, camera, pixels. `threads` are those of either side; 0: all that there
-// are.
+// The input of both programs: scene, camera, size. `threads` is for either program; 0: all.
 struct Subject {
     scenes::Scene scene;
     pipeline::View view;
@@ -23,15 +22,15 @@ struct Subject {
     int threads = 0;
 };
 
-// The vertices of the scene in clip space with their lit colours, by Strata's own transform: both
-// sides start from the same bits. Throws InputError for what the OpenGL program does not draw:
-// textures, MASK, and opaque materials without --alpha.
+// The vertices of the scene in clip space with their lit colours, by Strata's own transform: both sides start from the
+// same bits. Throws InputError for features that the OpenGL program does not draw: textures, MASK, and opaque materials
+// without --alpha.
 [[nodiscard]] rasterizer::TriangleSoup clip_vertices(const Subject& subject);
-// As the port's own buffers hold them.
+// The mesh in the layout of the port's buffers.
 [[nodiscard]] Mesh mesh_of(const rasterizer::TriangleSoup& soup);
 
-// How many fragments of `soup` each pixel has under the profile's coverage rules, rows from the
-// top, and how many triangles were cut. No test drops any fragment.
+// The number of fragments of `soup` per pixel under the profile's coverage rules, rows from the top, and the number of
+// clipped triangles. No test discards fragments.
 struct FragmentCounts {
     std::vector<std::uint32_t> pixels;
     std::uint64_t clipped = 0;
@@ -39,16 +38,16 @@ struct FragmentCounts {
 [[nodiscard]] FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup,
                                              const pipeline::DeviceProfile& profile, Size size);
 
-// The format of Strata that stores the same bits, and the codes of a picture that was read back.
+// Strata's format with the same bits, and the codes of a picture that was read back.
 [[nodiscard]] pipeline::Format strata_format(const Format& format);
 [[nodiscard]] pipeline::Image as_image(const Image& image);
 
-// Strata's picture of a job.
+// Strata's picture for a job.
 struct Rendered {
     pipeline::Image image;  // depth: the nearest depth of every pixel; else the colours
     int geometry_passes = 0;
 };
-// `job` is a name of job_names(). No audit runs. max_passes 0: to the end.
+// `job` is a name of job_names(). No audit runs. max_passes 0: unlimited.
 [[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
                               const TargetFormats& formats = {}, int max_passes = 0);
 

@@ -1,7 +1,7 @@
-// tools/port/probe/kit.h - a kit of scenes as `strata probe -o KIT` writes it, by a reader of the port's own.
+// tools/port/probe/kit.h - reads a kit of scenes written by `strata probe -o KIT`, with the port's own reader.
 //
 // Rule     KIT/kit.json (../../probe/DESIGN.md): floats are the 8 hexadecimal digits of their bits, so that no decimal
-//          is read.
+//          is parsed.
 #pragma once
 #include <array>
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ struct KitBlend {
 };
 
 struct KitDraw {
-    // x y z w in clip space, then r g b a: 8 words a corner, bits of binary32.
+    // x y z w in clip space, then r g b a: 8 words per corner, bits of binary32.
     std::vector<std::uint32_t> words;
     std::optional<KitBlend> blend;
     // Factor and units.
@@ -39,14 +39,14 @@ struct KitItem {
 struct Kit {
     std::string digest;
     std::vector<KitItem> items;
-    // As the file has them, and their digest; an empty array and no digest where it has none.
+    // As in the file, with their digest; an empty array and no digest if the file has none.
     nlohmann::json operations = nlohmann::json::array();
     std::string operations_digest;
 };
 
-// Words of a text of hexadecimal digits, 8 a word.
+// The words of a text of hexadecimal digits, 8 per word.
 [[nodiscard]] std::vector<std::uint32_t> words_of(const std::string& digits);
-// Throws std::runtime_error with file and place.
+// Throws std::runtime_error with the file and the JSON pointer.
 [[nodiscard]] Kit read_kit(const std::string& folder);
 
 }  // namespace strata::port

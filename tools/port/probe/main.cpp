@@ -1,5 +1,5 @@
-// tools/port/probe/main.cpp - strata_port_probe: a kit of scenes drawn by OpenGL, the answers written as a candidate
-// pack.
+// tools/port/probe/main.cpp - strata_port_probe: draws a kit of scenes with OpenGL and writes the answers as a
+// candidate pack.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -47,7 +47,7 @@ int limit(GLenum name) {
     return value;
 }
 
-// What OpenGL 3.3 core promises, and what this driver says of its limits.
+// The features of OpenGL 3.3 core, and the limits that this driver reports.
 ordered_json device() {
     ordered_json features;
     for (const char* name : {"has_d16", "has_d24", "has_d32f", "has_float_targets", "has_fragment_programs",
@@ -63,7 +63,7 @@ ordered_json device() {
     return features;
 }
 
-// The items that have an alpha test, or those that have none, in both orientations.
+// The items with an alpha test, or those without, in both orientations.
 void answer_items(const Kit& kit, bool alpha_tested, const fs::path& folder) {
     const Painter painter;
     for (const bool up : {true, false}) {
@@ -73,8 +73,7 @@ void answer_items(const Kit& kit, bool alpha_tested, const fs::path& folder) {
     }
 }
 
-// OpenGL 3.3 core has no alpha test: what has one is drawn in a context with what is deprecated, where the driver gives
-// one.
+// OpenGL 3.3 core has no alpha test: items with one are drawn in a compatibility context, if the driver provides one.
 void answer_alpha_tests(const Kit& kit, const std::string& driver, const fs::path& folder, ordered_json& missing) {
     if (std::ranges::none_of(kit.items, has_alpha_test)) return;
     try {
@@ -101,7 +100,7 @@ void answer_operations(const Kit& kit, const fs::path& folder, ordered_json& mis
     }
 }
 
-// What was asked for of several samples a pixel, by number.
+// The requested multisampled answers, by number of samples.
 void answer_multisampled(const Kit& kit, const std::vector<int>& numbers, const fs::path& folder) {
     if (numbers.empty()) return;
     const Painter painter;

@@ -28,7 +28,7 @@ const std::map<std::string, Upload> uploads{{"r32f", {GL_R32F, GL_RED, GL_FLOAT}
                                             {"d24", {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT}},
                                             {"d32f", {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT}}};
 
-// A code of a depth over 32 bits, its upper bits repeated below.
+// Extends a depth's code to 32 bits by repeating its upper bits below.
 void widen(Words& words, const std::string& format) {
     for (std::uint32_t& word : words)
         if (format == "d16")
@@ -55,7 +55,7 @@ Handle make_image(const json& described) {
     return image;
 }
 
-// x y z w a corner, as attribute 0 of the layout that is bound.
+// x y z w per corner, as attribute 0 of the bound vertex array.
 class Corners {
   public:
     explicit Corners(const Words& words) : count_{static_cast<GLsizei>(words.size() / 4)} {
@@ -85,7 +85,7 @@ void show_colors(bool on) {
     glColorMask(value, value, value, value);
 }
 
-// Column by column: the value before, one draw with the operation, then a bit a row by EQUAL.
+// Column by column: the initial value, one draw with the operation, then one row per bit with EQUAL.
 void draw_stencil(const Words& inputs, Size size, const Corners& corners) {
     constexpr std::array<GLenum, 8> steps{GL_KEEP, GL_ZERO,   GL_REPLACE,   GL_INCR,
                                           GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
@@ -113,7 +113,7 @@ void draw_stencil(const Words& inputs, Size size, const Corners& corners) {
     for (const GLenum test : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST}) glDisable(test);
 }
 
-// Depths by the first program, then what has them by the second.
+// Depths with the first program, then the fragments that match them with the second.
 void draw_twice(const std::vector<Handle>& programs, const Corners& corners) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
@@ -139,7 +139,7 @@ void clear(Size size, bool is_words) {
     glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-// Bytes as words.
+// Converts bytes to words.
 Image widened(const Image& codes) {
     Image words{words_format, codes.size, std::vector<std::uint8_t>(codes.bytes.size() * 4)};
     for (std::size_t i = 0; i < codes.bytes.size(); ++i) words.bytes[4 * i] = codes.bytes[i];

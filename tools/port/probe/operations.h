@@ -1,7 +1,7 @@
-// tools/port/probe/operations.h - the kit's operations by OpenGL: a fragment reads four words of its texel and writes
-// four.
+// tools/port/probe/operations.h - draws the kit's operations with OpenGL: a fragment reads four words of its texel and
+// writes four.
 //
-// Rule     ../../probe/DESIGN.md says what a kit and a pack have of them.
+// Rule     ../../probe/DESIGN.md describes their format in a kit and in a pack.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace strata::port {
 
-// One operation, drawn; its results are words in rgba32ui. Throws std::runtime_error where OpenGL cannot draw it.
+// Draws one operation; its results are words in rgba32ui. Throws std::runtime_error if OpenGL cannot draw it.
 [[nodiscard]] Image draw_operation(const nlohmann::json& described);
 
 }  // namespace strata::port

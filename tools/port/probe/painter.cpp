@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-// Deprecated since OpenGL 3.0, so that glcorearb.h lacks it; libOpenGL has it.
+// Deprecated since OpenGL 3.0 and not in glcorearb.h; libOpenGL has it.
 extern "C" void glAlphaFunc(GLenum func, GLclampf ref);
 
 namespace strata::port {
@@ -11,7 +11,7 @@ namespace {
 
 constexpr GLenum alpha_test = 0x0BC0;  // GL_ALPHA_TEST
 
-// Positions are in clip space already, and the colour goes through as it is: the shaders compute nothing.
+// Positions are already in clip space, and the colour is passed through: the shaders compute nothing.
 constexpr auto vertex_text = R"(
 layout(location = 0) in vec4 clip;
 layout(location = 1) in vec4 corner_color;
@@ -64,7 +64,7 @@ void Painter::draw(const KitItem& item) const {
     glUseProgram(program_.name());
     glBindVertexArray(layout_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    // As peels are drawn: where no query counts, softpipe steps D16 along its spans (mesa-rasterizers.md 3.3).
+    // With a query, as peels have: without one softpipe steps D16 along its spans (mesa-rasterizers.md 3.3).
     glBeginQuery(GL_SAMPLES_PASSED, query_.name());
     for (const KitDraw& one : item.draws) draw(one);
     glEndQuery(GL_SAMPLES_PASSED);
@@ -80,7 +80,7 @@ void Painter::draw(const KitDraw& one) {
     }
     (one.polygon_offset ? glEnable : glDisable)(GL_POLYGON_OFFSET_FILL);
     if (one.polygon_offset) glPolygonOffset((*one.polygon_offset)[0], (*one.polygon_offset)[1]);
-    // Once on it stays: where it can be asked for, all items have it.
+    // Once enabled it stays enabled: in that context all items have an alpha test.
     if (one.alpha_above) {
         glEnable(alpha_test);
         glAlphaFunc(GL_GREATER, *one.alpha_above);

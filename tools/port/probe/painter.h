@@ -1,4 +1,4 @@
-// tools/port/probe/painter.h - draws the scenes of a kit into the framebuffer that is bound.
+// tools/port/probe/painter.h - draws the scenes of a kit into the bound framebuffer.
 #pragma once
 #include "tools/port/probe/kit.h"
 
@@ -6,7 +6,7 @@ namespace strata::port {
 
 [[nodiscard]] bool has_alpha_test(const KitItem& item);
 
-// Owns the program and the buffers; the context must still be current when it ends.
+// Owns the program and the buffers; the context must still be current when it is destroyed.
 class Painter {
   public:
     Painter();
@@ -14,7 +14,7 @@ class Painter {
     Painter& operator=(const Painter&) = delete;
     ~Painter();
 
-    // The whole item, after a clear.
+    // Clears, then draws the whole item.
     void draw(const KitItem& item) const;
 
   private:

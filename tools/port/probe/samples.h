@@ -1,5 +1,5 @@
-// tools/port/probe/samples.h - what a device does with several samples a pixel: where they lie, and which ones
-// triangles cover.
+// tools/port/probe/samples.h - measures multisampling: the positions of the samples, and the samples that triangles
+// cover.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace strata::port {
 
-// A texture of several samples a pixel, RGBA8 with a D32F depth, bound for drawing; contents undefined.
+// A multisampled texture, RGBA8 with a D32F depth, bound for drawing; contents undefined.
 class SampledTarget {
   public:
-    // Throws std::runtime_error if OpenGL has no such target.
+    // Throws std::runtime_error if OpenGL does not support such a target.
     SampledTarget(Size size, int samples);
 
-    // Samples a pixel: at least as many as were asked for.
+    // Samples per pixel: at least the requested number.
     [[nodiscard]] int samples() const noexcept { return samples_; }
-    // x and y of each sample in pixels, from the pixel's corner at the least window coordinates; multiples of 1/16 on
+    // x and y of each sample in pixels, from the pixel's corner with the least window coordinates; multiples of 1/16 on
     // most devices.
     [[nodiscard]] nlohmann::ordered_json positions() const;
     // The codes of one sample of each pixel.
@@ -31,7 +31,7 @@ class SampledTarget {
     Handle color_, depth_, framebuffer_;
 };
 
-// Draws those of the kit's scenes that blend nothing and have no alpha test, with so many samples a pixel and both
+// Draws the kit's scenes without blending and without an alpha test, with that many samples per pixel and in both
 // orientations, into FOLDER/ORIENTATION/SCENE/sample.K.color.npy and .depth.npy. Returns {"samples": n, "positions":
 // [[x, y], ...]}.
 [[nodiscard]] nlohmann::ordered_json answer_samples(const Kit& kit, const Painter& painter, int samples,
