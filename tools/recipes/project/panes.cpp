@@ -18,7 +18,7 @@ bool covers(const Pane& pane, double x, double y) {
 }  // namespace
 
 std::vector<unsigned char> draw_panes() {
-    // A mistake that people make, for the test that wants to see it found.
+    // A deliberate mistake, for the test that must detect it.
     const bool blends_wrongly = std::getenv("PANES_BLEND_WRONGLY") != nullptr;
     std::vector<unsigned char> pixels(4 * width * height);
     for (int y = 0; y < height; ++y)

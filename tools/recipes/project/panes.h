@@ -4,7 +4,7 @@
 
 inline constexpr int width = 64, height = 48;
 
-// A pane is a triangle in clip space with one colour, straight red, green, blue and alpha.
+// A pane is a triangle in clip space with one colour: red, green, blue and alpha, not premultiplied.
 struct Pane {
     float corners[9];
     float color[4];

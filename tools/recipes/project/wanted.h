@@ -1,4 +1,5 @@
-// What the panes look like on a GeForce 8.
+// Reference image of the scene in panes.h: the painter's algorithm on the geforce8 profile. Used by panes_test.cpp and
+// reference.cpp.
 #pragma once
 #include <strata/strata.h>
 
