@@ -3,8 +3,8 @@
 namespace strata::hardware_check {
 namespace {
 
-// A field of a word as 8 bits: its bits are repeated from the top down, and the last copy is cut
-// where 8 is no multiple of them.
+// A field of a word as 8 bits: its bits are repeated from the top down, and the last copy is truncated if 8 is not a
+// multiple of them.
 std::uint8_t widened(std::uint32_t word, const TexelField& field) {
     if (field.bits == 0) return 255;
     std::uint32_t value = word >> field.shift & ((1u << field.bits) - 1), result = 0;
@@ -15,7 +15,7 @@ std::uint8_t widened(std::uint32_t word, const TexelField& field) {
     return static_cast<std::uint8_t>(result);
 }
 
-// A square texture of `side` texels whose words `word(x, y)` gives.
+// A square texture of `side` texels with the words word(x, y).
 pipeline::Texture texture_of(const TexelFormat& format, int side, auto&& word) {
     pipeline::Texture texture;
     texture.target = pipeline::TextureTarget::rectangle;
@@ -27,17 +27,16 @@ pipeline::Texture texture_of(const TexelFormat& format, int side, auto&& word) {
     return texture;
 }
 
-// Toward zero. The test's patterns are at least 0.
+// Truncates. The test's patterns are at least 0.
 std::uint32_t cut(float v) { return static_cast<std::uint32_t>(v); }
 
-// 1 in the centre, 0 at the corner.
+// 1 at the centre, 0 at the corner.
 float nearness(float x, float y, float centre) {
     const float dx = x - centre, dy = y - centre;
     return 1.0f - (dx * dx + dy * dy) / (centre * centre + centre * centre);
 }
 
-// A 32-bit word: the two ramps repeat in each quarter of the square, alpha in the top byte spans
-// the whole.
+// A 32-bit word: the two ramps repeat in each quarter of the square; alpha, in the top byte, covers the whole.
 std::uint32_t wide_word(int x, int y, int side) {
     const int half = side / 2;
     const auto ramp = [half](int v) { return cut(static_cast<float>(v % half) * 255.0f / static_cast<float>(half)); };
@@ -45,8 +44,7 @@ std::uint32_t wide_word(int x, int y, int side) {
     return ramp(y) | ramp(x) << 8 | (255 - ramp(y)) << 16 | cut(255.0f * near) << 24;
 }
 
-// A 16-bit word of four nibbles, whatever the format makes of them: the test fills all 16-bit
-// formats alike.
+// A 16-bit word of four nibbles, independent of the format: the test fills all 16-bit formats alike.
 std::uint32_t narrow_word(int x, int y, int side) {
     const float last = static_cast<float>(side - 1), fx = static_cast<float>(x) / last,
                 fy = static_cast<float>(y) / last;

@@ -15,7 +15,7 @@ using Pixel = std::array<std::uint32_t, 4>;  // r g b a
 
 constexpr std::uint32_t label = 0x00ffffff;  // (255, 255, 255, 0)
 
-// Label pixels are marked by a colour: a picture of depth words has none.
+// Only colour pictures have labels, which are recognised by their colour.
 bool reads_color(Reading reading) { return reading == Reading::color || reading == Reading::drawn; }
 bool contains(const rasterizer::Rect& r, int x, int y) { return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1; }
 
@@ -24,7 +24,7 @@ std::uint32_t packed(const std::array<std::uint8_t, 4>& p) { return packed(Pixel
 
 using Row = std::array<std::uint32_t, picture_width>;
 
-// `word` of each pixel's first code in a row of `image`.
+// `word` applied to the first code of each pixel in a row of `image`.
 template <class F>
 Row row_of(const Image& image, int y, F&& word) {
     const auto channels = static_cast<std::size_t>(image.channels());
@@ -39,7 +39,7 @@ Row row_of(const Image& image, int y, F&& word) {
 
 std::uint32_t packed_codes(const std::uint32_t* c) { return c[0] | c[1] << 8 | c[2] << 16 | c[3] << 24; }
 
-// The words that stand for a row of the drawn picture; their_row() is the same for the capture.
+// The words of a row of the drawn picture; their_row() is the same for the capture.
 Row our_row(const Picture& drawn, int y) {
     switch (drawn.reading) {
         case Reading::color: return row_of(drawn.image, y, packed_codes);
@@ -59,8 +59,8 @@ Row our_row(const Picture& drawn, int y) {
     return {};  // unreachable: the enum is closed
 }
 
-// A capture is always rgba8. Depth is unpacked as compare.h says; without a stencil in the drawn
-// picture the capture's stencil byte counts as 0.
+// A capture is always rgba8. Depth is unpacked as described in compare.h; if the drawn picture has no stencil, the
+// capture's stencil byte is replaced by 0.
 Row their_row(const Picture& drawn, const Image& capture, int y) {
     using Codes = const std::uint32_t*;
     switch (drawn.reading) {
@@ -84,8 +84,8 @@ bool is_hidden(const Picture& drawn, int x, int y) {
                        [&](const rasterizer::Rect& r) { return contains(r, x, y); });
 }
 
-// 1 where a capture's pixel is a label, else 0. `theirs` is their_row() of the same row: under Reading::color the words
-// are the colours already.
+// 1 if a capture's pixel is a label, else 0. `theirs` is their_row() of the same row: for Reading::color its words are
+// the colours.
 Row labels_of(const Picture& drawn, const Image& capture, const Row& theirs, int y) {
     if (!reads_color(drawn.reading)) return {};
     Row labels = drawn.reading == Reading::color ? theirs : row_of(capture, y, packed_codes);
@@ -94,12 +94,12 @@ Row labels_of(const Picture& drawn, const Image& capture, const Row& theirs, int
     return labels;
 }
 
-// A row of both pictures: our words, the capture's, and 1 where the capture has a label.
+// A row of both pictures: our words, the capture's, and 1 for labels of the capture.
 struct RowPair {
     Row ours, theirs, labels;
 };
 
-// f(y, a row of both), from the top.
+// Calls f(y, row of both pictures), from the top.
 template <class F>
 void for_each_row(const Picture& drawn, const Image& capture, F&& f) {
     RowPair row;
@@ -111,7 +111,7 @@ void for_each_row(const Picture& drawn, const Image& capture, F&& f) {
     }
 }
 
-// f(x, y, whether the capture has a label there, our word, their word), row by row from the top.
+// Calls f(x, y, is a label, our word, their word), row by row from the top.
 template <class F>
 void for_each_pixel(const Picture& drawn, const Image& capture, F&& f) {
     for_each_row(drawn, capture, [&](int y, const RowPair& row) {
@@ -120,7 +120,7 @@ void for_each_pixel(const Picture& drawn, const Image& capture, F&& f) {
     });
 }
 
-// Theirs minus ours, in the reading's units.
+// The capture's word minus ours, in the reading's units.
 std::int64_t difference(Reading reading, std::uint32_t ours, std::uint32_t theirs) {
     if (reading == Reading::color) {
         std::int64_t worst = 0;
@@ -145,7 +145,7 @@ std::string digest_of(const Picture& drawn, const rasterizer::Rect& box, Words&&
     return digest(words);
 }
 
-// Counts a row's pixels, and keeps what differs.
+// Counts a row's pixels and records the differences.
 void add_row(Comparison& result, const Picture& drawn, int y, const RowPair& row) {
     for (std::size_t i = 0; i < picture_width; ++i) {
         const int x = static_cast<int>(i);
@@ -173,7 +173,7 @@ Comparison compare(const Picture& drawn, const Image& capture, const std::string
                              std::string{pipeline::info(capture.format).name}};
     Comparison result;
     for_each_row(drawn, capture, [&](int y, const RowPair& row) {
-        // Most rows are equal, and then only labels are left to count.
+        // Most rows are equal, and then only labels are counted.
         if (drawn.hidden.empty() && row.ours == row.theirs)
             result.compared += picture_width - std::accumulate(row.labels.begin(), row.labels.end(), 0U);
         else

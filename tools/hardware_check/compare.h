@@ -1,10 +1,11 @@
-// tools/hardware_check/compare.h - a drawn picture against the chip's.
+// tools/hardware_check/compare.h - compares a drawn picture with a capture of the NV2A chip.
 //
-// Rule     Both are read as a word a pixel: r g b a from the lowest byte on; 1 where a pixel is not the background; a
-//          16-bit depth, which a capture shows as R5G6B5 widened; a 24-bit depth above its stencil, which it shows in A
-//          R G and B. Label pixels of a colour capture, (255, 255, 255, 0) and what was overdrawn, and hidden
-//          rectangles are not compared. Colours differ by their largest channel difference in 1/255, the rest by units.
-// Source   the captures' own descriptions, as repeated in chip-fragment.md and chip-geometry.md.
+// Rule     Both are read as one word per pixel: r g b a from the lowest byte; 1 if a pixel is not the background; a
+//          16-bit depth, which a capture stores as R5G6B5 extended to 8 bits; a 24-bit depth above its stencil, which
+//          it stores in A R G and B. Label pixels of a colour capture, which are (255, 255, 255, 0) or `overdrawn`, and
+//          hidden rectangles are not compared. The difference of colours is their largest channel difference in 1/255,
+//          that of other words in units.
+// Source   the captures' own descriptions, repeated in chip-fragment.md and chip-geometry.md.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include <array>
@@ -14,32 +15,31 @@
 
 namespace strata::hardware_check {
 
-// The outcome for one picture. Counts are pixels.
+// The result for one picture. Counts are of pixels.
 struct Comparison {
     std::uint64_t compared = 0, differing = 0;
-    // The greatest difference of a pixel: 1/255 of a colour, else units of depth with the stencil
-    // below.
+    // The largest difference of a pixel: 1/255 for a colour, else units of depth with the stencil in the low byte.
     std::uint32_t largest = 0;
-    // Theirs minus ours, to the number of such pixels. A colour's difference has no sign: the size
-    // of its worst channel stands for it.
+    // The capture's value minus ours, mapped to the number of pixels. For a colour it is the magnitude of the worst
+    // channel.
     std::map<std::int64_t, std::uint64_t> histogram{};
-    // x, y of the first differing pixel in rows from the top, and both words there.
+    // x, y of the first differing pixel, in rows from the top, and both words there.
     std::array<int, 2> first{};
     std::uint32_t ours = 0, theirs = 0;
-    // At most as many pixels as `Picture::bound` allows, each by at most its units.
+    // At most as many pixels differ as `Picture::bound` allows, each by at most its units.
     bool within_bound = false;
 };
 
-// `capture`: rgba8. Throws InputError, naming `path`, if its size is another.
+// `capture` is rgba8. Throws InputError, which names `path`, if its size differs.
 [[nodiscard]] Comparison compare(const Picture& drawn, const pipeline::Image& capture, const std::string& path);
 
-// For people: what differs, red where theirs is more and cyan where it is less; labels are white.
+// For viewing: differences, red if the capture's value is larger and cyan if it is smaller; labels are white.
 [[nodiscard]] pipeline::Image difference_picture(const Picture& drawn, const pipeline::Image& capture);
 
-// The smallest rectangle round all label pixels; empty if there are none.
+// The bounding rectangle of all label pixels; empty if there are none.
 [[nodiscard]] rasterizer::Rect label_box(const Picture& drawn, const pipeline::Image& capture);
-// Digest of the words outside a rectangle and the hidden ones, those inside taken as 0: of the picture, or of the
-// capture.
+// Digest of the words outside a rectangle and the hidden ones, with those inside replaced by 0: of the picture, or of
+// the capture.
 [[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn);
 [[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn,
                                          const pipeline::Image& capture);

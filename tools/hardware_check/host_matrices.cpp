@@ -7,7 +7,7 @@ namespace {
 
 using Three = std::array<float, 3>;
 
-// The matrix without one row and one column.
+// The matrix without one row and one column, for a cofactor.
 using Minor = std::array<std::array<double, 3>, 3>;
 Minor minor_of(const HostMatrix& m, std::size_t row, std::size_t column) {
     Minor rest{};
@@ -26,7 +26,7 @@ double determinant(const Minor& m) {
     return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
 }
 
-// By two-by-two determinants of the lower rows.
+// Expanded by two-by-two determinants of the lower rows.
 double determinant(const HostMatrix& matrix) {
     const auto number = [&](std::size_t r, std::size_t c) { return double{matrix[r][c]}; };
     const double a = number(0, 0), b = number(0, 1), c = number(0, 2), d = number(0, 3);

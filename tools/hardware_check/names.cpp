@@ -15,7 +15,7 @@ using pipeline::CompareFunc;
 template <class T>
 using Word = std::pair<std::string_view, T>;
 
-// The word's meaning; nothing for a word that is not in the list.
+// The word's meaning; empty if it is not in the list.
 template <class T, std::size_t n>
 std::optional<T> look_up(const std::array<Word<T>, n>& words, std::string_view word) {
     const auto found = std::find_if(words.begin(), words.end(), [&](const Word<T>& w) { return w.first == word; });

@@ -1,4 +1,4 @@
-// tools/hardware_check/names.h - the words that upstream's file names are made of.
+// tools/hardware_check/names.h - parses the words of the captures' file names.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -9,19 +9,19 @@
 
 namespace strata::hardware_check {
 
-// Removes `prefix`, or answers false and leaves the name.
+// Removes `prefix`; returns false and leaves the name unchanged if it is absent.
 inline bool take(std::string_view& name, std::string_view prefix) {
     if (!name.starts_with(prefix)) return false;
     name.remove_prefix(prefix.size());
     return true;
 }
-// Removes `suffix`, or answers false and leaves the name.
+// Removes `suffix`; returns false and leaves the name unchanged if it is absent.
 inline bool take_last(std::string_view& name, std::string_view suffix) {
     if (!name.ends_with(suffix)) return false;
     name.remove_suffix(suffix.size());
     return true;
 }
-// Removes and returns the text before `separator`, which goes with it; the whole name if there is no separator.
+// Removes and returns the text before `separator`, and removes the separator; the whole name if there is none.
 inline std::string_view take_until(std::string_view& name, std::string_view separator) {
     const std::size_t end = name.find(separator);
     const std::string_view word = name.substr(0, end);
@@ -29,13 +29,12 @@ inline std::string_view take_until(std::string_view& name, std::string_view sepa
     return word;
 }
 
-// A decimal number; the whole text counts. It may be infinite or NaN: callers check the range that
-// they draw.
+// A decimal number; the whole text must be one. It may be infinite or NaN: callers check the range.
 [[nodiscard]] std::optional<float> to_number(std::string_view text);
 // Hexadecimal digits without 0x, at most 32 bits.
 [[nodiscard]] std::optional<std::uint32_t> to_hexadecimal(std::string_view text);
 
-// The meanings of words in names; nothing for a word that upstream does not use.
+// The meanings of words in names; empty for an unknown word.
 [[nodiscard]] std::optional<pipeline::CompareFunc> compare_func(
     std::string_view word);  // Never, LessThan ...; N, LT ...
 [[nodiscard]] std::optional<pipeline::BlendFactor> blend_factor(std::string_view word);  // 0, 1, srcRGB, 1-srcRGB ...

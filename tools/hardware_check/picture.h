@@ -1,9 +1,10 @@
-// tools/hardware_check/picture.h - pictures that a public test suite drew on a GeForce3-class chip, drawn again from
-// their names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
+// tools/hardware_check/picture.h - redraws the pictures that a public test suite drew on the NV2A chip (GeForce3
+// class), from their names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
 //
-// Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is
-//          not modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
-// Source   chip-fragment.md, chip-geometry.md, chip-depth.md: scene by scene.
+// Rule     A suite's file turns a name into draws, without reading the capture. Scenes that the reference does not
+//          describe are reported as not modelled. Pixels of a label (text that the test wrote over its picture) are not
+//          compared.
+// Source   chip-fragment.md, chip-geometry.md, chip-depth.md, by scene.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include <array>
@@ -22,49 +23,47 @@ namespace strata::hardware_check {
 
 inline constexpr int picture_width = 640, picture_height = 480;
 
-// How a capture's bytes are read and compared. Its channels also hold depth words, because the test
-// can save nothing but colours.
+// How a capture's bytes are interpreted and compared. Its channels may contain depth words, because the test can only
+// save colours.
 enum class Reading : std::uint8_t {
     color,    // r g b a
-    drawn,    // which pixels differ from `background`, nothing else
-    depth16,  // a 16-bit word shown as R5G6B5
-    depth24   // a 24-bit word in A R G, the stencil in B
+    drawn,    // only whether a pixel differs from `background`
+    depth16,  // a 16-bit depth stored as R5G6B5
+    depth24   // a 24-bit depth in A R G, the stencil in B
 };
 
-// The difference that is allowed; 0 and 0: none. A pixel that differs by more than `units` (1/255 or depth units) is
-// always too much. No bound is above 250 pixels: what is beyond it is outside, and counted.
+// The tolerated difference; 0 and 0: none. A pixel that differs by more than `units` (1/255 or depth units) is never
+// tolerated. No bound is above 250 pixels.
 struct Bound {
     std::uint64_t pixels = 0;
     std::uint32_t units = 0;
     friend bool operator==(const Bound&, const Bound&) = default;
 };
 
-// The picture that a suite drew for one name, and how it is to be compared.
+// The picture that a suite drew for one name, and how it is compared.
 struct Picture {
     Reading reading = Reading::color;
     // rgba8 for colours; else the depth buffer in its own format.
     pipeline::Image image{};
-    // Beside depth24 where the test has a stencil, else empty.
+    // With depth24, if the test has a stencil; else empty.
     pipeline::Image stencil{};
-    // The clear colour, r g b a; for Reading::drawn alone.
+    // The clear colour, r g b a; only for Reading::drawn.
     std::array<std::uint8_t, 4> background{};
-    // Half-open rectangles that are not compared. Label pixels need none: (255, 255, 255, 0) in a
-    // colour capture.
+    // Half-open rectangles that are not compared. Label pixels of a colour capture, (255, 255, 255, 0), need none.
     std::vector<rasterizer::Rect> hidden{};
-    // A colour that the test drew over its picture, and that the picture itself cannot have: such pixels of a capture
+    // A colour that the test drew over its picture and that the picture itself cannot contain: such pixels of a capture
     // are labels, too.
     std::optional<std::array<std::uint8_t, 4>> overdrawn{};
     Bound bound{};
-    // Counts that the chip's occlusion queries would answer, in order. No capture holds them: they
-    // are told, not compared.
+    // The counts that the chip's occlusion queries would return, in order. No capture contains them: they are reported,
+    // not compared.
     std::vector<std::uint64_t> reports{};
 };
 
-// The reason of a name that its suite does not have, which sets it apart from a picture that is not
-// modelled.
+// The reason for a name that its suite does not have; it distinguishes this from a picture that is not modelled.
 inline constexpr std::string_view unknown_name_reason = "no picture of this name is known";
 
-// A picture, or nothing and the reason why it is not modelled.
+// A picture, or the reason why it is not modelled.
 struct Drawing {
     std::optional<Picture> picture;
     std::string reason;
@@ -72,13 +71,14 @@ struct Drawing {
 
 using Subjects = std::uint8_t;  // a set: bit s for rasterizer::Subject s
 
-// One of upstream's suites. Its function parses a name and draws that picture under a profile.
+// One of the test suites. Its function parses a name and draws that picture under a profile.
 struct Suite {
-    std::string_view name;  // the folder's
+    std::string_view name;  // the folder's name
     Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
-    // The subjects of open rules that its pictures can decide; 0: none.
+    // The subjects of undetermined rules on which its pictures depend; 0: none.
     Subjects tells = 0;
-    // Of a suite whose test loaded images: with `textures`, the folder that holds them. `draw` does without.
+    // For a suite whose test loaded images: draws with `textures`, the folder that contains them; `draw` draws without
+    // it. Null for other suites.
     Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile,
                          const std::string& textures) = nullptr;
 };

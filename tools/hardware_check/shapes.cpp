@@ -59,8 +59,8 @@ pipeline::Texture as_texture(const pipeline::Image& image) {
 void place(pipeline::Surface& surface, const pipeline::Texture& image, float x, float y, pipeline::DrawState state) {
     const float width = static_cast<float>(image.width), height = static_cast<float>(image.height);
     TriangleSoup soup = box({x, y, x + width, y + height}, 0xffffffff);
-    // Texel (0, 0) lies at the rectangle's upper left corner, so every pixel centre meets a texel's
-    // centre where x and y are whole.
+    // Texel (0, 0) is at the rectangle's upper left corner, so every pixel centre is at a texel's centre if x and y are
+    // integers.
     for (ClipVertex& v : soup.vertices) v.texcoord = {v.x - x, v.y - y};
     state.texture = &image;
     static_cast<void>(surface.draw(state, std::move(soup)));

@@ -1,7 +1,7 @@
-// tools/hardware_check/shapes.h - window-space shapes in the vertex order that the chip gave them.
+// tools/hardware_check/shapes.h - window-space shapes in the chip's vertex order.
 //
-// Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise as
-//          seen. A packed colour is AARRGGBB.
+// Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise in the
+//          window. A packed colour is AARRGGBB.
 // Source   chip-geometry.md 2.1; chip-fragment.md 1.1.
 #pragma once
 #include <array>
@@ -23,7 +23,7 @@ using rasterizer::TriangleSoup;
 [[nodiscard]] ClipVertex at(float x, float y, float z, const std::array<float, 4>& color, float w = 1.0f);
 [[nodiscard]] inline ClipVertex at(float x, float y, Argb color) { return at(x, y, 0.0f, to_float(color)); }
 
-// Both append to the soup in submission order. No vertex is shared between triangles.
+// Both append to the soup in submission order. Triangles do not share vertices.
 void add_triangle(TriangleSoup& soup, const ClipVertex& a, const ClipVertex& b, const ClipVertex& c);
 void add_quad(TriangleSoup& soup, const std::array<ClipVertex, 4>& corner);
 
@@ -34,13 +34,13 @@ struct Box {
 void add_box(TriangleSoup& soup, const Box& box, Argb color, float z = 0.0f);
 [[nodiscard]] TriangleSoup box(const Box& where, Argb color, float z = 0.0f);
 
-// Copies `image` to (x, y) texel by texel, blended as `state` says.
+// Copies `image` to (x, y) texel by texel, blended with `state`.
 void place(pipeline::Surface& surface, const pipeline::Texture& image, float x, float y, pipeline::DrawState state);
-// rgba8 codes as a rectangle texture with nearest lookups.
+// rgba8 codes as a rectangle texture with nearest filtering.
 [[nodiscard]] pipeline::Texture as_texture(const pipeline::Image& image);
 
-// The depth range from `least` to `greatest` in buffer units, of which depth 1 has `units`: both limits are inside,
-// although DrawState takes shares of 1 in binary32.
+// Sets the depth range from `least` to `greatest` in buffer units, where depth 1 is `units`. Both limits are inside,
+// although DrawState stores fractions of 1 in binary32.
 void limit_depth(pipeline::DrawState& state, double least, double greatest, double units);
 
 [[nodiscard]] float next_below(float positive);  // the next smaller binary32

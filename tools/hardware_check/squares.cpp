@@ -7,7 +7,7 @@ namespace {
 
 constexpr float square_side = 100, first_left = 120, first_top = 140, upper_z = 10, lower_z = 0;
 
-// The chip's two ways from the host's camera to the window.
+// The two transforms from the host's camera to the window.
 struct Projection {
     HostCamera camera = default_camera(65535.0f);
     CompositeMatrix all = columns_of(camera.composite), view = columns_of(look_at({0, 0, -7}, {0, 0, 0})),
@@ -23,7 +23,7 @@ struct Projection {
 };
 using Way = HostVector (Projection::*)(const HostVector& world) const;
 
-// Adds a box of the window, whose corners come back from the world by `way`.
+// Adds a box of the window, whose corners are un-projected and then projected by `way`.
 void add_projected(TriangleSoup& soup, const Projection& projection, Way way, const Box& b, Argb color, float z_shift) {
     const auto corner = [&](float x, float y, float z) {
         const HostVector window = (projection.*way)(unprojected(projection.camera, x, y, z + z_shift));
@@ -33,10 +33,10 @@ void add_projected(TriangleSoup& soup, const Projection& projection, Way way, co
                     corner(b.left, b.bottom, lower_z)});
 }
 
-// Whether the fixed pipeline draws square `i` of eight_squares().
+// True if the fixed-function pipeline draws square `i` of eight_squares().
 constexpr bool is_fixed[8] = {false, true, false, true, true, false, true, false};
 
-// Those squares of eight_squares() that one of the two pipelines draws.
+// The squares of eight_squares() drawn by one of the two pipelines.
 TriangleSoup half_of(const Projection& projection, float shift, bool fixed, Argb color) {
     TriangleSoup half;
     for (int i = 0; i < 8; ++i) {

@@ -1,14 +1,14 @@
-// tools/hardware_check/suite.h - one function a suite, each in a file of its own.
+// tools/hardware_check/suite.h - one function per suite, each in its own file.
 #pragma once
 #include "tools/hardware_check/picture.h"
 
 namespace strata::hardware_check {
 
-// The answer to a name that the suite does not have.
+// The result for a name that the suite does not have.
 inline const Drawing unknown_name{std::nullopt, std::string{unknown_name_reason}};
 
-// Each takes the name of a capture without its folder and ending. Names are untrusted: they come
-// from files. Each throws Refused where the profile lacks what the picture needs.
+// Each takes the name of a capture without folder and ending. Names come from files and are untrusted. Each throws
+// Refused if the profile lacks what the picture needs.
 Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_tests(std::string_view name, const pipeline::DeviceProfile& profile);

@@ -11,8 +11,8 @@ namespace {
 using rasterizer::Subject;
 
 constexpr Subjects set_of(Subject subject) { return static_cast<Subjects>(1u << static_cast<unsigned>(subject)); }
-// The sets of subjects that occur. A suite has one if its pictures can decide between values of an
-// open constant on that subject.
+// The sets of subjects in use. A suite has a subject if its pictures can distinguish values of an undetermined constant
+// of that subject.
 constexpr Subjects colors = set_of(Subject::color), coordinates = set_of(Subject::coordinates),
                    words = set_of(Subject::window_depth), quotients = set_of(Subject::texture_depth);
 

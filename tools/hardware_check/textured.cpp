@@ -4,7 +4,7 @@ namespace strata::hardware_check {
 
 TriangleSoup textured_quad(const std::array<TexturedCorner, 4>& corner, Argb color) {
     TriangleSoup soup;
-    // Four floats a unit for all units, whether a test uses them or not.
+    // Four floats per unit, for all units, whether a test uses them or not.
     soup.extras.stride = 4 * rasterizer::texture_units;
     soup.extras.has_units = true;
     const auto add = [&](std::size_t k) {
@@ -12,8 +12,7 @@ TriangleSoup textured_quad(const std::array<TexturedCorner, 4>& corner, Argb col
             soup.extras.values.insert(soup.extras.values.end(), unit.begin(), unit.end());
         return at(corner[k].x, corner[k].y, color);
     };
-    // Values are appended vertex by vertex: they must come in the order in which add_triangle()
-    // numbers the vertices.
+    // Values are appended vertex by vertex and must be in the order in which add_triangle() numbers the vertices.
     for (const std::array<std::size_t, 3>& triangle : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
         const ClipVertex a = add(triangle[0]), b = add(triangle[1]), c = add(triangle[2]);
         add_triangle(soup, a, b, c);
@@ -23,7 +22,7 @@ TriangleSoup textured_quad(const std::array<TexturedCorner, 4>& corner, Argb col
 
 pipeline::Combiners show(pipeline::CombinerRegister color, pipeline::CombinerRegister alpha) {
     using pipeline::CombinerMapping;
-    // Zero's own alpha would be 0: inverted it is 1.
+    // The alpha of `zero` would be 0; inverted it is 1.
     const bool is_one = alpha == pipeline::CombinerRegister::zero;
     pipeline::Combiners combiners;
     combiners.final_stage.d = {.source = color};

@@ -1,8 +1,7 @@
-// tools/hardware_check/textured.h - quads whose corners bring coordinates of texture units, and combiners that show a
-// register.
+// tools/hardware_check/textured.h - helpers for capture comparisons: quads with per-vertex texture coordinates, and
+// combiner setups that output a register.
 //
-// Rule     Corners are listed as in shapes.h. The tests give all corners of a quad one w, so none is needed here: w
-//          is 1.
+// Rule     Corners are listed as in shapes.h. w is 1: the captured tests use the same w for all corners of a quad.
 // Source   chip-depth.md 6 and 7, chip-geometry.md 4.
 #pragma once
 #include "pipeline/region/fragment_path.h"
@@ -17,14 +16,15 @@ struct TexturedCorner {
 };
 [[nodiscard]] TriangleSoup textured_quad(const std::array<TexturedCorner, 4>& corner, Argb color = 0xffffffff);
 
-// No general stage; the final one gives `color` as it is, and as alpha the register's own or, from `zero`, 1.
+// Register combiners without general stages: final RGB = color, final alpha = alpha, or 1 if alpha is
+// CombinerRegister::zero.
 [[nodiscard]] pipeline::Combiners show(pipeline::CombinerRegister color, pipeline::CombinerRegister alpha);
 
-// A square checker of `texels` a side, nearest lookups; its cells have `cell` texels a side, and the one at texel (0,
-// 0) is `first`.
+// A checkerboard of texels x texels, with square cells of cell x cell texels; the top left cell is `first`. Nearest
+// filtering.
 [[nodiscard]] pipeline::Texture checker(int texels, int cell, Argb first, Argb second);
 
-// A lookup at s/q, t/q in texels.
+// A rectangle-texture stage: samples at (s/q, t/q) in unnormalized texel coordinates.
 [[nodiscard]] pipeline::ShaderStage rectangle_lookup(const pipeline::BoundTexture& texture);
 
 }  // namespace strata::hardware_check

@@ -1,4 +1,4 @@
-// Suite Alpha_func: AlphaFunc<function>_<Enabled|Disabled>. Ramps of alpha against the reference 7F, blended.
+// Suite Alpha_func: AlphaFunc<function>_<Enabled|Disabled>. Ramps of alpha tested against the reference 7F, blended.
 // chip-fragment.md 2.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -9,8 +9,8 @@ namespace {
 
 using Color = std::array<float, 4>;
 
-// A quad 512 pixels wide and 64 high. Its colour goes from `left` at x = 64 to `right` at x = 576,
-// so that each code of alpha spans about two columns.
+// A quad 512 pixels wide and 64 high. Its colour changes from `left` at x = 64 to `right` at x = 576, so that each code
+// of alpha covers about two columns.
 TriangleSoup ramp(float top, const Color& left, const Color& right) {
     TriangleSoup soup;
     add_quad(soup,
@@ -31,15 +31,14 @@ Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& pr
     surface.clear_color(unpack(0xff222322));
     const pipeline::DrawState state{.alpha = {.enabled = enabled, .func = *func, .ref = 127.0f / 255.0f},
                                     .blend = pipeline::blend_mode::over};
-    // 149.333 is no multiple of 1/16: the chip cuts it to 149.3125, which the pictures show.
+    // 149.333 is not a multiple of 1/16: the chip truncates it to 149.3125, as the captures show.
     constexpr float top = 149.333f;
     surface.draw(state, ramp(top, {1, 0, 0, 0}, {1, 0, 0, 1}));
     surface.draw(state, ramp(top + 64, {0, 0, 1, 1}, {0, 0, 1, 0}));
-    // The narrow range shows that vertex alphas are 8-bit codes before they are interpolated: 0.495
-    // and 0.505 become 126 and 129.
+    // The narrow range shows that vertex alphas are converted to 8-bit codes before interpolation: 0.495 and 0.505
+    // become 126 and 129.
     surface.draw(state, ramp(top + 128, {0, 1, 0, 0.495f}, {0, 1, 0, 0.505f}));
-    // Alpha 7F meets the reference 7F itself: EQUAL, LEQUAL and GEQUAL pass here, LESS and GREATER
-    // do not.
+    // Alpha 7F equals the reference: EQUAL, LEQUAL and GEQUAL pass here, LESS and GREATER do not.
     surface.draw(state, box({0, top + 192, 640, top + 224}, 0x7fffffff));
     return {Picture{.image = surface.color()}, {}};
 }

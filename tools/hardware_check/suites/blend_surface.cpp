@@ -1,5 +1,5 @@
-// Suite Blend_surface: <DstAlpha|1-DstAlpha>_<format>: what destination alpha is worth in surfaces with and without it.
-// <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them. chip-fragment.md 5.
+// Suite Blend_surface: <DstAlpha|1-DstAlpha>_<format>: the value of destination alpha in surfaces with and without
+// alpha. <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them. chip-fragment.md 5.
 #include <algorithm>
 
 #include "tools/hardware_check/blend_patterns.h"
@@ -14,13 +14,11 @@ using pipeline::BlendEquation;
 using pipeline::BlendFactor;
 using pipeline::Format;
 
-// A surface of the name, and what stands in those bits of a pixel that hold neither colour nor
-// alpha.
+// A surface format, and the value of the bits of a pixel that store neither colour nor alpha.
 struct Layout {
     std::string_view name;
     Format format;
-    // True: bits that hold nothing are written as 1, and the texture unit reads them as alpha.
-    // False: they are 0.
+    // True: unused bits are written as 1, and the texture unit reads them as alpha. False: they are 0.
     bool ones = false;
 };
 constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
@@ -32,23 +30,23 @@ constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
                               {"X_Z1RGB5", Format::x1r5g5b5, false},
                               {"X_O1RGB5", Format::x1r5g5b5, true}};
 
-// Pixels a side of an off-screen target (chip-fragment.md 5).
+// Pixels per side of an off-screen target (chip-fragment.md 5).
 constexpr int side = 128;
 
-// A filled target on which 22FFFFFF is blended by its destination alpha. The texture unit shows what is stored.
+// A filled target onto which 22FFFFFF is blended with its destination alpha. The texture unit displays the stored
+// codes.
 pipeline::Image blended(const pipeline::DeviceProfile& profile, Format format, BlendFactor factor, Argb fill) {
     pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
     target.clear_color(unpack(fill));
-    // The destination's factor is zero, so the pixel becomes the source times its destination
-    // alpha: the picture shows that alpha as a grey.
+    // The destination's factor is zero, so the pixel becomes the source times destination alpha, and the picture shows
+    // that alpha as grey.
     const pipeline::BlendTerm term{BlendEquation::add, factor, BlendFactor::zero};
     target.draw({.blend = {true, term, term}}, box({0, 0, side, side}, 0x22ffffff));
     return target.color();
 }
 
-// The alpha that a lookup finds for a stored alpha `code`. Seven stored bits read as (a >> 1), with
-// the unused bit above them; formats without alpha read the unused byte or bit, and R5G6B5, which
-// has none, reads 255.
+// The alpha that a lookup returns for a stored alpha `code`. Seven stored bits are read as (a >> 1) with the unused bit
+// above them; formats without alpha return the unused byte or bit, and R5G6B5, which has none, returns 255.
 std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
     switch (layout.format) {
         case Format::x1a7r8g8b8: return static_cast<std::uint8_t>((layout.ones ? 0x80 : 0) | code >> 1);
@@ -59,9 +57,8 @@ std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
     }
 }
 
-// The surface as a texture. A 16-bit surface keeps the upper 5 or 6 bits of a colour and zeros
-// below; the texture unit fills those with the upper bits again, whereas blending reads the zeros
-// (chip-fragment.md 5).
+// The surface as a texture. A 16-bit surface stores the upper 5 or 6 bits of a colour with zeros below; the texture
+// unit fills these with the upper bits again, while blending reads the zeros (chip-fragment.md 5).
 pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) {
     pipeline::Texture texture = as_texture(image);
     const auto widened = [](std::uint8_t v, int bits) { return static_cast<std::uint8_t>(v | v >> bits); };
@@ -76,12 +73,12 @@ pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) 
     return texture;
 }
 
-// Shows a target as the test does: its upper 64 rows blended by the alpha that the texture unit
-// reads, its lower 64 rows opaque.
+// Displays a target as the test does: its upper 64 rows blended with the alpha that the texture unit reads, its lower
+// 64 rows opaque.
 void show(pipeline::Surface& window, const pipeline::Texture& texture, float x, float y) {
     pipeline::Texture half = texture;
     half.height = side / 2;
-    // Half of the rows, four bytes a texel.
+    // Half of the rows, four bytes per texel.
     const std::size_t bytes = static_cast<std::size_t>(side) * side / 2 * 4;
     half.texels.assign(texture.texels.begin(), texture.texels.begin() + static_cast<std::ptrdiff_t>(bytes));
     place(window, half, x, y, {.blend = pipeline::blend_mode::over});
@@ -90,16 +87,15 @@ void show(pipeline::Surface& window, const pipeline::Texture& texture, float x, 
     place(window, half, x, y + side / 2, {.blend = pipeline::blend_mode::over});
 }
 
-// A target over which the pattern is blended four times, 12 pixels further right and down each
-// time, so that up to four copies overlap. In the right corners squares of 8 x 8 are blended four
-// times, in the left ones once: grey above, a colour of alpha 0 below. Errors of one rounding add
-// up where the same square is blended again.
+// A target onto which the pattern is blended four times, each time 12 pixels further right and down, so that up to four
+// copies overlap. In the right corners squares of 8 x 8 are blended four times, in the left ones once: grey above, a
+// colour of alpha 0 below. Rounding errors accumulate where the same square is blended repeatedly.
 pipeline::Image patterned(const pipeline::DeviceProfile& profile, Format format, const pipeline::Blend& blend,
                           const TexelFormat& texels) {
     constexpr int swatch = 64, step = 12, corner = 8, copies = 4;
     constexpr float far = side - corner;
     pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
-    // r g b a of the test's background.
+    // The test's background, r g b a.
     target.clear_color({25, 25, 25, 178});
     const pipeline::Texture pattern = radial_pattern(texels, swatch);
     for (int k = 1; k <= copies; ++k) {
@@ -124,15 +120,15 @@ std::optional<BlendFactor> added_factor(std::string_view name) {
     return std::nullopt;
 }
 
-// Null for a name that no surface has.
+// Null if no surface has that name.
 const Layout* find_layout(std::string_view name) {
     const auto* const found =
         std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
     return found == std::end(layouts) ? nullptr : found;
 }
 
-// One tile a texel format, four a row, each an own target of `layout_name`. Tiles are shown with
-// alpha 255: the picture is about colours.
+// One tile per texel format, four per row, each an own target of `layout_name`. Tiles are displayed with alpha 255,
+// because the picture is about colours.
 Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layout_name, std::string_view factor_name) {
     const Layout* const layout = find_layout(layout_name);
     const auto factor = added_factor(factor_name);
@@ -153,7 +149,7 @@ Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layo
 }  // namespace
 
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile) {
-    // Both kinds of names hold factor and format, in opposite order: DstAlpha_<format>, but
+    // Both kinds of names contain factor and format, in opposite order: DstAlpha_<format>, but
     // <format>_Add_SrcA_<factor>.
     constexpr std::string_view added = "_Add_SrcA_";
     if (const std::size_t place = name.find(added); place != std::string_view::npos)

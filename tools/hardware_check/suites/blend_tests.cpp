@@ -25,7 +25,7 @@ struct Square {
     [[nodiscard]] Box box() const { return {x, y, x + side, y + side}; }
 };
 
-// Nested squares: colours replaced, then alpha blended, which sees the colours just written.
+// Nested squares: colours are replaced, then alpha is blended, which reads the colours just written.
 void alpha_stack(Surface& target, Square s, float inset, const Blend& state) {
     for (const Argb color : {0x7f00cc00u, 0xffcc0000u, 0x800000ffu, 0x00ffffffu}) {
         target.draw({.color_mask = colors}, box(s.box(), color));
@@ -34,7 +34,7 @@ void alpha_stack(Surface& target, Square s, float inset, const Blend& state) {
     }
 }
 
-// Squares downwards: colours blended, then alpha replaced.
+// Squares from top to bottom: colours are blended, then alpha is replaced.
 void color_stack(Surface& target, Square s, const Blend& state) {
     for (const Argb color : {0xdd00dd00u, 0xdddd0000u, 0xdd0000ddu, 0xddffffffu}) {
         target.draw({.blend = state, .color_mask = colors}, box(s.box(), color));

@@ -7,18 +7,17 @@
 namespace strata::hardware_check {
 namespace {
 
-// The words of the clear command, one a tile. Every byte of every word is another, so that an
-// exchanged channel is seen.
+// The words of the clear command, one per tile. All bytes of all words differ, so that an exchanged channel is
+// detected.
 constexpr Argb clear_words[] = {0x00dacaba, 0x011b2b3b, 0x7f3c2c1c, 0x804d5d6d, 0xfe0ece3e, 0xff8f9faf};
 constexpr int side = 128;
 
-// A surface's bits that hold nothing: which they are, and what is written there.
+// A surface's unused bits, and the value written to them.
 struct Layout {
     std::string_view name;
-    // Bytes a pixel.
+    // Bytes per pixel.
     int bytes;
-    // `unused`: mask of the bits that hold nothing. `value`: what is written there, within that
-    // mask.
+    // `unused`: mask of the unused bits. `value`: what is written there, within that mask.
     Argb unused = 0, value = 0;
 };
 constexpr Layout layouts[] = {{"A8R8G8B8", 4},
@@ -30,15 +29,14 @@ constexpr Layout layouts[] = {{"A8R8G8B8", 4},
                               {"X1A7R8G8B8_Z1A7R8G8B8", 4, 0x80000000, 0},
                               {"X1A7R8G8B8_O1A7R8G8B8", 4, 0x80000000, 0x80000000}};
 
-// The surface's contents after a clear with `word`: a 16-bit surface takes the low half as it is, without any
-// conversion.
+// The surface's contents after a clear with `word`: a 16-bit surface takes the low half without any conversion.
 [[nodiscard]] Argb stored(const Layout& layout, Argb word) {
     const Argb kept = layout.bytes == 2 ? word & 0xffff : word;
     return (kept & ~layout.unused) | layout.value;
 }
 
-// The texel (x, y) that a 32-bit lookup finds in a surface of any format, r in the lowest byte. Two
-// 16-bit pixels make one texel. `mark` is the word of the 4 x 4 square in the middle.
+// The texel (x, y) that a 32-bit lookup returns for a surface of any format, r in the lowest byte. Two 16-bit pixels
+// are one texel. `mark` is the word of the 4 x 4 square in the middle.
 pipeline::PixelCode texel(const Layout& layout, Argb word, Argb mark, int x, int y) {
     const auto pixel = [&](int column, int row) {
         const bool in_mark = column >= 62 && column < 66 && row >= 62 && row < 66;
@@ -48,7 +46,7 @@ pipeline::PixelCode texel(const Layout& layout, Argb word, Argb mark, int x, int
     if (layout.bytes == 4) {
         bytes = pixel(x, y);
     } else {
-        // A row of 128 texels holds 256 pixels of 16 bits: two rows of the surface.
+        // A row of 128 texels is 256 pixels of 16 bits: two rows of the surface.
         const int first = 2 * (y * side + x);
         bytes = pixel(first % side, first / side) | pixel((first + 1) % side, (first + 1) / side) << 16;
     }
@@ -56,12 +54,11 @@ pipeline::PixelCode texel(const Layout& layout, Argb word, Argb mark, int x, int
     return {byte(0), byte(8), byte(16), byte(24)};
 }
 
-// Six targets, one a clear word, shown texel by texel, four a row. A 16-bit surface fills half of
-// the rows.
+// Six targets, one per clear word, displayed texel by texel, four per row. A 16-bit surface fills half of the rows.
 Picture surface_picture(const pipeline::DeviceProfile& profile, const Layout& layout) {
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xff220022));
-    // Opaque black. The 16-bit pixels are 0: what their unused bit is worth follows in `stored`.
+    // Opaque black. The 16-bit pixels are 0; `stored` adds the value of the unused bit.
     const Argb mark = layout.bytes == 2 ? 0x00000000 : 0xff000000;
     for (int k = 0; k < 6; ++k) {
         pipeline::Texture texture;
@@ -81,8 +78,8 @@ Picture surface_picture(const pipeline::DeviceProfile& profile, const Layout& la
     return {.image = window.color()};
 }
 
-// The chip's clear command ignores the write masks: whatever was drawn under whatever mask, one
-// clear colour and one clear depth are left.
+// The chip's clear command ignores the write masks: after drawing under any mask, one clear colour and one clear depth
+// remain.
 Picture mask_picture(const pipeline::DeviceProfile& profile, bool shows_depth) {
     pipeline::Surface window{profile, {.depth = pipeline::DepthFormat::d16}};
     window.clear_depth(0xffff);
@@ -102,7 +99,7 @@ Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile
     const bool shows_depth = take_last(name, "_ZB");
     const bool depth_mask_named = take_last(name, "_Depth_n") || take_last(name, "_Depth_y");
     const auto mask = depth_mask_named && take(name, "C") ? to_hexadecimal(name) : std::nullopt;
-    // The mask has one bit a byte, the lowest: another digit than 0 or 1 is no name of this suite.
+    // The mask has one bit per byte, the lowest: a digit other than 0 or 1 is not a name of this suite.
     if (!mask || (*mask & ~0x01010101u) != 0) return unknown_name;
     return {mask_picture(profile, shows_depth), {}};
 }

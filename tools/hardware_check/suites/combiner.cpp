@@ -1,5 +1,5 @@
 // Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. chip-fragment.md 9. All
-// equal; the checkerboard behind two of them is a test of texture coordinates that are whole numbers in exact
+// pictures are equal; the checkerboard behind two of them tests texture coordinates that are integers in exact
 // arithmetic.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
@@ -28,14 +28,13 @@ constexpr CombinerInput blue(CombinerInput input) {
     return input;
 }
 
-// Values of 8-bit codes, 0 to 255, as the combiners' constants take them: they come back to the
-// same codes.
+// Values of 8-bit codes, 0 to 255, for the combiners' constants: they are converted back to the same codes.
 Rgba codes(int r, int g, int b, int a) {
     const auto value = [](int code) { return static_cast<float>(code) / 255.0f; };
     return {value(r), value(g), value(b), value(a)};
 }
 
-// Draws the soup through these combiners alone: no texture shader, blending OVER.
+// Draws the soup with these combiners: no texture shader, blending OVER.
 void draw(Surface& surface, const Combiners& combiners, const TriangleSoup& soup) {
     const pipeline::FragmentPath path{{}, combiners};
     pipeline::DrawState state = over;
@@ -43,15 +42,15 @@ void draw(Surface& surface, const Combiners& combiners, const TriangleSoup& soup
     surface.draw(state, soup);
 }
 
-// A white rectangle at window x, y in pixels, upper left corner first. The fixed pipeline adds its
-// viewport offset.
+// A white rectangle at window x, y in pixels, upper left corner first. The fixed-function pipeline adds its viewport
+// offset.
 TriangleSoup rectangle(float x, float y, float width, float height) {
     const float left = x + viewport_offset, top = y + viewport_offset;
     return box({left, top, left + width, top + height}, 0xffffffff);
 }
 
-// The checkerboard behind CombinerOps and SpecialInputs: 256 x 256 texels in cells of 8, spread
-// over the window, so that a cell covers 20 x 15 pixels.
+// The checkerboard behind CombinerOps and SpecialInputs: 256 x 256 texels in cells of 8, stretched over the window, so
+// that a cell covers 20 x 15 pixels.
 void draw_checkerboard(Surface& surface) {
     constexpr int texels = 256, cell = 8;
     pipeline::Texture board;
@@ -64,7 +63,8 @@ void draw_checkerboard(Surface& surface) {
             board.texels.insert(board.texels.end(), {grey, grey, grey, 255});
         }
     TriangleSoup soup = rectangle(0, 0, picture_width, picture_height);
-    // The offset of 0.53125 moves the corners, so 1 tells the near sides from the far ones.
+    // The offset of 0.53125 moves the corners, so the comparison with 1 distinguishes the left and upper sides from the
+    // others.
     for (ClipVertex& v : soup.vertices) v.texcoord = {v.x < 1 ? 0.0f : float{texels}, v.y < 1 ? 0.0f : float{texels}};
     pipeline::DrawState state = over;
     state.texture = &board;
@@ -74,7 +74,7 @@ void draw_checkerboard(Surface& surface) {
 // Quad `number`, 0 to 5, of the test's grid of world points: four in the upper row, two in the
 // lower one.
 TriangleSoup world_quad(int number) {
-    // World units. The lower row lies further down by a quad and four gaps.
+    // World units. The lower row is a quad and four gaps further down.
     constexpr double width = 1.3, height = 3.4 / 3.0, gap = 0.1, z = 1;
     const double left = -2.75 + (width + gap) * (number % 4), top = 1.75 - (height + 4 * gap) * (number / 4);
     const auto corner = [&](double x, double y) {
@@ -92,8 +92,8 @@ TriangleSoup world_quad(int number) {
 // The clear colour of Mux and Flags.
 constexpr Argb dark = 0xff303030;
 
-// The selector is spare 0's alpha: by its lowest bit, or by its highest. Unset, the sum is AB, red;
-// set, it is CD, blue. The alphas 82, 81 and 0 have both answers in each mode (chip-fragment.md 9).
+// The selector is spare 0's alpha: its lowest bit, or its highest. Unset, the sum is AB, red; set, it is CD, blue. The
+// alphas 82, 81 and 0 give both results in each mode (chip-fragment.md 9).
 Picture mux(const pipeline::DeviceProfile& profile) {
     struct Case {
         int alpha;
@@ -129,9 +129,9 @@ Combiners sum_of(const CombinerPortion& rgb, const Rgba& constant, const FinalCo
     return combiners;
 }
 
-// Six quads: the final stage's sum of spare 0 and secondary colour without a flag, clamped, and
-// with either operand inverted. The first two are halved, because only half of a sum above 255
-// tells whether it was clamped: 127 * 510 / 255 is 254, not 127.
+// Six quads: the final stage's sum of spare 0 and secondary colour without a flag, clamped, and with either operand
+// inverted. The first two are halved, because only half of a sum above 255 shows whether it was clamped: 127 * 510 /
+// 255 is 254, not 127.
 Picture flags(const pipeline::DeviceProfile& profile) {
     const Rgba half = codes(127, 127, 127, 127), most = codes(191, 191, 191, 191);
     const CombinerPortion both{.a = one, .b = one, .c = one, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
@@ -153,11 +153,11 @@ Picture flags(const pipeline::DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// Pixels: where CombinerOps and SpecialInputs have their squares.
+// Pixels: the positions of the squares of CombinerOps and SpecialInputs.
 constexpr float quad_side = 64, quad_top = 74, quad_step = 72, left_column = 200, right_column = 500;
 
-// Each pair of bias and scale on the constant (25, 63, 255, 127). The left half of a square is
-// opaque, the right one shows alpha, which the alpha portion makes of the constant's blue.
+// Each pair of bias and scale on the constant (25, 63, 255, 127). The left half of a square is opaque, the right half
+// shows alpha, which the alpha portion computes from the constant's blue.
 Picture combiner_ops(const pipeline::DeviceProfile& profile) {
     using pipeline::CombinerBias;
     using pipeline::CombinerScale;
@@ -187,9 +187,8 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// Four squares: the final stage's product of E and F; its sum of spare 0 and secondary colour; the
-// same with either inverted. No sum is clamped by the flag; the final result is clamped to
-// 0..255 in any case.
+// Four squares: the final stage's product of E and F; its sum of spare 0 and secondary colour; the same with either
+// inverted. No flag clamps a sum; the final result is clamped to 0..255 in any case.
 Picture special_inputs(const pipeline::DeviceProfile& profile) {
     Combiners product;
     product.final_stage = {.d = {.source = Reg::e_times_f},

@@ -1,7 +1,7 @@
 // Suite Depth_Clamp. depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>: which pixels a depth
-// range removes, one by one; the program adds the viewport's offset like the fixed pipeline.
-// depth_equal[_WBuf]_Ofs<offset>: whether a floor that is drawn twice, removing and clamping, has the same depths.
-// chip-geometry.md 5.3.
+// range removes one by one; the program adds the viewport's offset like the fixed-function pipeline.
+// depth_equal[_WBuf]_Ofs<offset>: whether a floor that is drawn twice, with removal and with clamping, has the same
+// depths. chip-geometry.md 5.3.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/suite.h"
@@ -10,14 +10,14 @@
 namespace strata::hardware_check {
 namespace {
 
-// 2^24 - 1, the greatest code of the 24-bit buffer. Window z counts in codes.
+// 2^24 - 1, the greatest code of the 24-bit buffer. Window z is in codes.
 constexpr double units = 16777215.0;
 constexpr Argb clear_code = 0xfe251135;
 constexpr int checker_side = 256;
 // World x, y, z.
 using Point = std::array<double, 3>;
 
-// A quad of world points in the window, with the viewport's offset and a whole texture over it.
+// A quad of world points in the window, with the viewport's offset and a whole texture.
 TriangleSoup world_quad(const std::array<Point, 4>& corner, Argb color = 0xffffffff) {
     constexpr std::array<std::array<float, 2>, 4> texel{
         {{0, 0}, {checker_side, 0}, {checker_side, checker_side}, {0, checker_side}}};
@@ -34,8 +34,7 @@ TriangleSoup world_quad(const std::array<Point, 4>& corner, Argb color = 0xfffff
     return soup;
 }
 
-// Takes `key` and the digit 0 or 1 behind it off the name. False if they do not stand there; the
-// name may then be shortened.
+// Removes `key` and the digit 0 or 1 after it from the name. False if they are absent; the name may then be shortened.
 bool take_flag(std::string_view& name, std::string_view key, bool& flag) {
     if (!take(name, key) || name.empty() || (name[0] != '0' && name[0] != '1')) return false;
     flag = name[0] == '1';
@@ -45,7 +44,7 @@ bool take_flag(std::string_view& name, std::string_view key, bool& flag) {
 
 TriangleSoup floor() { return world_quad({{{-10, -2.5, 20}, {10, -2.5, 20}, {10, -2.5, 0}, {-10, -2.5, 0}}}); }
 
-// The range of chip-geometry.md 5.3: about w = 9 to 17. DrawState takes limits from 0 to 1.
+// The range of chip-geometry.md 5.3: about w = 9 to 17. DrawState has limits from 0 to 1.
 void limit(pipeline::DrawState& state, bool w_buffer) {
     if (w_buffer)
         limit_depth(state, 9.01f, 16.49f, units);
@@ -66,7 +65,8 @@ pipeline::DrawState first_state(bool w_buffer) {
     return state;
 }
 
-// Texels from the other side of a cell's edge, where a coordinate under perspective lies next to it: none at hand.
+// Texels from the other side of a cell's edge, where a coordinate under perspective is close to it: none in the
+// available captures.
 constexpr Bound edge_texels{32, 255};
 
 struct Clamping {
@@ -84,14 +84,14 @@ Picture clamped_picture(const pipeline::DeviceProfile& profile, const Clamping& 
     state.depth_clamp = c.clamp;
     if (!c.full) limit(state, c.w_buffer);
     if (c.bias) state.polygon_offset = {.enabled = true, .units = c.w_buffer ? -5.0f : -500000.0f};
-    // The floor goes from z = 20 to 0 and leaves the range at both ends: fragments are removed
-    // there, not the triangle.
+    // The floor extends from z = 20 to 0 and leaves the range at both ends: fragments are removed there, not the
+    // triangle.
     surface.draw(state, floor());
     return {.image = surface.color(), .bound = edge_texels};
 }
 
-// A floor that passes under the eye, drawn removing what lies before the range, then clamping, in red, with EQUAL.
-// Through a w buffer it is a hundred times larger, and begins before the window's lower border.
+// A floor that passes below the eye, drawn with removal in front of the range, then with clamping, in red, with EQUAL.
+// For a w buffer it is a hundred times larger, and begins above the window's lower border.
 Picture equal_picture(const pipeline::DeviceProfile& profile, bool w_buffer, float offset) {
     const float scale = w_buffer ? 100.0f : 1.0f, far = 200.0f * scale - offset, near = -20.0f + offset;
     const double x = 10 * scale, y = -2.5 * scale;
@@ -112,11 +112,11 @@ Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& p
     if (take(name, "depth_equal")) {
         const bool w_buffer = take(name, "_WBuf");
         const auto offset = take(name, "_Ofs") ? to_number(name) : std::nullopt;
-        const bool known = offset && *offset > 0.0f && *offset < 6.0f;  // the floor still reaches behind the eye
+        const bool known = offset && *offset > 0.0f && *offset < 6.0f;  // the floor still extends behind the eye
         return known ? Drawing{equal_picture(profile, w_buffer, *offset), {}} : unknown_name;
     }
     Clamping c;
-    bool by_program = false;  // draws the same
+    bool by_program = false;  // does not change the picture
     const bool known = take_flag(name, "depth_clamp_W", c.w_buffer) && take_flag(name, "_C", c.clamp) &&
                        take_flag(name, "_ZB", c.bias) && take_flag(name, "_FR", c.full) &&
                        take_flag(name, "_VSH", by_program);

@@ -1,4 +1,5 @@
-// Suite Depth_function: DepthFunc[_ZB]. Every comparison behind, at and in front of a stored word. chip-fragment.md 4.
+// Suite Depth_function: DepthFunc[_ZB]. Every comparison function behind, at and in front of a stored depth.
+// chip-fragment.md 4.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -15,7 +16,7 @@ constexpr CompareFunc columns[] = {CompareFunc::always,   CompareFunc::never,  C
 // Codes of the 16-bit buffer.
 constexpr float backdrop = 0xdc87, behind = 0xe11f, front = 0xd666;
 
-// Every draw writes depth: a square that passes changes what is stored, which _ZB shows.
+// Every draw writes depth: a square that passes changes the stored depth, which _ZB shows.
 pipeline::DrawState with(CompareFunc func) { return {.depth = {.enabled = true, .func = func, .write = true}}; }
 
 // A backdrop whose comparison always passes, and over it three squares behind, at and in front of
@@ -35,8 +36,7 @@ Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile
     pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
     surface.clear_color(unpack(0xff000000));
     surface.clear_depth(0xffff);
-    // The last row's words name no function, so that the one in force stays: ALWAYS, by the
-    // backdrop.
+    // The last row's words are not functions, so the current one stays: ALWAYS, from the backdrop.
     for (const float top : {64.0f, 200.0f, 320.0f})
         for (std::size_t k = 0; k < std::size(columns); ++k)
             draw_column(surface, 32.0f + 40.0f * static_cast<float>(k), top,

@@ -1,8 +1,8 @@
 // Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6,
 // chip-geometry.md 4.
 //
-// All equal but DotZW, at most 1 unit off on at most 0.25 % of its pixels: the last bits of its quotient are not
-// understood. DotZW and DotST sample images that the test loads from its own disk.
+// All are equal except DotZW, which differs by at most 1 unit at no more than 0.25 % of its pixels: the last bits of
+// its quotient are not understood. DotZW and DotST sample images that the test loads from its own disk.
 #include <cmath>
 #include <filesystem>
 
@@ -23,11 +23,12 @@ using pipeline::Texture;
 constexpr pipeline::SurfaceLayout screen{.depth = pipeline::DepthFormat::d16};
 constexpr Argb background = 0xff222222;
 
-// Units 0 to 2 at a corner of a square, in the order upper left, upper right, lower right, lower left.
+// Texture coordinates of units 0 to 2 at a corner of a square, in the order upper left, upper right, lower right, lower
+// left.
 using Units = std::array<Coordinate, 3>;
 
-// A square of `side` pixels at window x, y, to which the fixed pipeline adds its offset, with the
-// coordinates of three units.
+// A square of `side` pixels at window x, y, to which the fixed-function pipeline adds its offset, with the coordinates
+// of three units.
 TriangleSoup square(float x, float y, float side, const std::array<Units, 4>& unit, Argb color = 0xffffffff) {
     const float left = x + viewport_offset, top = y + viewport_offset, right = left + side, bottom = top + side;
     const auto corner = [&](std::size_t k, float px, float py) {
@@ -43,8 +44,8 @@ TriangleSoup middle(const std::array<Units, 4>& unit) { return square(middle_x, 
 
 // The two rows s, t, r of the matrix at one corner; q is 1.
 using Rows = std::array<std::array<float, 3>, 2>;
-// The large square. Unit 0 steps over the bump map's texels, two pixels each; units 1 and 2 hold
-// the rows of the matrix that its texels meet.
+// The large square. Unit 0 samples the bump map with two pixels per texel; units 1 and 2 have the rows of the matrix
+// that its texels are multiplied by.
 TriangleSoup bumped(const std::array<Rows, 4>& rows) {
     constexpr float texels = 128;
     constexpr Coordinate texel[4] = {{0, 0, 0, 1}, {texels, 0, 0, 1}, {texels, texels, 0, 1}, {0, texels, 0, 1}};
@@ -56,8 +57,8 @@ TriangleSoup bumped(const std::array<Rows, 4>& rows) {
     return middle(unit);
 }
 
-// Stage 0 looks up the bump map, stages 1 and 2 are its dot products with the rows. `last` says
-// what the second one is for.
+// Stage 0 samples the bump map, stages 1 and 2 are its dot products with the rows. `last` is the operation of the
+// second one.
 pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
     pipeline::ShaderStages stages;
     stages[0] = rectangle_lookup({.color = &bumps});
@@ -66,8 +67,7 @@ pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
     return stages;
 }
 
-// Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are
-// those of chip-depth.md 6.
+// Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are from chip-depth.md 6.
 Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_depth_replace),
                                 show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
@@ -79,8 +79,8 @@ Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
                           {{{10, 100, 1000}, {1, 0, 0}}},
                           {{{100, 100, 100}, {0, 0, 1}}}}}));
     constexpr int right = middle_x + middle_side, bottom = middle_y + middle_side;
-    // The capture shows the depth buffer in the square alone; around it there is nothing to
-    // compare. 0.25 % of its words may be one unit off: 104 are, by the last bits of the quotient.
+    // The capture contains the depth buffer only inside the square; nothing is compared around it. 0.25 % of its words
+    // may differ by one unit: 104 do, by the last bits of the quotient.
     return {.reading = Reading::depth16,
             .image = surface.depth(),
             .hidden = {{0, 0, picture_width, middle_y},
@@ -99,9 +99,8 @@ std::array<float, 3> direction(const Vector& from, const Vector& to) {
     return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
-// The two dot products are the coordinates of a lookup: rows are the directions from the eye to a
-// point and on to a light (chip-geometry.md 4.1). `image` is 128 x 128 texels, addressed from 0 to
-// 1.
+// The two dot products are the coordinates of a lookup: rows are the directions from the eye to a point and from it to
+// a light (chip-geometry.md 4.1). `image` is 128 x 128 texels, addressed from 0 to 1.
 Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image) {
     // The suite's images are loaded as rectangles; this stage takes coordinates from 0 to 1.
     image.target = pipeline::TextureTarget::two_d;
@@ -124,9 +123,8 @@ constexpr std::array<Units, 4> planes{
      {{{-1, -0.1f, -0.1f, 0.5f}, {1, 0.1f, 0.1f, -0.25f}, {-0.1f, 0.1f, -0.1f, -0.1f}}},
      {{{-0.1f, 2, 3, 0.25f}, {0.1f, -0.6f, 1.1f, -0.35f}, {-0.1f, -0.1f, 0.1f, -0.1f}}}}};
 
-// A dark square, and over it three draws, each culled by one unit. Bits 3 to 0 of `flags` stand for
-// s, t, r, q. Where a bit is set, a fragment dies if that coordinate is not negative; where it is
-// clear, if it is negative.
+// A dark square, and over it three draws, each culled by one unit. Bits 3 to 0 of `flags` are s, t, r, q. If a bit is
+// set, a fragment is discarded if that coordinate is not negative; if it is clear, if it is negative.
 void draw_culled(Surface& surface, float x, float y, unsigned flags) {
     constexpr float side = 64;
     constexpr Argb dark = 0xff333333, colors[] = {0xffdd447f, 0xff44dd6e, 0xff5566ee};
@@ -136,15 +134,14 @@ void draw_culled(Surface& surface, float x, float y, unsigned flags) {
         path.shader = {};
         path.shader[unit].op = ShaderOp::cull_fragment;
         for (std::size_t c = 0; c < 4; ++c)
-            // CullMode names the comparison with 0 that keeps a fragment: `less` is the negative
-            // side.
+            // CullMode is the comparison with 0 that keeps a fragment: `less` keeps the negative side.
             path.shader[unit].cull[c] =
                 (flags >> (3 - c) & 1u) != 0 ? pipeline::CullMode::less : pipeline::CullMode::gequal;
         surface.draw({.path = &path}, square(x, y, side, planes, colors[unit]));
     }
 }
 
-// All sixteen combinations of flags, seven squares a row.
+// All sixteen combinations of flags, seven squares per row.
 Picture clip_plane(const DeviceProfile& profile) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xff000000));
@@ -153,7 +150,7 @@ Picture clip_plane(const DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// Coordinates shown as colours: each is cut to 8 bits, not rounded.
+// Coordinates shown as colours: each is truncated to 8 bits, not rounded.
 Picture pass_through(const DeviceProfile& profile) {
     pipeline::FragmentPath path{{}, show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
     path.shader[0].op = ShaderOp::pass_through;
@@ -164,14 +161,14 @@ Picture pass_through(const DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// The image of that name in the folder `textures`, as a rectangle looked up in texels; nothing if
-// there is no such file. Throws InputError if the file is no picture.
+// The image of that name in the folder `textures`, as a rectangle texture addressed in texels; empty if there is no
+// such file. Throws InputError if the file is not an image.
 std::optional<Texture> load(const std::string& textures, const std::string& name) {
     const std::string path = (std::filesystem::path(textures) / (name + ".png")).string();
     if (textures.empty() || !std::filesystem::exists(path)) return std::nullopt;
     return as_texture(scenes::read_images(path).front().image);
 }
-// The picture is then not modelled, and the reason names the file that is missing.
+// The picture is then not modelled, and the reason names the missing file.
 Drawing needs(const std::string& name) {
     return {std::nullopt, "needs textures/" + name + ".png, which the test loads"};
 }

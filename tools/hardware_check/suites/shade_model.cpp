@@ -1,6 +1,6 @@
-// Suite Shade_model: [W_]<Prog|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become
-// triangles, and which vertex colours a flat one; lit by the fixed pipeline, textured, and with a w of its own at each
-// vertex. chip-fragment.md 3.3, chip-geometry.md 5.8.
+// Suite Shade_model: [W_]<Prog|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives are split
+// into triangles, and the provoking vertex of flat shading; lit by the fixed-function pipeline, textured, and with a
+// different w at each vertex. chip-fragment.md 3.3, chip-geometry.md 5.8.
 #include <bit>
 #include <vector>
 
@@ -13,18 +13,17 @@
 namespace strata::hardware_check {
 namespace {
 
-// World units: the rectangle that all shapes fill, and w of every vertex.
+// World units: the rectangle that all shapes fill, its z, and the distance of the eye from z = 0.
 constexpr double left = -2.75, right = 2.75, top = 1.75, bottom = -1.75, depth = 0.1, eye_distance = 7;
 using Point = std::array<double, 2>;
 
-// Three vertices, and which of them colours the triangle when the shading is flat: [0] First, [1] Last.
+// Three vertices, and the provoking one under flat shading: [0] First, [1] Last.
 struct Triangle {
     std::array<std::size_t, 3> corner;
     std::array<std::size_t, 2> provoking;
 };
 
-// A primitive of the names, its points in submission order, and the triangles that the chip makes
-// of it.
+// A primitive: its points in submission order, and the triangles into which the chip splits it.
 struct Primitive {
     std::string_view name;
     std::vector<Point> points;
@@ -32,8 +31,8 @@ struct Primitive {
     std::vector<std::array<float, 2>> texture;  // s, t of the points
 };
 
-// The triangles (0, k, k+1) of a fan or polygon. A flat polygon takes vertex 0's colour in both
-// modes; a fan's triangle takes k's (First) or k+1's (Last).
+// The triangles (0, k, k+1) of a fan or polygon. A flat polygon has vertex 0's colour in both modes; a fan's triangle
+// has k's (First) or k+1's (Last).
 std::vector<Triangle> fan(std::size_t vertices, bool is_polygon) {
     std::vector<Triangle> all;
     for (std::size_t k = 1; k + 1 < vertices; ++k)
@@ -41,8 +40,8 @@ std::vector<Triangle> fan(std::size_t vertices, bool is_polygon) {
     return all;
 }
 
-// Triangle i of a strip is (i, i+1, i+2); odd ones exchange the first two, so that all face alike.
-// Flat colour: vertex i (First) or i+2 (Last).
+// Triangle i of a strip is (i, i+1, i+2); odd ones exchange the first two, so that all have the same facing. Flat
+// colour: vertex i (First) or i+2 (Last).
 std::vector<Triangle> strip(std::size_t vertices) {
     std::vector<Triangle> all;
     for (std::size_t i = 0; i + 2 < vertices; ++i)
@@ -50,8 +49,7 @@ std::vector<Triangle> strip(std::size_t vertices) {
     return all;
 }
 
-// The table of chip-fragment.md 3.3. Quads and their strips take the colour of their last vertex in
-// both modes.
+// The table of chip-fragment.md 3.3. Quads and quad strips have the colour of their last vertex in both modes.
 std::vector<Primitive> primitives() {
     return {{"Tri",
              {{left, top},
@@ -98,7 +96,7 @@ std::vector<Primitive> primitives() {
 constexpr Argb vertex_colors[] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffcccccc, 0xffcc33ff, 0xff33ccff, 0xff33ffcc,
                                   0xffccff33, 0xffffcc33, 0xffff33cc, 0xff111199, 0xff119911, 0xff991111, 0xff666666};
 
-// What a name asks for besides the primitive.
+// The settings in a name other than the primitive.
 struct Shading {
     bool is_lit = false, is_textured = false, has_own_w = false, flat = false;
     std::size_t provoking = 0;  // 0 First, 1 Last
@@ -120,32 +118,32 @@ constexpr float normal_z[] = {0.5773502691896258f,
                               0.5241f,
                               0.3906f};
 
-// A light's share of a colour as the vertex engine hands it on: to nearest, 14 leading bits.
+// A light's contribution to a colour as the vertex engine outputs it: rounded to nearest with 14 significant bits.
 float lit(float v) {
-    constexpr std::uint32_t half = 1u << 9;  // of a unit of the fourteenth bit
+    constexpr std::uint32_t half = 1u << 9;  // half a unit of the fourteenth bit
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(v) + half) & ~(2 * half - 1));
 }
 
-// The light shines along the normals' z, with a diffuse colour of (0, 1, .7) and nothing else.
+// The light is directed along the normals' z, with a diffuse colour of (0, 1, .7) and no other terms.
 std::array<float, 4> color_of(std::size_t index, bool is_lit) {
     if (!is_lit) return to_float(vertex_colors[index]);
     const float n = normal_z[index];
     return {0, lit(n), lit(0.7f * n), 1};
 }
 
-// w of vertex `k` as the test gives it to the fixed pipeline, added up in binary32.
+// w of vertex `k` as the test sets it for the fixed-function pipeline, accumulated in binary32.
 float own_w(std::size_t k) {
     float w = 0.5f;
     for (std::size_t i = 0; i < k; ++i) w += 0.05f;
     return w;
 }
 
-// Texels a side of the checker.
+// Texels per side of the checkerboard.
 constexpr int texels = 64;
 
-// Point `k` in the window. The vertex program's arithmetic cuts: a value that is exactly on a step of 1/16 pixel comes
-// out below it (x = 0 at 319.9375), so the next smaller binary32 stands for it here. The fixed pipeline adds the
-// viewport's offset, and the test's own w scales the way to the eye.
+// Point `k` in the window. The vertex program's arithmetic truncates: a value that is exactly on a step of 1/16 pixel
+// is computed below it (x = 0 at 319.9375), so the next smaller binary32 is used for it here. The fixed-function
+// pipeline adds the viewport's offset, and the test's own w scales the distance to the eye.
 ClipVertex window_vertex(const Primitive& primitive, std::size_t k, const Shading& s) {
     const double w = depth + eye_distance * (s.has_own_w ? double{own_w(k)} : 1.0), scale = 240.0 * cotangent / w;
     const double x = 320.0 + primitive.points[k][0] * scale, y = 240.0 - primitive.points[k][1] * scale;
@@ -170,14 +168,14 @@ TriangleSoup shaded(const Primitive& primitive, const Shading& s) {
     return soup;
 }
 
-// Flat pictures are equal. Of smooth ones at most one pixel is one unit off, where 256 times a weight lies next to an
-// integer (chip-fragment.md 3.3); two may be. A textured one may have the texel beyond a cell's edge there.
+// Flat pictures are equal. Smooth ones differ in at most one pixel, by one unit, where 256 times a weight is close to
+// an integer (chip-fragment.md 3.3); two are allowed. A textured one may have the texel beyond a cell's edge there.
 Bound bound_of(const Shading& s) {
     if (s.is_textured) return {5, 255};
     return s.flat ? Bound{} : Bound{2, 1};
 }
 
-// Removes the words before the primitive. False if they are no words of this suite.
+// Removes the words before the primitive. False if they are not words of this suite.
 bool take_shading(std::string_view& name, Shading& s) {
     s.has_own_w = take(name, "W_");
     s.is_lit = take(name, "Fixed");

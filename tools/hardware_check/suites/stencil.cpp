@@ -34,8 +34,8 @@ Surface cleared(const pipeline::DeviceProfile& profile, std::uint8_t stencil) {
     return surface;
 }
 
-// A square of 80 pixels whose stencil becomes `value`. The test gets there by INVERT under the
-// write mask 7F and the operation that a name gives; what is left is drawn here with REPLACE.
+// A square of 80 pixels whose stencil becomes `value`. The test sets it by INVERT under the write mask 7F and the
+// operation in a name; here the result is drawn with REPLACE.
 struct Patch {
     float x, y;
     std::uint8_t value;
@@ -57,7 +57,7 @@ Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profi
     const std::uint8_t ref = zeroes ? 0 : 1;
     Surface surface = cleared(profile, zeroes ? 0xff : 0x00);
     surface.draw({}, box({220, 140, 420, 340}, 0xffff0000));
-    // The square in the middle: nothing but stencil is written, and its depth test passes always.
+    // The square in the middle: only the stencil is written, and its depth test always passes.
     DrawState tested{.color_mask = 0};
     if (tests_stencil)
         tested.stencil = stencil_test({.ref = ref, .pass = zeroes ? StencilOp::zero : StencilOp::replace});
@@ -74,14 +74,13 @@ Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& 
     const auto func = compare_func(name);
     if (!func) return unknown_name;
     Surface surface = cleared(profile, 0);
-    // Stencil values of the two rows of patches, around the reference 7F and at both ends of the
-    // range.
+    // Stencil values of the two rows of patches, around the reference 7F and at both ends of the range.
     constexpr std::uint8_t upper[] = {0x00, 0x7e, 0x7f, 0x80, 0xff}, lower[] = {0xff, 0x00, 0x00, 0xff};
     for (std::size_t k = 0; k < std::size(upper); ++k)
         draw_patch(surface, {125.0f + 81.0f * static_cast<float>(k), 44, upper[k]});
     for (std::size_t k = 0; k < std::size(lower); ++k)
         draw_patch(surface, {125.0f + 81.0f * static_cast<float>(k), 286, lower[k]});
-    // Alpha is masked: it stays that of the clear.
+    // Alpha is masked and stays that of the clear.
     surface.draw({.stencil = stencil_test({.func = *func, .ref = 0x7f}), .color_mask = 7},
                  box({120, 40, 530, 450}, 0xff00bf00));
     return {finished(surface, shows_depth), {}};

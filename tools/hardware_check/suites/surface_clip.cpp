@@ -1,5 +1,5 @@
-// Suite Surface_clip: x<X>y<Y>_w<W>h<H>[_A8R8G8B8|_B8|_G8B8]: a surface's clip rectangle, over memory that is shown as
-// A8R8G8B8 whatever the surface's own format. chip-geometry.md 5.7.
+// Suite Surface_clip: x<X>y<Y>_w<W>h<H>[_A8R8G8B8|_B8|_G8B8]: a surface's clip rectangle, over memory that is displayed
+// as A8R8G8B8 whatever the surface's own format. chip-geometry.md 5.7.
 #include <charconv>
 
 #include "tools/hardware_check/names.h"
@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::array<std::uint8_t, 4>;
 
-// A surface's format: its bytes a pixel, lowest first, from the codes r g b a that were stored.
+// A surface's format: its bytes per pixel, lowest first, from the stored codes r g b a.
 struct ClipLayout {
     std::string_view suffix;
     std::size_t bytes;
@@ -32,7 +32,7 @@ constexpr ClipLayout layouts[] = {
          return Bytes{static_cast<std::uint8_t>(word & 0xff), static_cast<std::uint8_t>(word >> 8)};
      }}};
 
-// Removes `key` and the digits behind it. Nothing if they do not stand there.
+// Removes `key` and the digits after it. Empty if they are absent.
 std::optional<int> take_count(std::string_view& name, std::string_view key) {
     if (!take(name, key)) return std::nullopt;
     int value = 0;
@@ -42,7 +42,7 @@ std::optional<int> take_count(std::string_view& name, std::string_view key) {
     return value;
 }
 
-// Its four sides, each four pixels thick, lie inside of `box`.
+// A frame whose four sides, each four pixels thick, are inside `box`.
 void add_frame(TriangleSoup& soup, const Box& box, const std::array<float, 4>& color) {
     constexpr float thick = 4;
     const auto add = [&](const Box& b) {
@@ -55,7 +55,7 @@ void add_frame(TriangleSoup& soup, const Box& box, const std::array<float, 4>& c
     add({box.right - thick, box.top, box.right, box.bottom});
 }
 
-// Red just outside of the clip, dark green over it and a pixel beyond, light green along its inner sides.
+// Red just outside the clip rectangle, dark green over it and a pixel beyond, light green along its inner edges.
 pipeline::Image drawn_in(const pipeline::DeviceProfile& profile, const rasterizer::Rect& clip) {
     const auto grown = [&](float by) {
         return Box{static_cast<float>(clip.x0) - by, static_cast<float>(clip.y0) - by, static_cast<float>(clip.x1) + by,
@@ -73,12 +73,13 @@ pipeline::Image drawn_in(const pipeline::DeviceProfile& profile, const rasterize
     return surface.color();
 }
 
-// The memory of a surface of 2560 bytes a row, cleared as A8R8G8B8 before the surface had its format and clip.
+// The memory of a surface with 2560 bytes per row, cleared as A8R8G8B8 before the surface got its format and clip
+// rectangle.
 pipeline::Image shown(const pipeline::Image& drawn, const ClipLayout& layout, const rasterizer::Rect& clip) {
     pipeline::Image memory{pipeline::Format::rgba8, picture_width, picture_height};
     const pipeline::PixelCode cleared = unpack(0xfc111155);
     for (std::size_t i = 0; i < memory.codes.size(); ++i) memory.codes[i] = cleared[i % 4];
-    // Byte 0 of a pixel shows as blue, 1 as green, 2 as red, 3 as alpha.
+    // Byte 0 of a pixel is displayed as blue, 1 as green, 2 as red, 3 as alpha.
     constexpr int channel_of[4] = {2, 1, 0, 3};
     for (int y = clip.y0; y < clip.y1; ++y)
         for (int x = clip.x0; x < clip.x1; ++x) {

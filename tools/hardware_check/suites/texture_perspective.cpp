@@ -1,5 +1,5 @@
-// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checker, or four colours, over a quad whose w
-// differs, with perspective correction and without; two corners lie far outside of the window. chip-geometry.md 5.1.
+// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checkerboard, or four colours, on a quad whose w
+// varies, with perspective correction and without; two corners are far outside the window. chip-geometry.md 5.1.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -9,11 +9,11 @@
 namespace strata::hardware_check {
 namespace {
 
-// Texels a side.
+// Texels per side.
 constexpr int texels = 256;
 constexpr float side = texels;
 
-// A corner of the square of 3.5 world units, its input w other than 1.
+// A corner of the square of 3.5 world units, whose input w is not 1.
 struct Corner {
     // World x and y; w is a factor of the camera's distance.
     double x, y, w;
@@ -21,8 +21,8 @@ struct Corner {
     std::array<float, 2> texel;
 };
 
-// A corner in the window, with the viewport's offset. Without correction all w are 1, so values
-// become linear in the window.
+// A corner in the window, with the viewport's offset. Without correction all w are 1, so values are linear in the
+// window.
 ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     constexpr double distance = 7.0, scale = 240.0 * cotangent;
     const double w = distance * c.w;
@@ -33,9 +33,9 @@ ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     return v;
 }
 
-// Where 256 times a weight lies next to an integer (chip-float-depth.md 7).
+// Where 256 times a weight is close to an integer (chip-float-depth.md 7).
 constexpr Bound few_colors{5, 1};
-// Texels from the other side of a cell's edge: none in the captures at hand, but no quad was there.
+// Texels from the other side of a cell's edge: none in the available captures, which do not include a quad.
 constexpr Bound few_texels{5, 255};
 
 }  // namespace

@@ -6,8 +6,8 @@
 //           pipeline, numbers world z
 //   format  16, 24, 16f
 //
-// Equal; through the fixed pipeline a row of the picture looks up a texel row's very edge, which decides 21 or 42
-// pixels by the last bit of a coordinate: as many may differ.
+// Pictures are equal. With the fixed-function pipeline a row of the picture samples exactly at the edge of a texel row,
+// so that the last bit of a coordinate decides 21 or 42 pixels: as many may differ.
 #include <algorithm>
 
 #include "rasterizer/rules/depth_code.h"
@@ -22,11 +22,11 @@ namespace {
 using pipeline::DepthFormat;
 using pipeline::Image;
 
-// Where the texels come from: the CPU, a vertex program, or the fixed pipeline.
+// The origin of the texels: the CPU, a vertex program, or the fixed-function pipeline.
 enum class Source : std::uint8_t { raw, program, fixed };
 
-// The settings that a capture's name spells. The raw numbers are codes and hold for Source::raw alone; the others are
-// world z and hold for the two others.
+// The settings in a capture's name. The raw numbers are codes and only for Source::raw; the others are world z, for the
+// two other sources.
 struct Setting {
     bool compares_r = false;
     Source source = Source::raw;
@@ -36,7 +36,7 @@ struct Setting {
     float least = 0, greatest = 0, reference = 0;  // world z
 };
 
-// Raw texels exist in the two fixed formats alone.
+// Raw texels exist only in the two fixed-point formats.
 std::optional<DepthFormat> format_of(std::string_view word, Source source) {
     if (word == "16") return DepthFormat::d16;
     if (word == "24") return DepthFormat::d24;
@@ -44,7 +44,7 @@ std::optional<DepthFormat> format_of(std::string_view word, Source source) {
     return std::nullopt;
 }
 
-// Takes the letter of the source off the name.
+// Removes the letter of the source from the name.
 std::optional<Source> source_of(std::string_view& name) {
     if (take(name, "R")) return Source::raw;
     if (take(name, "P")) return Source::program;
@@ -52,8 +52,8 @@ std::optional<Source> source_of(std::string_view& name) {
     return std::nullopt;
 }
 
-// Takes <least>-<greatest>_<reference>_ off the name. The search for the dash begins at the second
-// character, for `least` may be negative. False if a number is missing or is none.
+// Removes <least>-<greatest>_<reference>_ from the name. The dash is searched from the second character, because
+// `least` may be negative. False if a number is missing or invalid.
 template <class T>
 bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_view), T& least, T& greatest,
                   T& reference) {
@@ -69,8 +69,8 @@ bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_
     return true;
 }
 
-// True if the format can hold raw texels, and if world depths lie in front of the eye, which is at
-// z = -7; behind it, w would be negative.
+// True if the format supports raw texels, or if world depths are in front of the eye, which is at z = -7; behind it, w
+// would be negative.
 bool is_drawable(const Setting& s) {
     if (s.source == Source::raw)
         return std::max({s.raw_least, s.raw_greatest, s.raw_reference}) <= rasterizer::max_code(s.format);
@@ -96,18 +96,17 @@ std::optional<Setting> parse_name(std::string_view name) {
     return s;
 }
 
-// The seven boxes that hold depths around the reference, in pixels or texels.
+// The seven boxes with depths around the reference, in pixels or texels.
 constexpr int box_count = 7, box_left = 141, box_step = 63, box_top = 230, box_width = 21, box_height = 64;
 
-// Sets the texels of a rectangle, half-open.
+// Sets the texels of a half-open rectangle.
 void fill(Image& texels, const rasterizer::Rect& where, std::uint32_t code) {
     for (int y = where.y0; y < where.y1; ++y)
         for (int x = where.x0; x < where.x1; ++x) texels.codes[texels.index(x, y)] = code;
 }
 
-// 15 x 15 cells of rising values, which add up in binary32 as in the test; the columns beside them
-// keep the reference. The test forgot to shift the cells' 24-bit values above the stencil bits, so
-// a depth is their upper part.
+// 15 x 15 cells of increasing values, accumulated in binary32 as in the test; the columns next to them keep the
+// reference. The test does not shift the cells' 24-bit values above the stencil bits, so a depth is their upper part.
 void fill_cells(Image& texels, const Setting& s) {
     constexpr int cells = 15, width = 42, height = 32, indent = 5;
     const float step = static_cast<float>(s.raw_greatest) / static_cast<float>(cells * cells);
@@ -137,18 +136,18 @@ Image raw_texels(const Setting& s) {
     return texels;
 }
 
-// Window z of a world z, in the buffer's own units: by the vertex engine's arithmetic for the fixed
-// pipeline, in binary64 for a vertex program, which the test gave finished positions.
+// Window z of a world z, in the buffer's own units: with the vertex engine's arithmetic for the fixed-function
+// pipeline, in binary64 for a vertex program, which gets finished positions from the test.
 float depth_of(const Setting& s, float z) {
     const double units = s.format == DepthFormat::d16f ? rasterizer::max_d16f : rasterizer::max_code(s.format);
     if (s.source == Source::fixed) return chip_window_z(z, static_cast<float>(units));
     return static_cast<float>(window_z(z, units));
 }
 
-constexpr float side_margin = 0.8f;  // of the quads that span the window
+constexpr float side_margin = 0.8f;  // of the quads that cover the window
 
-// The depth pass of names with P and F (chip-depth.md 7.2): a background from `least` at its top to
-// `greatest` at its bottom, and the boxes.
+// The depth pass of names with P and F (chip-depth.md 7.2): a background from `least` at the top to `greatest` at the
+// bottom, and the boxes.
 Image rendered_texels(const pipeline::DeviceProfile& profile, const Setting& s) {
     const float shift = s.source == Source::fixed ? viewport_offset : 0.0f;
     const std::array<float, 4> white{1, 1, 1, 1};
@@ -174,8 +173,7 @@ Image rendered_texels(const pipeline::DeviceProfile& profile, const Setting& s) 
     return surface.depth();
 }
 
-// The quad that looks every texel up where its pixel is, r being the reference. It shows white
-// where the comparison passes.
+// The quad that samples every texel at its pixel, with the reference as r. It is white where the comparison passes.
 TriangleSoup lookup_quad(const Setting& s) {
     const bool is_raw = s.source == Source::raw;
     const float shift = s.source == Source::fixed ? viewport_offset : 0.0f, margin = is_raw ? 0.0f : side_margin;
@@ -202,12 +200,12 @@ Picture compared(const pipeline::DeviceProfile& profile, const Setting& s, const
     surface.clear_color(unpack(s.source == Source::raw ? 0xfe112233 : 0xfe443333));
     surface.draw({.path = &path}, lookup_quad(s));
     Picture picture{.image = surface.color()};
-    // A mark of its own colour stands in each box of the captures; it is part of no comparison.
+    // Each box of the captures contains a mark in its own colour, which is not compared.
     for (int k = 0; k < box_count; ++k) {
         const int x = box_left + box_step * k;
         picture.hidden.push_back({x, 235, x + 24, 270});
     }
-    // Up to 42 pixels may differ, by any amount: the head of this file says why.
+    // Up to 42 pixels may differ by any amount; reason: head of this file.
     if (s.source == Source::fixed) picture.bound = {42, 255};
     return picture;
 }

@@ -1,5 +1,6 @@
-// Suite Vertex_shader_rounding_tests: where positions are cut, and who owns a pixel centre. chip-geometry.md 1.
-// TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift
+// Suite Vertex_shader_rounding_tests: where positions are truncated, and which triangle owns a pixel centre.
+// chip-geometry.md 1. TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B,
+// GeometrySubscreen_B with B a shift
 // in pixels.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
@@ -17,8 +18,8 @@ using pipeline::Surface;
 constexpr Argb green = 0xff009900, magenta = 0xffff00ff;
 constexpr pipeline::SurfaceLayout screen{.depth = pipeline::DepthFormat::d16};
 
-// Green over magenta. What stays magenta along the upper and the left side shows where `shift` was
-// cut, and who owns the pixel centres on the side (chip-geometry.md 1.1).
+// Green over magenta. The magenta that remains along the upper and the left side shows where `shift` was truncated, and
+// which triangle owns the pixel centres on the edge (chip-geometry.md 1.1).
 Picture geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
@@ -27,7 +28,7 @@ Picture geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
-// No gap and no pixel drawn twice may show along the shared sides.
+// Along the shared edges there must be no gap and no pixel drawn twice.
 Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
@@ -36,7 +37,7 @@ Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
-// As adjacent_geometry, un-projected by the host and projected again, half of it by the fixed pipeline.
+// As adjacent_geometry, un-projected by the host and projected again, half of it by the fixed-function pipeline.
 Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
@@ -44,12 +45,12 @@ Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
-// Draws a green quad, moved by `shift`, into a magenta target of its own and shows it at x, y. The
-// four numbers are x, y, width, height.
+// Draws a green quad, moved by `shift`, into a separate magenta target and displays it at x, y. The four numbers are x,
+// y, width, height.
 void show_subscreen(Surface& surface, const DeviceProfile& profile, float shift,
                     const std::array<int, 4>& place_and_size) {
     const auto [x, y, width, height] = place_and_size;
-    // The clip is set one less than the size and its last row and column are drawn: its limits are inclusive.
+    // The clip is set to one less than the size, and its last row and column are drawn: its limits are inclusive.
     Surface target{profile, {.depth = pipeline::DepthFormat::d16, .width = width, .height = height}};
     target.clear_color(unpack(magenta));
     const float w = static_cast<float>(width), h = static_cast<float>(height);
@@ -72,9 +73,9 @@ class Lines {
   public:
     Lines(bool along_x, const std::array<float, 4>& marks) : along_x_{along_x}, marks_{marks} {}
 
-    // The shapes of chip-geometry.md 1.5 from `start` on, four pixels apart. Their sides lie on
-    // pixel centres, a sixteenth beside them, and one binary32 below either: each column shows what
-    // rounding and the tie rule do to one of these.
+    // The shapes of chip-geometry.md 1.5 starting at `start`, four pixels apart. Their edges are on pixel centres, one
+    // sixteenth away, and one binary32 below either: each column shows the effect of rounding and of the tie rule on
+    // one of these.
     void draw_all(float start, float sliver_start, const std::array<std::array<float, 2>, 3>& slivers) {
         float p = start;
         for (int i = 0; i < 20; ++i, p += 4) skewed_quad(p, p + 0.5f + sixteenths(i));
@@ -94,7 +95,7 @@ class Lines {
         const std::array borders{-0.0625f, -0.0624f, 0.0f};
         for (std::size_t k = 0; k < 3; ++k) bar(borders[k], 1, slivers[k][0], slivers[k][1]);
     }
-    // An upright bar along the line: from `from` to `to` along it, from `begin` to `end` across.
+    // An upright bar: from `from` to `to` along the line, from `begin` to `end` across it.
     void bar(float from, float to, float begin, float end) {
         quad({{{from, begin}, {to, begin}, {to, end}, {from, end}}});
     }
@@ -154,7 +155,7 @@ Drawing draw_vertex_shader_rounding(std::string_view name, const DeviceProfile& 
     for (const auto& [prefix, draw] : shifted) {
         std::string_view rest = name;
         if (!take(rest, prefix)) continue;
-        const auto shift = to_number(rest);  // NaN is no shift either
+        const auto shift = to_number(rest);  // also excludes NaN
         if (shift && *shift >= 0.0f && *shift <= 1.0f) return {draw(profile, *shift), {}};
     }
     for (const std::string_view prefix : {"GeometrySuperscreen_", "RenderTarget", "Compositing"})

@@ -1,5 +1,5 @@
-// Suite Viewport: <x>_<y>-<scale x>_<scale y>: what the viewport's offset and scale do to squares of a vertex program
-// and of the fixed pipeline. chip-geometry.md 5.6.
+// Suite Viewport: <x>_<y>-<scale x>_<scale y>: the effect of the viewport's offset and scale on squares drawn by a
+// vertex program and by the fixed-function pipeline. chip-geometry.md 5.6.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/squares.h"
 #include "tools/hardware_check/suite.h"
@@ -7,7 +7,7 @@
 namespace strata::hardware_check {
 namespace {
 
-// The offsets of the test, as its names write them: three decimals, x and y alike.
+// The offsets of the test, as spelled in names: three decimals, x and y alike.
 struct NamedOffset {
     std::string_view name;
     float offset;
@@ -21,8 +21,8 @@ constexpr NamedOffset offsets[] = {{"0.000", 0},          {"0.531", 0.53125f},  
 Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& profile) {
     for (const NamedOffset& named : offsets) {
         std::string_view rest = name;
-        // The scale is the vertex program's own to use, and the test's does not; the fixed pipeline has it in its
-        // matrix.
+        // The scale is only an input to the vertex program, which does not use it; the fixed-function pipeline has it
+        // in its matrix.
         if (!take(rest, named.name) || !take(rest, "_") || !take(rest, named.name)) continue;
         if (rest != "-0.000_0.000" && rest != "-2.000_0.000") continue;
         pipeline::Surface surface{profile, {}};

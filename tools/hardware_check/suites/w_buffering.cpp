@@ -1,5 +1,5 @@
 // Suite W_buffering: <Z|W>Buf<16|24><D|F>_<shape>[-left-top]_V<program>_ZB<bias>_ZS<slope>[_ZB]: depth formats, polygon
-// offset and the w buffer over wide shapes whose corners lie far outside of the window. chip-float-depth.md 9.1.
+// offset and the w buffer over wide shapes whose corners are far outside the window. chip-float-depth.md 9.1.
 #include "rasterizer/rules/depth_code.h"
 #include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
@@ -13,10 +13,10 @@ namespace {
 using pipeline::DepthFormat;
 using rasterizer::DepthPath;
 
-// Where the window clip begins if the name does not say.
+// The default start of the window clip.
 constexpr int default_left = 150, default_top = 0;
 
-// The settings that a capture's name spells.
+// The settings in a capture's name.
 struct BufferSetting {
     bool is_w = false, is_float = false, is_16 = false, by_program = false, has_bias = false, has_slope = false,
          shows_depth = false;
@@ -29,7 +29,7 @@ struct BufferSetting {
     }
 };
 
-// A digit 0 or 1 behind `key`.
+// A digit 0 or 1 after `key`.
 std::optional<bool> take_bit(std::string_view& name, std::string_view key) {
     if (!take(name, key) || name.empty() || (name[0] != '0' && name[0] != '1')) return std::nullopt;
     const bool bit = name[0] == '1';
@@ -37,7 +37,7 @@ std::optional<bool> take_bit(std::string_view& name, std::string_view key) {
     return bit;
 }
 
-// Three decimal digits behind a dash, as ClipF and ClipW have them.
+// Three decimal digits after a dash, as in ClipF and ClipW.
 std::optional<int> take_three_digits(std::string_view& name) {
     if (!take(name, "-") || name.size() < 3) return std::nullopt;
     int value = 0;
@@ -74,10 +74,10 @@ std::optional<BufferSetting> parse_buffer_setting(std::string_view name) {
     return name.empty() ? std::optional<BufferSetting>{s} : std::nullopt;
 }
 
-// Window x, y, z and w, as the pass-through program leaves them.
+// Window x, y, z and w, as output by the pass-through program.
 struct WindowPoint {
     float x, y, z, w;
-    std::optional<std::array<float, 2>> texture{};  // coordinates in sides of the texture
+    std::optional<std::array<float, 2>> texture{};  // coordinates in multiples of the texture's size
 };
 
 // The two depths of the wide shapes.
@@ -94,7 +94,8 @@ void add(TriangleSoup& soup, std::array<WindowPoint, 3> p) {
     };
     add_triangle(soup, vertex(p[0], texture[0]), vertex(p[1], texture[1]), vertex(p[2], texture[2]));
 }
-// Adds a quad over `repeats` textures each way; `upright` false: its first corner has their lower left one.
+// Adds a quad with `repeats` textures in each direction; if not `upright`, its first corner has the lower left corner
+// of the texture.
 void add(TriangleSoup& soup, std::array<WindowPoint, 4> p, bool upright = true, float repeats = 1) {
     const std::array<std::array<float, 2>, 4> texture{{{0, 0}, {repeats, 0}, {repeats, repeats}, {0, repeats}}};
     for (std::size_t i = 0; i < 4; ++i) p[i].texture = texture[upright ? i : 3 - i];
@@ -102,7 +103,7 @@ void add(TriangleSoup& soup, std::array<WindowPoint, 4> p, bool upright = true, 
     add(soup, std::array{p[0], p[2], p[3]});
 }
 
-// 24 slivers each, side by side or one below the other, from 325 down to 58; z and w are the same number.
+// 24 slivers each, side by side or one below the other, from 325 down to 58; z and w are equal.
 void add_slivers(TriangleSoup& soup, bool horizontal) {
     for (int i = 0; i < 24; ++i) {
         const auto n = static_cast<float>(i);
@@ -118,7 +119,7 @@ void add_slivers(TriangleSoup& soup, bool horizontal) {
 
 constexpr float large = 16777046.0f;
 
-// A shape of the table, or nothing.
+// A shape of the table; empty for an unknown name.
 std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
     TriangleSoup soup;
     const bool clipped_floor = s.shape == "ClipF", clipped_wall = s.shape == "ClipW";
@@ -145,7 +146,7 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
                                               {270.4375f, 266.5f, 0, 668074.8125f},
                                               {317.25f, 262.375f, 0, 714052.1875f}}});
     } else if ((s.shape == "Trunc0" || s.shape == "TruncNeg") && !s.is_w) {
-        // Just inside of the step of 1/16 pixel above the window, and on it.
+        // Just inside the step of 1/16 pixel above the window, and exactly on it.
         const float y = s.shape == "Trunc0" ? -0.0625f + 0.001f : -0.0625f;
         constexpr float near_w = 58.379993438720703f, far_w = 325.8057861328125f;
         add(soup,
@@ -160,14 +161,14 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
     return soup;
 }
 
-// The camera that stands 50 above the floor and looks down by three in seven. The test makes the buffer a float one
-// behind the back of what builds its matrices: they have the scale of fixed depth for every format.
+// The camera is 50 above the floor and looks down by three in seven. The test switches the depth buffer to a float
+// format without rebuilding its matrices, so they have the scale of fixed-point depth for every format.
 CompositeMatrix looking_down(const BufferSetting& s) {
     const float units = s.is_16 ? 65535.0f : 16777215.0f;
     return columns_of(camera_of(look_at({0, 50, -7}, {0, 47, 0}), perspective_to_window(units)).composite);
 }
 
-// A floor of 30000 units through the fixed pipeline.
+// A floor of 30000 units, drawn with the fixed-function pipeline.
 TriangleSoup fixed_floor(const BufferSetting& s) {
     const CompositeMatrix camera = looking_down(s);
     const auto window_point = [&](float x, float z) {
@@ -187,18 +188,18 @@ const Drawing no_lines{std::nullopt, "lines are not modelled"};
 const Drawing unknown_quad{std::nullopt,
                            "which quad gives the w slope of this shape is not known (chip-float-depth.md 4.5)"};
 
-// What is open: the reciprocal of one sum, the slope of slivers, weights where w differs, and the last bits of a w
-// slope (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
+// Undetermined: the reciprocal of one sum, the slope of slivers, weights where w varies, and the last bits of a w slope
+// (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
 Bound bound_of(const BufferSetting& s) {
     if (s.is_w) return {250, s.has_slope ? 2u : 1u};
-    // One triangle of the floor by the fixed pipeline: the last bit of its reciprocals.
+    // One triangle of the floor with the fixed-function pipeline: the last bit of its reciprocals.
     if (!s.by_program && !s.is_16) return {44, 1};
     if (s.shape == "TriH" && s.has_slope) return {168, 1};
     return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
 }
 
-// Every fragment passes, so the picture shows the texture alone, and a red line where a clip of its own begins. The
-// test drew yellow lines over it, from its text to the pixels whose depths the text tells.
+// Every fragment passes, so the picture shows the texture, and a red line at the beginning of its own clip. The test
+// drew yellow lines over it, from its text to the pixels whose depths the text states.
 Picture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup) {
     pipeline::Texture texture = checker(256, 8, 0xff00ffff, 0xff000000);
     texture.target = pipeline::TextureTarget::two_d;
@@ -242,7 +243,7 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
     };
     if (s->is_w) state.depth_path = DepthPath::w_buffer;
     surface.draw(state, std::move(*soup));
-    // The stencil beside the depth is cleared to 0.
+    // The stencil is cleared to 0.
     return {
         Picture{
             .reading = s->is_16 ? Reading::depth16 : Reading::depth24, .image = surface.depth(), .bound = bound_of(*s)},

@@ -1,5 +1,5 @@
-// Suite W_param: prog_w_zero_inf__<quad|bitri>_w<m>: which pixels a square covers whose w are negative, zero, infinite,
-// or far apart. chip-float-depth.md 8.
+// Suite W_param: prog_w_zero_inf__<quad|bitri>_w<m>: the coverage of a square whose w are negative, zero, infinite, or
+// very different. chip-float-depth.md 8.
 #include <bit>
 #include <limits>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float least = 0x1p-64f, greatest = 0x1p64f;  // 5.421011e-20, 1.8446744e19
 
-// Names have three digits of the factor m; these tiny ones are powers of two.
+// Names have three digits of the factor m; these tiny factors are powers of two.
 struct TinyFactor {
     std::string_view name;
     float factor;
@@ -27,7 +27,7 @@ std::optional<float> factor_of(std::string_view text) {
     if (text == "inf") return std::numeric_limits<float>::infinity();
     if (text == "-inf") return -std::numeric_limits<float>::infinity();
     const auto number = to_number(text);
-    // The test has no other tiny factor, and its name would not tell it.
+    // The test has no other tiny factors, and names have too few digits for them.
     const bool is_tiny = number && *number != 0.0f && *number < 0x1p-20f && *number > -0x1p-20f;
     return is_tiny ? std::nullopt : number;
 }
@@ -48,13 +48,13 @@ Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profi
     const auto m = factor_of(name);
     if (!m) return unknown_name;
 
-    // Texture coordinates belong to the corner, wherever it stands.
+    // Texture coordinates belong to the corner, wherever it is.
     const auto corner = [](float x, float y, float w, std::array<float, 2> texture) {
         ClipVertex v = at(x, y, 0, {1, 1, 1, 1}, w);
         v.texcoord = texture;
         return v;
     };
-    // A negative w takes its corner to the other end of the diagonal.
+    // A negative w moves its corner to the other end of the diagonal.
     const auto top_left = [&](float w) {
         return is_negative(w) ? corner(480, 390, w, {0, 0}) : corner(160, 70, w, {0, 0});
     };
@@ -78,7 +78,7 @@ Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profi
     surface.clear_color(unpack(0xfe251135));
     const pipeline::BlendTerm sum{pipeline::BlendEquation::add, pipeline::BlendFactor::one, pipeline::BlendFactor::one};
     surface.draw({.blend = {true, sum, sum}, .texture = &texture}, std::move(soup));
-    // Texels whose coordinates lie exactly on a cell's edge (chip-float-depth.md 8).
+    // Texels whose coordinates are exactly on a cell's edge (chip-float-depth.md 8).
     return {Picture{.image = surface.color(), .bound = {200, 192}}, {}};
 }
 

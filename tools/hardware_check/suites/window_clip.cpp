@@ -1,7 +1,7 @@
-// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two
-// clip regions, drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all
-// eight regions, so that with an s the first region alone is left. An r in front of all: into a target of 256 x 256
-// pixels, which is shown at (192, 112).
+// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, with a prefix s the second region is set first. Two
+// clip regions, drawn inside or outside; both limits of a region are inclusive. Writing a limit of region 0 sets all
+// eight regions, so with an s only the first region remains. With a prefix r it is drawn into a target of 256 x 256
+// pixels, which is displayed at (192, 112).
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -9,7 +9,7 @@
 namespace strata::hardware_check {
 namespace {
 
-// Takes `key` and up to six decimal digits off the name: six digits cannot overflow an int.
+// Removes `key` and up to six decimal digits from the name: six digits cannot overflow an int.
 std::optional<int> take_number(std::string_view& name, std::string_view key) {
     if (!take(name, key)) return std::nullopt;
     int value = 0, digits = 0;
@@ -18,10 +18,9 @@ std::optional<int> take_number(std::string_view& name, std::string_view key) {
     return digits > 0 ? std::optional{value} : std::nullopt;
 }
 
-constexpr int widest = 4095;  // the limits' registers have 12 bits [A]
+constexpr int widest = 4095;  // the registers of the limits have 12 bits [A]
 
-// A region x, y, w, h. Both limits x and x + w are inside on the chip; a Rect is half-open, hence
-// the + 1.
+// A region x, y, w, h. Both limits x and x + w are inclusive on the chip; a Rect is half-open, hence the + 1.
 std::optional<rasterizer::Rect> take_region(std::string_view& name) {
     const auto x = take_number(name, "x"), y = take_number(name, "y"), w = take_number(name, "_w"),
                h = take_number(name, "h");
@@ -51,7 +50,7 @@ Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& p
     for (const rasterizer::Rect& region : {*first, second_is_overwritten ? *first : *second})
         surface.draw({.window_clip = region}, box(square, exclusive ? below : above));
     if (!is_off_screen) return {Picture{.image = surface.color()}, {}};
-    // The target is shown texel by texel.
+    // The target is displayed texel by texel.
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xfe332233));
     const pipeline::Texture target = as_texture(surface.color());

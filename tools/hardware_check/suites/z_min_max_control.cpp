@@ -1,5 +1,5 @@
-// Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: what the depth range removes, fragments and
-// whole triangles, by z or by w. chip-float-depth.md 5.1.
+// Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: the fragments and whole triangles that the
+// depth range removes, by z or by w. chip-float-depth.md 5.1.
 #include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -14,13 +14,13 @@ constexpr double units = 16777215.0;  // of the 24-bit buffer
 
 using Color = std::array<float, 4>;
 
-// What a group's quads have at their left and right side.
+// The values of a group's quads at their left and right side.
 template <class T>
 struct Sides {
     T left, right;
 };
 
-// A number that grows from quad to quad, added up in binary32 as the test does.
+// A number that grows from quad to quad, accumulated in binary32 as in the test.
 Sides<float> growing(int n) {
     constexpr float step = 150.0f / (columns * rows + 1);
     float first = 0;
@@ -37,7 +37,7 @@ struct Group {
     float x, y;
     Sides<float> (*z)(int n);
     Sides<float> (*w)(int n);
-    Sides<Color> (*color)(float left, float right);  // from the two greys
+    Sides<Color> (*color)(float left, float right);  // computed from the two greys
 };
 
 constexpr float group_pitch = 126.72f + 90.0f, upper = 60, lower = 252;
@@ -69,15 +69,15 @@ constexpr Group groups[] = {{90, upper, growing, one,
                                  return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
                              }}};
 
-// The host's camera of the pictures by the fixed pipeline: three back, and an orthographic view from `near` to `far`,
-// which the chip's range has, too.
+// The host's camera for the pictures with the fixed-function pipeline: three units back, and an orthographic view from
+// `near` to `far`, which are also the chip's range.
 HostCamera orthographic_camera() {
     const HostMatrix back{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, -3, 1}}};
     return camera_of(back, orthographic_to_window(10, 100));
 }
 
-// A corner through the fixed pipeline: the host un-projects it and multiplies by w, and the chip divides by that again.
-// Where w is 0 all products are 0, and the corner stands in the window's.
+// A corner through the fixed-function pipeline: the host un-projects it and multiplies by w, and the chip divides by
+// that again. If w is 0 all products are 0, and the corner is at the window's.
 ClipVertex through_pipeline(const ClipVertex& v, const HostCamera& camera) {
     const HostVector world = unprojected_point(camera, {v.x, v.y, v.z, 1});
     const auto [x, y, z, w] =
@@ -98,7 +98,7 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
     const bool by_w = take(name, "WBuf_"), culls_triangles = take(name, "NEARFAR_");
     const bool clamps = take(name, "ZCLAMP");
     if (!clamps && !take(name, "ZCULL")) return unknown_name;
-    take(name, "_IgnW");  // changes nothing
+    take(name, "_IgnW");  // does not change the picture
     if (!name.empty()) return unknown_name;
 
     constexpr Argb background = 0xff222228;
@@ -126,7 +126,7 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
             add_quad(soup, corner);
             surface.draw(state, std::move(soup));
         }
-    // Colours where 256 times a weight lies next to an integer: none at hand (chip-float-depth.md 7).
+    // Colours where 256 times a weight is close to an integer: none in the available captures (chip-float-depth.md 7).
     return {Picture{.image = surface.color(), .bound = {16, 1}}, {}};
 }
 

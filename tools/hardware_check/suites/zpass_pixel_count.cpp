@@ -1,5 +1,5 @@
-// Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8
-// pixel. What the chip's occlusion query counts. chip-fragment.md 6.
+// Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8 pixel.
+// The pixels that the chip's occlusion query counts. chip-fragment.md 6.
 #include <algorithm>
 
 #include "tools/hardware_check/fixed_pipeline.h"
@@ -10,20 +10,19 @@
 namespace strata::hardware_check {
 namespace {
 
-// The greatest code of the 16-bit buffer. Window z counts in codes.
+// The greatest code of the 16-bit buffer. Window z is in codes.
 constexpr double units = 65535.0;
-// A fragment counts if it passes LESS. draw() answers how many did: the chip's report.
+// A fragment counts if it passes LESS. draw() returns the number of those that did: the chip's report.
 const pipeline::DrawState counted{.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}};
 
-// A 128 x 128 square at world z, through the fixed pipeline.
+// A 128 x 128 square at world z, drawn with the fixed-function pipeline.
 std::uint64_t draw_square(pipeline::Surface& surface, float x, float y, double z, Argb color) {
     const float l = x + viewport_offset, t = y + viewport_offset;
     return surface.draw(counted, box({l, t, l + 128, t + 128}, color, static_cast<float>(window_z(z, units))));
 }
 
-// The two reports of ZPass: after four squares, of which the second lies behind the first and the
-// fourth half off screen, and after one more. Reading the counter does not reset it, so the second
-// report holds the first.
+// The two reports of ZPass: after four squares, of which the second is behind the first and the fourth half outside the
+// screen, and after one more. Reading the counter does not reset it, so the second report includes the first.
 std::vector<std::uint64_t> draw_squares(pipeline::Surface& surface) {
     std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
     count += draw_square(surface, 32, 240, 1, 0xff0000ff);
@@ -36,13 +35,13 @@ std::vector<std::uint64_t> draw_squares(pipeline::Surface& surface) {
 
 constexpr Argb white = 0xffffffff;
 
-// A square of `side` pixels round (x, y): pixel centres in [c - side / 2, c + side / 2).
+// A square of `side` pixels around (x, y): pixel centres in [c - side / 2, c + side / 2).
 std::uint64_t draw_point(pipeline::Surface& surface, float x, float y, float side, float z) {
     const float h = side / 2;
     return surface.draw(counted, box({x - h, y - h, x + h, y + h}, white, z));
 }
 
-// The fixed pipeline counts whole pixels, one at least.
+// The fixed-function pipeline counts whole pixels, at least one.
 std::uint64_t draw_fixed_points(pipeline::Surface& surface, std::uint32_t size) {
     const float side = static_cast<float>(std::max(1u, size >> 3));
     const float near = static_cast<float>(window_z(0, units)), behind = static_cast<float>(window_z(1.5, units));
@@ -51,10 +50,10 @@ std::uint64_t draw_fixed_points(pipeline::Surface& surface, std::uint32_t size) 
     return count + draw_point(surface, 288.5f, 304.5f, side, near);
 }
 
-// A vertex program's size is not rounded; 0 and the end of the range are exceptions.
+// A vertex program's size is not rounded, except for 0 and the end of the range.
 std::uint64_t draw_program_points(pipeline::Surface& surface, std::uint32_t size) {
-    // 0 draws one pixel at the point itself, 504 to 511 a side of 64, and 512 on wraps around to
-    // one pixel (chip-fragment.md 6.1).
+    // 0 draws one pixel at the point itself, 504 to 511 a square of side 64, and 512 and above wrap around to one pixel
+    // (chip-fragment.md 6.1).
     const bool is_zero = size == 0, wraps = size >= 512;
     const float side = is_zero || wraps ? 1.0f : size >= 504 ? 64.0f : static_cast<float>(size) / 8.0f;
     const float shift = is_zero ? 0.5f : 0.0f;
@@ -63,10 +62,10 @@ std::uint64_t draw_program_points(pipeline::Surface& surface, std::uint32_t size
     return count + draw_point(surface, 288 + shift, 304 + shift, side, 0);
 }
 
-// A horizontal line of 64 pixels: rows from 304 - width / 2 on.
+// A horizontal line of 64 pixels: rows starting at 304 - width / 2.
 std::uint64_t draw_lines(pipeline::Surface& surface, std::uint32_t width) {
     std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
-    // The register 0 draws no line at all.
+    // The register value 0 draws no line.
     if (width == 0) return count;
     const std::uint32_t rows = std::max(1u, width >> 3);
     const float y = 304.0f - static_cast<float>(rows >> 1), z = static_cast<float>(window_z(1.5, units));
@@ -75,7 +74,7 @@ std::uint64_t draw_lines(pipeline::Surface& surface, std::uint32_t width) {
     return count;
 }
 
-// A kind of picture whose name ends in a size register's hexadecimal digits.
+// A kind of picture whose name ends with a size register's hexadecimal digits.
 struct Sized {
     std::string_view prefix;
     // The largest register value that chip-fragment.md 6 describes.
