@@ -37,7 +37,8 @@ class PreparedLists {
     void bin(int tile_size_px);
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
-    // The input of set-up, for callers that need the vertices.
+    // The input of set-up, for callers that need the vertices. submission: the indices of the transparent soup's
+    // triangles in submission order, empty if as listed.
     [[nodiscard]] rasterizer::TriangleSoup opaque_soup() const;
     [[nodiscard]] rasterizer::TriangleSoup transparent_soup() const;
     [[nodiscard]] std::vector<std::uint32_t> submission(ListOrder order) const;

@@ -61,8 +61,9 @@ struct SceneOptions {
 // malformed text.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
-// The two parts of load_scene. load_gltf reads every path as a glTF file, whatever its ending. make_procedural throws
-// InputError for an unknown name or a wrong parameter. is_procedural checks the name only, not the parameters.
+// The two parts of load_scene, and the test that selects one. load_gltf reads every path as a glTF file, whatever its
+// ending. make_procedural throws InputError for an unknown name or a wrong parameter. is_procedural checks the name
+// only, not the parameters.
 [[nodiscard]] Scene load_gltf(const std::string& path, const SceneOptions& options);
 [[nodiscard]] Scene make_procedural(const std::string& spec, const SceneOptions& options);
 [[nodiscard]] bool is_procedural(const std::string& spec);

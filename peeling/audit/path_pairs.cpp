@@ -25,8 +25,8 @@ std::vector<CapturedFragment> by_place(std::span<const CapturedFragment> fragmen
     return sorted;
 }
 
-// True if the first fragments of both sequences are the same. A neighbour matches only if the nearer of the two is not
-// followed by a triangle with the other's index.
+// True if the first fragments of both sequences are the same. A neighbour matches only if
+// the sequence with the lower index does not continue with a fragment of the other's triangle.
 bool are_partners(std::span<const CapturedFragment> a, std::span<const CapturedFragment> b, Match match) {
     if (place(a[0]) == place(b[0])) return true;
     if (match == Match::triangle || a[0].pixel != b[0].pixel) return false;

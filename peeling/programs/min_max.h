@@ -187,7 +187,7 @@ class DualLayers {
         region_.keep_layer(layer_.color, layer_.depth, side);
     }
 
-    // Replaces the depths of one end of the range by the depth of that end.
+    // Sets both ends of layer_.end to the depth of one end of `min_max`.
     void find_end(pipeline::Target min_max, pipeline::Side side) {
         using namespace pipeline;
         PassState state;

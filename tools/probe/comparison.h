@@ -60,8 +60,8 @@ class Comparison {
     [[nodiscard]] const Item& item(std::size_t number) const noexcept { return *items_[number].item; }
     [[nodiscard]] std::size_t count() const noexcept { return items_.size(); }
 
-    // The reply of a device with this profile. The second overload compares it with the device's reply: all false if
-    // the profile refuses what the device drew.
+    // The reply of a device with this profile. equal: where it agrees with the device's answer; all false if the
+    // profile refuses what the device drew.
     [[nodiscard]] Reply drawn(const DeviceProfile& profile, std::size_t number) const;
     [[nodiscard]] std::vector<bool> equal(const Reply& drawn, std::size_t number) const;
     [[nodiscard]] Tally tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const;

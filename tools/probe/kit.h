@@ -16,7 +16,7 @@ namespace strata::probe {
 [[nodiscard]] const std::vector<Item>& kit();
 
 // Scenes that are not designed for any field: random triangles and models through a camera, to test an inferred
-// profile.
+// profile. unseen_scenes: `count` of them, starting with number `first`.
 [[nodiscard]] Item unseen_scene(int number);
 [[nodiscard]] std::vector<Item> unseen_scenes(int first, int count);
 
