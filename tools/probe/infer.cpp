@@ -30,7 +30,8 @@ Contradiction place_of(const Item& item, std::size_t place) {
     return {item.name, is_depth ? "depth" : "color", static_cast<int>(place % width), static_cast<int>(place / width)};
 }
 
-// The alternatives to the inferred value. For a guard band: a pixel less, a pixel more, and none.
+// The alternatives to the inferred value. For a guard band: a pixel less, a pixel more, twice as many, and the
+// highest value, which means none.
 std::vector<int> other_values(const ProfileField& f, int found) {
     std::vector<int> values = searched_values(f, found);
     values.erase(values.begin());
