@@ -2,7 +2,7 @@
 
 #include "wanted.h"
 
-TEST_CASE("the panes are those of the reference, to the bit") {
+TEST_CASE("the rendered panes equal the reference image to the bit") {
     const auto pixels = draw_panes();
     const auto mine = strata::from_memory(pixels.data(), pixels.size(), "64x48:rgba8");
     const strata::Reference wanted{strata::picture_of(wanted_panes().color()), "panes"};
