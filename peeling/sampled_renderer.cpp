@@ -124,10 +124,14 @@ struct SampledRenderer::State {
     DeviceProfile profile;
     RenderOptions options;
     int samples;
+    Resolve resolve = Resolve::box;
     std::vector<std::unique_ptr<Renderer>> renderers{};
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
         if (auto lacking = check_multisampling(profile, samples)) return lacking;
+        if (resolve == Resolve::quincunx && (samples != 2 || profile.sample_positions != SamplePositions::nv20))
+            return Refusal{"Quincunx filter of " + std::to_string(samples) + " samples", "NV_multisample_filter_hint",
+                           "use --profile geforce3 with --samples 2"};
         if (samples > 1 && algorithm.samples > 1)
             return Refusal{"samples to spare for " + algorithm.name + ", which stores fragments in them", "",
                            "use --samples 1, or k_buffer"};
@@ -145,8 +149,8 @@ struct SampledRenderer::State {
 };
 
 SampledRenderer::SampledRenderer(const DrawList& list, const View& view, const DeviceProfile& profile,
-                                 const RenderOptions& options, int samples)
-    : state_{new State{list, view, profile, options, samples}} {
+                                 const RenderOptions& options, int samples, Resolve resolve)
+    : state_{new State{list, view, profile, options, samples, resolve}} {
     if (samples != 1 && samples != 2 && samples != 4 && samples != 8)
         Requirements{"render options"}.fail(FieldName{"samples"}, "1, 2, 4 or 8", samples);
     state_->renderers.resize(static_cast<std::size_t>(samples));
@@ -168,16 +172,21 @@ RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::func
         return refused;
     }
     if (s.samples == 1) return s.renderer(0).render(algorithm, progress);
+    std::vector<Image> colors;
     SampleSum sum{s.samples, s.profile, s.options.raster.depth_order == rasterizer::DepthOrder::greater};
     for (std::size_t number = 0; number < s.renderers.size(); ++number) {
         const auto share = [&](double own) { progress((static_cast<double>(number) + own) / s.samples); };
         RenderResult one =
             s.renderer(number).render(algorithm, progress ? std::function<void(double)>{share} : nullptr);
         if (one.outcome == Outcome::refused) return one;
-        if (own_colors != nullptr) own_colors->push_back(one.frame.color);
+        if (own_colors != nullptr || s.resolve == Resolve::quincunx) colors.push_back(one.frame.color);
         sum.add(std::move(one));
     }
-    return std::move(sum).result();
+    RenderResult result = std::move(sum).result();
+    const bool is_turned = s.profile.origin == Origin::lower_left;
+    if (s.resolve == Resolve::quincunx) result.frame.color = quincunx(colors[0], colors[1], is_turned);
+    if (own_colors != nullptr) *own_colors = std::move(colors);
+    return result;
 }
 
 }  // namespace strata::peeling

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "peeling/render.h"
+#include "pipeline/formats/resolve.h"
 
 namespace strata::peeling {
 
@@ -20,13 +21,14 @@ class SampledRenderer {
   public:
     // As Renderer; `samples` is 1, 2, 4 or 8, else InputError. `list` must outlive this.
     SampledRenderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
-                    const RenderOptions& options, int samples);
+                    const RenderOptions& options, int samples, pipeline::Resolve resolve = pipeline::Resolve::box);
     SampledRenderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
-                    const RenderOptions& options, int samples) = delete;
+                    const RenderOptions& options, int samples,
+                    pipeline::Resolve resolve = pipeline::Resolve::box) = delete;
     ~SampledRenderer();
 
-    // What Renderer::render refuses, numbers of samples that the profile has not, and algorithms that store fragments
-    // in samples. `own_colors`: also gets the picture of each sample.
+    // What Renderer::render refuses, numbers of samples and filters that the profile has not, and algorithms that store
+    // fragments in samples. `own_colors`: also gets the picture of each sample.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       std::vector<pipeline::Image>* own_colors = nullptr);
 

@@ -65,6 +65,22 @@ Image ColorResolve::picture() && {
     return std::move(sum_);
 }
 
+Image quincunx(const Image& corner, const Image& centre, bool is_turned) {
+    Image picture = Image::for_overwrite(centre.format, centre.width, centre.height);
+    for (int y = 0; y < centre.height; ++y) {
+        const int below = is_turned ? std::max(y - 1, 0) : std::min(y + 1, centre.height - 1);
+        for (int x = 0; x < centre.width; ++x)
+            for (int c = 0; c < centre.channels(); ++c) {
+                const int right = std::min(x + 1, centre.width - 1);
+                const auto at = [&](int column, int row) { return corner.codes[corner.index(column, row, c)]; };
+                const std::uint32_t corners = at(x, y) + at(right, y) + at(x, below) + at(right, below);
+                const std::uint32_t code = (4 * centre.codes[centre.index(x, y, c)] + corners + 4) / 8;
+                picture.codes[picture.index(x, y, c)] = narrowed(centre.format, c, code);
+            }
+    }
+    return picture;
+}
+
 void add_nearest(const Image& sample, bool greater_is_nearer, Image& nearest) {
     if (nearest.codes.empty()) {
         nearest = sample;

@@ -12,6 +12,10 @@
 
 namespace strata::pipeline {
 
+// How a picture is made of its samples: the mean of a pixel's own, or NV20's filter of two, which looks at the
+// neighbours', too.
+enum class Resolve : std::uint8_t { box, quincunx };
+
 class ColorResolve {
   public:
     // `samples` is the number of images that will be added: 1, 2, 4 or 8.
@@ -33,6 +37,12 @@ class ColorResolve {
     ColorRounding rounding_;
     Image sum_;  // sums of codes, or bits of binary32 sums
 };
+
+// Quincunx, for 8-bit codes of two samples, a corner and the centre: the centre counts a half and each corner of the
+// pixel an eighth, rounded half up. The corners on its right and below are those of the next pixels; beyond the last
+// column and row, of these again. `is_turned`: the picture's next row is the one before in memory
+// (fragment-stages.md 13.4).
+[[nodiscard]] Image quincunx(const Image& corner, const Image& centre, bool is_turned);
 
 // Keeps the nearer of two depths at every pixel; an empty `nearest` becomes `sample`. Under reversed depth greater
 // codes are nearer.

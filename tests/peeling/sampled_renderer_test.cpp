@@ -148,6 +148,37 @@ TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample, fr
     }
 }
 
+TEST_CASE("Quincunx is GeForce3's of two samples, and no other device's") {
+    const TriangleScene scene = random_triangles(1206, 20);
+    const auto& algorithm = *find_algorithm("depth_units");
+    using strata::pipeline::Resolve;
+    SampledRenderer renderer{scene.list,        scene.view, *find_profile("geforce3"),
+                             sampled_options(), 2,          Resolve::quincunx};
+    std::vector<Image> colors;
+    const RenderResult result = renderer.render(algorithm, {}, &colors);
+    REQUIRE(colors.size() == 2);
+    const Image& corner = colors[0];
+    std::uint64_t wrong = 0;
+    for (int y = 0; y + 1 < corner.height; ++y)
+        for (int x = 0; x + 1 < corner.width; ++x) {
+            std::uint32_t sum = 4 * colors[1].codes[corner.index(x, y, 1)] + 4;
+            for (const int j : {y, y + 1})
+                for (const int i : {x, x + 1}) sum += corner.codes[corner.index(i, j, 1)];
+            wrong += result.frame.color.codes[corner.index(x, y, 1)] != sum / 8 ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+    const auto refusal_of = [&](const char* profile, int samples) {
+        SampledRenderer other{scene.list,        scene.view, *find_profile(profile),
+                              sampled_options(), samples,    Resolve::quincunx};
+        const RenderResult refused = other.render(algorithm);
+        return refused.refusal ? refused.refusal->sentence(*find_profile(profile)) : "";
+    };
+    CHECK(refusal_of("geforce8", 2) ==
+          "profile geforce8 has no Quincunx filter of 2 samples (NV_multisample_filter_hint); "
+          "use --profile geforce3 with --samples 2");
+    CHECK(refusal_of("geforce3", 4).starts_with("profile geforce3 has no Quincunx filter of 4 samples"));
+}
+
 TEST_CASE("what no device can draw with several samples is refused") {
     const TriangleScene scene = random_triangles(1205, 4);
     const auto refusal_of = [&](const Machine& machine, int samples) {

@@ -21,6 +21,11 @@ TEST_CASE("numbers of samples are refused by name, and --sample where all of the
          "geforce8_dx101 or ideal"},
         {{"render", "teapot", "--samples", "4", "--sample", "4"},
          "--sample: expected a number from 0 to 3 with --samples 4, found 4"},
+        {{"render", "teapot", "--samples", "2", "--resolve", "quincunx"},
+         "dual: profile geforce8 has no Quincunx filter of 2 samples (NV_multisample_filter_hint); use --profile "
+         "geforce3 with --samples 2"},
+        {{"render", "teapot", "--samples", "2", "--sample", "0", "--resolve", "quincunx", "--profile", "geforce3"},
+         "--resolve goes with all samples of a picture"},
         {{"explain", "teapot", "--samples", "4", "--pixel", "3,3"},
          "--samples needs --sample here: a number from 0 to 3"},
         {{"golden", "teapot", "--samples", "2", "-o", "pack"}, "--samples needs --sample here: a number from 0 to 1"},
@@ -37,9 +42,10 @@ TEST_CASE("numbers of samples are refused by name, and --sample where all of the
 
 TEST_CASE("a picture records its samples, and its command draws it again") {
     const Folder folder;
-    for (const std::string samples : {"--samples 4", "--samples 4 --sample 2"}) {
-        CHECK(shell(folder, "strata render teapot --alpha 0.5 --size 32x24 -q --no-audit -o a.exr " + samples).status ==
-              0);
+    for (const std::string samples : {"--samples 4", "--samples 4 --sample 2", "--samples 2 --resolve quincunx"}) {
+        const std::string device = samples.ends_with("x") ? " --profile geforce3 --algorithm depth_units " : " ";
+        CHECK(shell(folder, "strata render teapot --alpha 0.5 --size 32x24 -q --no-audit -o a.exr " + samples + device)
+                  .status == 0);
         CHECK(shell(folder, "strata info a.exr").out.find(samples) != std::string::npos);
         CHECK(shell(folder, "strata render --from a.exr -q --no-audit -o b.exr").status == 0);
         CHECK(shell(folder, "strata compare a.exr b.exr --exact").status == 0);

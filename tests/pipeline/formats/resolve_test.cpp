@@ -161,3 +161,26 @@ TEST_CASE("the nearest depth of a pixel's samples is its least code, and its gre
     CHECK(wrong == 0);
     CHECK(least.format == Format::d24);
 }
+
+TEST_CASE("Quincunx counts the centre a half and each corner of the pixel an eighth, half up") {
+    Random random{56};
+    const auto samples = random_samples(random, Format::rgba8, 2, random_code);
+    std::uint64_t wrong = 0;
+    for (const bool is_turned : {false, true}) {
+        const Image picture = quincunx(samples[0], samples[1], is_turned);
+        for (int y = 0; y < resolved_height; ++y)
+            for (int x = 0; x < resolved_width; ++x)
+                for (int c = 0; c < 4; ++c) {
+                    Rational sum = Rational{samples[1].codes[samples[1].index(x, y, c)]} / 2;
+                    for (const int right : {0, 1})
+                        for (const int below : {0, 1}) {
+                            const int column = x + right == resolved_width ? x : x + right;
+                            int row = is_turned ? y - below : y + below;
+                            if (row < 0 || row == resolved_height) row = y;
+                            sum += Rational{samples[0].codes[samples[0].index(column, row, c)]} / 8;
+                        }
+                    wrong += picture.codes[picture.index(x, y, c)] != floor(sum + Rational{1, 2}) ? 1 : 0;
+                }
+    }
+    CHECK(wrong == 0);
+}

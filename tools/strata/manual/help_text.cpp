@@ -21,7 +21,7 @@ const std::vector<Group>& groups() {
         {"What is drawn",
          Shown::usual,
          {"scene", "color-space", "no-light", "algorithm", "profile", "origin", "depth-format", "from"}},
-        {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background", "samples", "sample"}},
+        {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background", "samples", "sample", "resolve"}},
         {"Results",
          Shown::usual,
          {"output", "format", "stats", "no-audit", "json", "csv", "digests", "expect", "channels", "report", "map",

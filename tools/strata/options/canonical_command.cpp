@@ -145,6 +145,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     add_view(words, options);
     add_machine(words, options.render);
     if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
+    if (options.resolve != pipeline::Resolve::box) add(words, "--resolve", name_of(resolves, options.resolve));
     if (options.sample) add(words, "--sample", fmt::format("{}", *options.sample));
     add_order(words, options.render);
     std::string line;

@@ -1,6 +1,7 @@
 // tools/strata/options/choices.h - the words of options that take one of a few names, and what they mean.
 #pragma once
 #include "pipeline/device/profile_fields.h"
+#include "pipeline/formats/resolve.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/simd.h"
@@ -65,6 +66,8 @@ inline const std::vector<Choice<pipeline::Origin>> origins{{"upper-left", pipeli
                                                            {"lower-left", pipeline::Origin::lower_left}};
 
 // Pixels a side.
+inline const std::vector<Choice<pipeline::Resolve>> resolves{{"box", pipeline::Resolve::box},
+                                                             {"quincunx", pipeline::Resolve::quincunx}};
 inline const std::vector<Choice<int>> sample_counts{{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}};
 inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
 

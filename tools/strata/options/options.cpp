@@ -73,6 +73,8 @@ void add_sample_options(CLI::App& app, RunOptions& options) {
                {"--sample", "N", "one of the samples alone, by its number from 0, instead of all of them resolved",
                 "a whole number from 0"},
                to_count);
+    add_choice(app, options.resolve, "--resolve", resolves,
+               "the mean of a pixel's samples, or GeForce3's Quincunx of two (default box)");
 }
 
 void check_samples(const RunOptions& options) {
@@ -81,6 +83,8 @@ void check_samples(const RunOptions& options) {
         throw CLI::ValidationError("--sample", "expected a number from 0 to " + last + " with --samples " +
                                                    std::to_string(options.samples) + ", found " +
                                                    std::to_string(*options.sample));
+    if (options.resolve != pipeline::Resolve::box && (options.sample || !options.resolves))
+        throw CLI::ValidationError("--resolve goes with all samples of a picture");
     if (options.samples > 1 && !options.sample && !options.resolves)
         throw CLI::ValidationError("--samples needs --sample here: a number from 0 to " + last);
 }

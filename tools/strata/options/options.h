@@ -7,6 +7,7 @@
 
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/render_options.h"
+#include "pipeline/formats/resolve.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/camera.h"
 #include "scenes/files/image_io.h"
@@ -34,8 +35,9 @@ struct RunOptions {
     bool takes_own_view = false;         // neither is given, and the scene turned out to have a view of its own
     scenes::ClipConvention view_convention;  // of a view that comes with the scene
     peeling::RenderOptions render;
-    int samples = 1;                  // --samples: 1, 2, 4 or 8 a pixel, each shaded by itself
-    std::optional<int> sample;        // --sample: the frame of this one alone
+    int samples = 1;            // --samples: 1, 2, 4 or 8 a pixel, each shaded by itself
+    std::optional<int> sample;  // --sample: the frame of this one alone
+    pipeline::Resolve resolve = pipeline::Resolve::box;
     bool resolves = false;            // the command takes frames of all samples
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; none: what the machine has free

@@ -217,7 +217,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer serves all algorithms: geometry is transformed and set up once.
     peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
-                                      options.sample ? 1 : options.samples);
+                                      options.sample ? 1 : options.samples, options.resolve);
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::tell_when_interrupted(undone(options, runs.size()));
