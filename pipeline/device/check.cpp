@@ -44,6 +44,8 @@ constexpr std::array feature_rules{
     FeatureRule{Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "",
                 &DeviceProfile::has_narrow_surfaces},
     FeatureRule{Feature::d24f, "24-bit float depth buffers", "", &DeviceProfile::has_d24f},
+    FeatureRule{Feature::unordered_access, "buffers that a program writes and changes atomically",
+                "ARB_shader_storage_buffer_object", &DeviceProfile::has_unordered_access},
 };
 
 constexpr bool rules_follow_the_enum() {

@@ -38,6 +38,7 @@ enum class Feature : std::uint8_t {
     d16f,
     narrow_surfaces,
     d24f,
+    unordered_access,
 };
 
 // State of the era that no profile has (fragment-stages.md 12).

@@ -83,6 +83,7 @@ DeviceProfile ideal() {
     p.has_d16 = true;
     p.has_depth_replace = true;
     p.has_ordered_rmw = true;
+    p.has_unordered_access = true;
     p.max_viewport_px = 16384;
     return p;
 }
@@ -116,6 +117,7 @@ DeviceProfile llvmpipe() {
     p.raster.viewport = ViewportArithmetic::fused_given;
     p.raster.sample_divisor = SampleDivisor::centre;
     p.raster.plane_rule = PlaneRule::reciprocal_area_fused;
+    p.has_unordered_access = true;
     return p;
 }
 

@@ -91,6 +91,9 @@ struct DeviceProfile {
     bool has_sequential_depth_units = true;
     // STRATA_ordered_rmw: targets that a program both reads and writes.
     bool has_ordered_rmw = false;
+    // ARB_shader_image_load_store, ARB_shader_storage_buffer_object: a program reads and writes buffers, and changes
+    // them atomically.
+    bool has_unordered_access = false;
     // Signed add and signed reverse subtract, on 8-bit targets (fragment-stages.md 8.3).
     bool has_signed_blend = false;
     SamplePositions sample_positions = SamplePositions::standard;

@@ -293,6 +293,10 @@ constexpr std::array fields{
          "[A] devices.md 6: an emulator extension"}),
     boolean<&Profile::has_ordered_rmw>("has_ordered_rmw",
                                        {"[A] devices.md 6", "[A] devices.md 6", ours, "[A] devices.md 6"}),
+    boolean<&Profile::has_unordered_access>(
+        "has_unordered_access",
+        {"[S] devices.md 6: Direct3D 11", "[S] devices.md 6: Direct3D 11", ours,
+         "[S] devices.md 6: OpenGL 4.5 of llvmpipe, 3.3 of softpipe", "[S] WebGL 2 has no storage buffers"}),
     boolean<&Profile::has_signed_blend>("has_signed_blend",
                                         {"[M] fragment-stages.md 8.3: 478 of 478 pictures",
                                          "[S] fragment-stages.md 8.3: no such equation", ours, opengl, webgl}),

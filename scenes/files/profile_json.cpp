@@ -40,6 +40,7 @@ constexpr std::size_t longest_name = 64, longest_description = 1000;
 constexpr std::string_view later_fields[] = {"blend_storage",
                                              "depth24",
                                              "has_d24f",
+                                             "has_unordered_access",
                                              "min_samples",
                                              "origin",
                                              "raster.area_sign",

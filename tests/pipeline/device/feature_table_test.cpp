@@ -37,6 +37,8 @@ constexpr FeatureOfDevices feature_table[] = {
     {Feature::d16f, "16-bit float depth buffers", "", "3"},
     {Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "", "3"},
     {Feature::d24f, "24-bit float depth buffers", "", "3"},
+    {Feature::unordered_access, "buffers that a program writes and changes atomically",
+     "ARB_shader_storage_buffer_object", "ils"},
 };
 
 constexpr std::array<std::string_view, 8> device_names{"geforce3", "geforce8",     "geforce8_dx101", "ideal",

@@ -124,6 +124,7 @@ constexpr FieldOfDevices device_table[] = {
     {"has_depth_replace", {"true", "false", "false", "true", "false", "false", "false", "false"}},
     {"has_sequential_depth_units", {"true", "true", "true", "true", "true", "true", "true", "true"}},
     {"has_ordered_rmw", {"false", "false", "false", "true", "false", "false", "false", "false"}},
+    {"has_unordered_access", {"false", "false", "false", "true", "true", "true", "false", "false"}},
     {"has_signed_blend", {"true", "false", "false", "false", "false", "false", "false", "false"}},
     {"sample_positions", {"nv20", "standard", "standard", "standard", "standard", "standard", "standard", "standard"}},
     {"resolve",

@@ -119,6 +119,7 @@ TEST_CASE(
     const std::set<std::string_view> later{"blend_storage",
                                            "depth24",
                                            "has_d24f",
+                                           "has_unordered_access",
                                            "origin",
                                            "raster.area_sign",
                                            "raster.depth_limits",
