@@ -9,6 +9,27 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
+namespace {
+
+void check_algorithm_options(const Requirements& its, const AlgorithmOptions& o) {
+    its.listed("algorithm.weight", o.weight);
+    its.listed("algorithm.overflow", o.overflow);
+    if (o.tail) its.listed("algorithm.tail", *o.tail);
+    its.within("algorithm.nodes", o.nodes, 1, most_nodes);
+    its.within("algorithm.pixel_nodes", o.pixel_nodes, 0, INT32_MAX);
+    its.within("algorithm.frame_nodes", o.frame_nodes, 0, INT32_MAX);
+    its.within("algorithm.stochastic_samples", o.stochastic_samples, 1, most_stochastic_samples);
+    if (o.moments != 4 && o.moments != 6 && o.moments != 8)
+        its.fail(FieldName{"algorithm.moments"}, "4, 6 or 8", o.moments);
+    const auto share = [&](const char* name, float value) {
+        if (!(value >= 0 && value <= 1)) its.fail(FieldName{name}, "a number from 0 to 1", value);
+    };
+    if (o.moment_bias) share("algorithm.moment_bias", *o.moment_bias);
+    share("algorithm.overestimation", o.overestimation);
+}
+
+}  // namespace
+
 void check_options(const RenderOptions& o) {
     const Requirements its{"render options"};
     its.within("width", o.width, 1, 16384);
@@ -29,6 +50,7 @@ void check_options(const RenderOptions& o) {
         its.within("termination.passes", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
         its.fail(FieldName{"termination.ratio"}, "a number of at least 0", o.termination.ratio);
+    check_algorithm_options(its, o.algorithm);
     if (o.alpha) its.finite("alpha", *o.alpha);
     if (o.depth) its.listed("depth", *o.depth);
     if (o.depth_path) its.listed("depth_path", *o.depth_path);

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "peeling/registry.h"
 #include "peeling/render.h"
 #include "pipeline/device/profile.h"
 #include "pipeline/region/region.h"
@@ -81,11 +82,8 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     small.audit = false;
     Coverage coverage;
     Algorithm watched = algorithm;
-    watched.body = [&](Region& region) {
-        if (algorithm.body)
-            algorithm.body(region);
-        else if (algorithm.resolve_loop == nullptr || !algorithm.resolve_loop(region))
-            algorithm.run(region);
+    watched.body = [&, body = body_of(algorithm, {options.algorithm, {}})](Region& region) {
+        body(region);
         found.target_words = std::max(found.target_words, RegionShortcuts{region}.target_words());
         coverage.put(region);
     };

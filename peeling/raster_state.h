@@ -3,8 +3,10 @@
 //
 // Tests    tests/peeling/origin_test.cpp
 #pragma once
+#include "peeling/programs/algorithm_options.h"
 #include "peeling/render_options.h"
 #include "pipeline/device/profile.h"
+#include "pipeline/vertices/draw_list.h"
 
 namespace strata::peeling {
 
@@ -23,6 +25,19 @@ namespace strata::peeling {
         state.scissor = {shown.x0, options.height - shown.y1, shown.x1, options.height - shown.y0};
     }
     return state;
+}
+
+// The uniforms with which a program finds the distance from the eye, of a projection whose rows z and w depend on z
+// alone: computed in binary64, each rounded once (algorithms.md 18.2).
+[[nodiscard]] inline EyeDistance eye_distance(const pipeline::View& view,
+                                              const rasterizer::RasterState& state) noexcept {
+    const double near = state.depth_near, far = state.depth_far;
+    const bool is_half = state.clip_depth == rasterizer::ClipDepth::minus_one_to_one;
+    const double scale = is_half ? (far - near) / 2 : far - near, middle = is_half ? (far + near) / 2 : near;
+    const pipeline::Matrix& p = view.projection;  // p[column][row]
+    const double z_of_z = p[2][2], z_of_1 = p[3][2], w_of_z = p[2][3], w_of_1 = p[3][3];
+    return {static_cast<float>(z_of_1 * scale + middle * w_of_1), static_cast<float>(-w_of_1),
+            static_cast<float>(-z_of_z * scale - middle * w_of_z), static_cast<float>(w_of_z)};
 }
 
 }  // namespace strata::peeling

@@ -38,4 +38,13 @@ pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProf
     return check_samples(profile, algorithm.samples);
 }
 
+std::function<void(pipeline::Region&)> body_of(const Algorithm& algorithm, const ListingInputs& inputs) {
+    if (algorithm.body) return algorithm.body;
+    return [&algorithm, inputs](pipeline::Region& region) {
+        if (algorithm.resolve_loop != nullptr && algorithm.resolve_loop(region)) return;
+        if (algorithm.run_with != nullptr) return algorithm.run_with(region, inputs);
+        algorithm.run(region);
+    };
+}
+
 }  // namespace strata::peeling

@@ -1,5 +1,6 @@
 // peeling/registry.h - all algorithms.
 #pragma once
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -13,5 +14,8 @@ namespace strata::peeling {
 
 // The first feature required by the algorithm that the profile lacks.
 [[nodiscard]] pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile);
+
+// What runs on every region: a resolve where the algorithm offers one, its passes elsewhere. `algorithm` outlives it.
+[[nodiscard]] std::function<void(pipeline::Region&)> body_of(const Algorithm& algorithm, const ListingInputs& inputs);
 
 }  // namespace strata::peeling

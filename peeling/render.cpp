@@ -9,6 +9,7 @@
 #include "peeling/check_options.h"
 #include "peeling/prepared_lists.h"
 #include "peeling/raster_state.h"
+#include "peeling/registry.h"
 #include "peeling/render_diagnostics.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
@@ -29,14 +30,6 @@ namespace {
 
 // Memory that sorting takes per recorded fragment in addition to its word (sorted_lists.h).
 constexpr std::uint64_t sorted_bytes = 4;
-
-// The algorithm's resolve if it has one, else its passes.
-Body body_of(const Algorithm& algorithm) {
-    if (algorithm.body) return algorithm.body;
-    return [&](Region& region) {
-        if (algorithm.resolve_loop == nullptr || !algorithm.resolve_loop(region)) algorithm.run(region);
-    };
-}
 
 }  // namespace
 
@@ -75,7 +68,9 @@ struct Renderer::State {
         const bool is_open =
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
-        return algorithm.whole_frame || counts_across || options.counters ? Execution::literal : options.execution;
+        const bool counts_nodes = algorithm.shares_nodes && options.algorithm.frame_nodes > 0;
+        return algorithm.whole_frame || counts_across || counts_nodes || options.counters ? Execution::literal
+                                                                                          : options.execution;
     }
 
     // Adds reasons that the executor does not know. An algorithm of one pass gains nothing from a record.
@@ -89,8 +84,9 @@ struct Renderer::State {
         else if (execution(algorithm, instruments) == Execution::replay)
             work.why = "a lookup, a depth or a cached block beyond a tile needs the whole frame";
         else
-            work.why = algorithm.whole_frame ? "queries nest, so that no tile may end by itself"
-                                             : "a limit of passes counts across loops";
+            work.why = algorithm.whole_frame    ? "queries nest, so that no tile may end by itself"
+                       : algorithm.shares_nodes ? "a limit of nodes counts across the frame"
+                                                : "a limit of passes counts across loops";
     }
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
@@ -177,7 +173,8 @@ struct Renderer::State {
         f.trace = options.audit && algorithm.ties != TiePolicy::none;
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
-        f.checks_targets = static_cast<bool>(algorithm.body);  // for a user's body
+        f.checks_targets =
+            algorithm.body || (algorithm.run_with != nullptr && needs(algorithm, Feature::float_targets));
         f.nearest_depth = options.nearest_depth;
         f.max_passes = algorithm.compares_own_codes ? own_pass_limit(algorithm, f) : pass_limit(f);
         f.average_count = options.average_count;
@@ -185,7 +182,7 @@ struct Renderer::State {
     }
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
-        if (algorithm.run == nullptr && !algorithm.body)
+        if (algorithm.run == nullptr && algorithm.run_with == nullptr && !algorithm.body)
             throw InputError("algorithm '" + algorithm.name + "'", "run", "a function, or one in body", "neither");
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
@@ -261,7 +258,8 @@ struct Renderer::State {
             f.trace = true;
             f.trace_bytes = ~std::uint64_t{0};
         }
-        const Body body = body_of(algorithm);
+        const Body body =
+            body_of(algorithm, {options.algorithm, eye_distance(lists.settings().view, lists.settings().raster)});
         std::optional<Audit> audit;
         if (options.audit && traces == nullptr) audit.emplace(f, body, algorithm, audit_memory(), options.threads);
         const Watch watch = traces != nullptr ? keep_traces(*traces) : audit ? audit->watch() : Watch{};

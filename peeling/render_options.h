@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "peeling/programs/algorithm_options.h"
 #include "peeling/sort.h"
 #include "pipeline/device/vertex_path.h"
 #include "pipeline/formats/format.h"
@@ -65,7 +66,8 @@ struct RenderOptions {
     Simd simd = Simd::best;  // of all kernels of this renderer
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Format average_count = pipeline::Format::r16f;
-    bool counters = false;  // count fragments by outcome, and bytes: the frame then runs literally
+    AlgorithmOptions algorithm{};  // options of single algorithms
+    bool counters = false;         // count fragments by outcome, and bytes: the frame then runs literally
     bool keep_layers = false;
     bool audit = true;          // order_errors and the other comparisons with a_buffer
     bool nearest_depth = true;  // also render the depth image

@@ -37,13 +37,6 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
     }
 }
 
-// Counts one geometry pass in the statistics where the fragment lists are built and read part by part.
-void count_pass(Region& region) {
-    PassState state;
-    state.needs = {.shader_z = false, .code = false, .color = true};
-    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
-}
-
 }  // namespace
 
 void run(Region& region) {
@@ -57,7 +50,7 @@ void run(Region& region) {
         return next_range(coverage, region.rect().width(), first, region.frame().list_bytes / sizeof(KeyedFragment));
     };
     const bool is_one_range = range_from(0).size() == pixels;
-    if (!is_one_range) count_pass(region);
+    if (!is_one_range) count_list_pass(region);
     FragmentLists fragment_lists;
     for (std::uint32_t first = 0; first < pixels; first = fragment_lists.pixels.last) {
         list_visible(region, range_from(first), coverage, is_one_range ? Counting::counted : Counting::silent,

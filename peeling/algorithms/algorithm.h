@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "peeling/programs/algorithm_options.h"
 #include "peeling/programs/tie_policy.h"
 #include "pipeline/device/check.h"
 #include "pipeline/frame/run_settings.h"
@@ -42,11 +43,13 @@ struct Algorithm {
     bool kills_alpha_zero = false;  // an alpha test discards fragments that store alpha 0, so they are no layers
     bool is_oracle = false;         // not an algorithm of a device: no profile rejects it
     bool whole_frame = false;       // its queries are nested: the frame runs literally, whatever --execution says
+    bool shares_nodes = false;      // tiles share a limit of nodes per frame: runs literally under one
     bool runs_loops = false;  // its loops run one after another: runs in tiles if each query depends on the tile alone
     bool compares_own_codes = false;  // compares only its stored code: rejected where options choose another depth
     bool has_published_form = false;  // the listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null if layers do not determine it
     void (*run)(pipeline::Region&) = nullptr;
+    void (*run_with)(pipeline::Region&, const ListingInputs&) = nullptr;  // used instead of `run`: reads options
     // Used instead of `run` by an algorithm that carries state of its own. Regions run on several threads at once, and
     // some regions run twice.
     std::function<void(pipeline::Region&)> body{};
@@ -60,7 +63,8 @@ struct Algorithm {
     // True if a tile's fragments are worth recording: an algorithm that draws them once would not read them again.
     [[nodiscard]] bool draws_again() const {
         const bool draws_once = geometry_passes != nullptr && geometry_passes(9) == 1;
-        const bool is_known = run != nullptr || geometry_passes != nullptr;  // false for a user's body
+        const bool is_known =
+            run != nullptr || run_with != nullptr || geometry_passes != nullptr;  // false for a user's body
         return is_known && !is_oracle && !whole_frame && !draws_once;
     }
     // The recorded values: the colour, and the depth from which the key is made.

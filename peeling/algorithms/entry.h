@@ -16,8 +16,9 @@ using pipeline::DepthKey;
 using enum pipeline::Feature;
 using rasterizer::DepthPath;
 
-// Geometry passes for N layers under exact termination: one, or one per layer and one that finds nothing.
+// Geometry passes for N layers under exact termination: one, two, or one per layer and one that finds nothing.
 inline int one_pass(int) { return 1; }
+inline int two_passes(int) { return 2; }
 inline int every_layer_and_one(int layers) { return layers + 1; }
 
 }  // namespace strata::peeling::listing

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "peeling/algorithms/entry.h"
+#include "peeling/programs/fixed_passes/tail.h"
 #include "peeling/programs/layer_target.h"
 #include "peeling/programs/region_programs.h"
 
@@ -36,9 +37,22 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     });
 }
 
-}  // namespace
+// What lies behind the last layer that was peeled, in one pass more.
+Target draw_tail(Region& region, const ListingInputs& inputs, Target peeled) {
+    TailTargets tail{region, *inputs.options.tail, inputs};
+    PassState state = tail.state();
+    state.reads[0] = peeled;
+    const DepthCompare compare = region.frame().depth_compare();
+    state.needs.reference = !compare.is_plain();
+    static_cast<void>(
+        region.draw(state, region.frame().second_list(), [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            tail.write(in, out);
+            discard_peeled(compare, in, own.depth(0), out);
+        }));
+    return tail.resolve();
+}
 
-void run(Region& region) {
+void run(Region& region, const ListingInputs& inputs) {
     const Target accumulated = region.make_color();
     const Target layer = region.make_color();
     Target peeled = region.make_depth();
@@ -54,15 +68,20 @@ void run(Region& region) {
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, layer, nearest, peeled, first);
         composite_layer(region, layer, nearest, accumulated);
+        std::swap(peeled, nearest);
         if (!region.any(drawn.passed, idle_when_zero(region.frame()))) {
-            region.keep_no_layer(layer, nearest);
+            region.keep_no_layer(layer, peeled);
             break;
         }
-        region.keep_layer(layer, nearest);
-        std::swap(peeled, nearest);
+        region.keep_layer(layer, peeled);
     }
-    publish_over_background(region, accumulated, region.opaque_color());
+    const bool has_tail = inputs.options.tail.value_or(Tail::none) != Tail::none;
+    publish_over_background(region, accumulated, has_tail ? draw_tail(region, inputs, peeled) : region.opaque_color());
 }
+
+void run_plain(Region& region) { run(region, {}); }
+
+}  // namespace
 
 std::vector<Algorithm> entries() {
     return {Algorithm{.name = "front_to_back",
@@ -77,7 +96,8 @@ std::vector<Algorithm> entries() {
                       .makes_layers = true,
                       .premultiplied_layers = true,
                       .geometry_passes = every_layer_and_one,
-                      .run = run,
+                      .run = run_plain,
+                      .run_with = run,
                       .features = {fragment_programs, separate_alpha_blend}}};
 }
 

@@ -11,6 +11,8 @@
 #include "rasterizer/rules/depth_code.h"
 
 namespace strata::peeling {
+inline constexpr float no_node = 2.0f;  // where no fragment's depth is kept: behind every depth
+
 inline namespace strict {
 
 [[nodiscard]] constexpr float depth_as_float(std::uint32_t code, rasterizer::DepthFormat format) noexcept {

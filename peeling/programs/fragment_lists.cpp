@@ -129,4 +129,10 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
     }
 }
 
+void count_list_pass(Region& region) {
+    PassState state;
+    state.needs = {.shader_z = false, .code = false, .color = true};
+    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+}
+
 }  // namespace strata::peeling

@@ -24,10 +24,20 @@ inline namespace strict {
     return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::yes : pipeline::Idle::no;
 }
 
+// Whether keys of depth are those of reversed depth, where 1 is near.
+[[nodiscard]] inline bool is_reversed(const pipeline::Frame& frame) noexcept {
+    return frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
+}
+
 // A fragment's window depth under either depth order: `shader_z` is the key that orders fragments (depth.md 11.2).
 [[nodiscard]] inline float window_z(const pipeline::Frame& frame, float shader_z) noexcept {
-    const bool is_reversed = frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
-    return is_reversed ? rasterizer::depth_key(shader_z) : shader_z;
+    return is_reversed(frame) ? rasterizer::depth_key(shader_z) : shader_z;
+}
+
+// How far a depth lies behind the near end of the window, whatever the depth order: for what measures depths. From its
+// key.
+[[nodiscard]] inline float depth_behind_near(bool reversed, float key) noexcept {
+    return reversed ? 1.0f - rasterizer::depth_key(key) : key;
 }
 
 // OVER of a colour that is not premultiplied onto a premultiplied one: onto an opaque background alpha stays 1 and is

@@ -86,6 +86,7 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
         [](FrameCase& f) { f.options.result_format.reset(); },
         [](FrameCase& f) { f.options.back_format.reset(); },
         [](FrameCase& f) { f.options.average_count = plain.average_count; },
+        [](FrameCase& f) { f.options.algorithm = {}; },
         [](FrameCase& f) { f.options.alpha.reset(); },
         [](FrameCase& f) { f.options.background = plain.background; },
         [](FrameCase& f) { f.options.termination = {}; },

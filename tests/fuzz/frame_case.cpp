@@ -169,6 +169,20 @@ void choose_other_formats(ByteSource& bytes, const DeviceProfile& profile, const
     if (algorithm != nullptr && algorithm->takes_both_ends && bytes.one_in(4)) o.back_format = bytes.pick(formats);
 }
 
+// What single algorithms let choose; most read none of it.
+void choose_of_algorithms(ByteSource& bytes, peeling::AlgorithmOptions& o) {
+    if (!bytes.one_in(2)) return;
+    o.weight = static_cast<peeling::Weight>(bytes.below(5));
+    o.nodes = 1 + bytes.below(peeling::most_nodes);
+    if (bytes.one_in(2)) o.tail = static_cast<peeling::Tail>(bytes.below(4));
+    if (bytes.one_in(2)) o.pixel_nodes = bytes.below(4);
+    if (bytes.one_in(3)) o.frame_nodes = bytes.below(100);
+    o.overflow = static_cast<peeling::Overflow>(bytes.below(3));
+    o.moments = bytes.pick(std::array{4, 6, 8});
+    o.overestimation = bytes.fraction();
+    o.stochastic_samples = 1 + bytes.below(peeling::most_stochastic_samples);
+}
+
 std::vector<Way> ways(ByteSource& bytes) {
     std::vector<Way> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
                          way(bytes, replaying, Simd::best)};
@@ -199,6 +213,7 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
         const int x = bytes.below(16), y = bytes.below(16);
         frame.options.raster.sample = rasterizer::SamplePoint{x, y};
     }
+    choose_of_algorithms(bytes, frame.options.algorithm);
     return frame;
 }
 

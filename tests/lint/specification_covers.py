@@ -29,7 +29,7 @@ PATHS = "rasterizer/rules/rules.h"
 FAULTS = "pipeline/frame/diagnostics.h"
 SOURCES = (FIELDS, FORMATS, PATHS, FAULTS)
 # The files of the algorithms, and the headers that declare what the fields are; each read as one text.
-ALGORITHMS = ("peeling/algorithms/*.cpp",)
+ALGORITHMS = ("peeling/algorithms/*.cpp", "peeling/algorithms/*/*.cpp")
 DECLARATIONS = ("rasterizer/rules/*.h", "pipeline/device/*.h", "pipeline/formats/*.h")
 PAGES = ("algorithms.md", "depth.md", "devices.md", "errata.md", "formats.md", "keys-and-counts.md")
 # How many there were when this was written: a parser that finds fewer has gone blind.

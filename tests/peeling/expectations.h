@@ -17,7 +17,15 @@ namespace strata::testing {
 // lists of objects.
 enum class Kind { loop, partial_order, objects };
 // From which device on an algorithm runs: devices.md 10.
-enum class Devices { everything, programmable, independent_blending, many_samples, texture_shaders, ideal_alone };
+enum class Devices {
+    everything,
+    programmable,
+    independent_blending,
+    many_samples,
+    texture_shaders,
+    buffers,
+    ideal_alone
+};
 
 struct Expectation {
     std::string algorithm;
@@ -32,7 +40,7 @@ struct Expectation {
     [[nodiscard]] std::string profile() const {
         if (devices == Devices::everything || devices == Devices::texture_shaders) return "geforce3";
         if (devices == Devices::independent_blending) return "geforce8_dx101";
-        return devices == Devices::ideal_alone ? "ideal" : "geforce8";
+        return devices == Devices::ideal_alone || devices == Devices::buffers ? "ideal" : "geforce8";
     }
     [[nodiscard]] bool runs_on(std::string_view device) const {
         constexpr std::string_view drivers[]{"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader"};
@@ -43,6 +51,7 @@ struct Expectation {
             case Devices::independent_blending: return device != "geforce3" && device != "geforce8";
             case Devices::many_samples: return device != "geforce3" && !is_driver;
             case Devices::texture_shaders: return device == "geforce3" || device == "ideal";
+            case Devices::buffers: return device == "ideal" || device == "llvmpipe" || device == "llvmpipe_sse";
             case Devices::ideal_alone: return device == "ideal";
         }
         return false;

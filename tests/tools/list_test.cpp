@@ -44,6 +44,27 @@ TEST_CASE("every algorithm of the three papers says where its paper is to be had
     CHECK(links.contains("https://doi.org/10.2312/EGGH/EGGH08/033-040"));
 }
 
+TEST_CASE("every algorithm is listed in one group, by how many passes it takes and whether it is exact") {
+    const Folder folder;
+    const std::string text = run_strata(folder, {"list", "algorithms"}).out;
+    const std::set<std::string> fixed{
+        "unsorted",    "painter",     "weighted_average", "weighted_sum", "weighted_blended", "weighted_blended_shared",
+        "multi_layer", "adaptive",    "linked_list",      "atomic_loop",  "moments",          "hybrid_transparency",
+        "stochastic",  "bucket_peel", "k_buffer"};
+    for (const auto& algorithm : listed(folder, {"algorithms"})) {
+        const std::string name = algorithm.at("name"), group = algorithm.at("group");
+        const bool is_exact = algorithm.at("exact");
+        INFO(name);
+        CHECK(group == (name == "a_buffer"     ? "oracle"
+                        : fixed.contains(name) ? "fixed_passes"
+                        : is_exact             ? "exact_peel"
+                                               : "conditional"));
+        CHECK(text.find("\n" + name + " ") != std::string::npos);
+    }
+    for (const char* heading : {"A fixed number of passes", "Exact, with as many passes", "no device runs it"})
+        CHECK(text.find(heading) != std::string::npos);
+}
+
 TEST_CASE("a profile's letters are explained where they are printed") {
     const Folder folder;
     const std::string text = run_strata(folder, {"list", "profiles", "geforce3"}).out;

@@ -83,7 +83,7 @@ def caption(entry):
     off = entry["max_difference_from_a_buffer"]
     said = [f"{off:.1f}" if off is not None else "-"]
     if entry["order_errors"]:
-        said.append(f"{entry['order_errors']} out of order")
+        said.append(f"{entry['order_errors']} misordered")
     if entry["lost_by_ties"]:
         said.append(f"{entry['lost_by_ties']} lost by ties")
     return ", ".join(said)
@@ -96,8 +96,8 @@ def row_of(algorithm, captions):
 def page_of(shown):
     lines = ["# Gallery", "",
              "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: above the picture, below four times its",
-             "difference from the exact A-buffer. The figures, in the order of the scenes: the greatest difference of a channel in 1/255, fragments blended",
-             "out of order, fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
+             "difference from the exact A-buffer. The figures, in the order of the scenes: the greatest difference of a channel in 1/255, fragments in a",
+             "wrong order, fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
     lines += [f"- **{name}**: `strata render {' '.join(arguments).replace(FOLDER + os.sep, 'tools/docs/')}`: {what}." for name, arguments, what in SCENES]
     lines += ["", "| algorithm | " + ", ".join(name for name, _, _ in SCENES) + " | differences |", "|---|---|---|"]
     lines += [row_of(entry["algorithm"], [caption(shown[name][i][0]) for name, _, _ in SCENES]) for i, (entry, _, _) in enumerate(shown[SCENES[0][0]])]

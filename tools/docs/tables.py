@@ -27,7 +27,7 @@ def table(head, rows):
 
 def file_of(name):
     """The listing that has the algorithm's entry."""
-    return next(path.name for path in sorted((ROOT / "peeling/algorithms").glob("*.cpp")) if f'.name = "{name}"' in path.read_text(encoding="utf-8"))
+    return next(path.name for path in sorted((ROOT / "peeling/algorithms").glob("**/*.cpp")) if f'.name = "{name}"' in path.read_text(encoding="utf-8"))
 
 
 def section_of(name):

@@ -83,9 +83,37 @@ std::string_view key_name(pipeline::DepthKey key) {
     return key == pipeline::DepthKey::shader_z ? "shader_z" : "stored_code";
 }
 
+// Algorithms that a caller chooses among by the same question: how many passes they take, and what that buys.
+struct AlgorithmGroup {
+    std::string_view name, heading;  // in --json; above its table
+    bool (*has)(const peeling::Algorithm&);
+};
+
+bool has_fixed_passes(const peeling::Algorithm& a) {
+    return a.geometry_passes != nullptr && a.geometry_passes(2) == a.geometry_passes(9);
+}
+
+// An algorithm is of the first group that has it; the last one is printed first.
+constexpr std::array algorithm_groups{
+    AlgorithmGroup{"oracle", "What the others are measured against; no device runs it:",
+                   [](const peeling::Algorithm& a) { return a.is_oracle; }},
+    AlgorithmGroup{"fixed_passes",
+                   "A fixed number of passes, exact under a condition or not at all:", has_fixed_passes},
+    AlgorithmGroup{"conditional", "As many passes as the picture takes, exact under a condition:",
+                   [](const peeling::Algorithm& a) { return !a.exact; }},
+    AlgorithmGroup{"exact_peel", "Exact, with as many passes as the layers of the picture take:",
+                   [](const peeling::Algorithm&) { return true; }}};
+
+std::size_t group_of(const peeling::Algorithm& algorithm) {
+    std::size_t group = 0;
+    while (!algorithm_groups[group].has(algorithm)) ++group;
+    return group;
+}
+
 int list_algorithms(const ListOptions& options) {
     ordered_json document = ordered_json::array();
-    Table table{{{"algorithm"}, {"geometry passes"}, {"ties"}, {"exact"}, {"profiles"}, {"paper"}}, {}};
+    const Table empty{{{"algorithm"}, {"geometry passes"}, {"ties"}, {"exact"}, {"profiles"}, {"paper"}}, {}};
+    std::vector<Table> tables(algorithm_groups.size(), empty);
     Table summaries{{{"algorithm"}, {"what it does"}}, {}};
     std::set<std::string> links;
     for (const peeling::Algorithm& a :
@@ -103,6 +131,7 @@ int list_algorithms(const ListOptions& options) {
                             {"ties", peeling::name(a.ties)},
                             {"key", key_name(a.key)},
                             {"exact", a.exact},
+                            {"group", algorithm_groups[group_of(a)].name},
                             {"makes_layers", a.makes_layers},
                             {"profiles", profiles}});
         // "all" instead of every name keeps the table narrow.
@@ -110,15 +139,18 @@ int list_algorithms(const ListOptions& options) {
         std::string where = runs_everywhere ? "all" : "";
         for (std::size_t i = 0; !runs_everywhere && i < profiles.size(); ++i) where += (i > 0 ? "," : "") + profiles[i];
         const std::string paper = a.section.empty() ? a.paper : a.paper + ", " + a.section;
-        table.rows.push_back(
+        tables[group_of(a)].rows.push_back(
             {a.name, a.pass_formula, std::string(peeling::name(a.ties)), a.exact ? "yes" : "no", where, paper});
         summaries.rows.push_back({a.name, a.summary});
         if (const std::string link = link_of(a.paper); !link.empty()) links.insert(a.paper + ": " + link);
     }
     std::string papers;
     for (const std::string& link : links) papers += link + '\n';
-    print(options.json ? document.dump(2) + '\n'
-                       : titled(to_text(table)) + '\n' + to_text(summaries) + (papers.empty() ? "" : "\n" + papers));
+    std::string groups;
+    for (std::size_t g = tables.size(); g-- > 0;)
+        if (!tables[g].rows.empty())
+            groups += std::string(algorithm_groups[g].heading) + '\n' + titled(to_text(tables[g])) + '\n';
+    print(options.json ? document.dump(2) + '\n' : groups + to_text(summaries) + (papers.empty() ? "" : "\n" + papers));
     return 0;
 }
 

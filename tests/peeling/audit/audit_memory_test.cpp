@@ -33,6 +33,7 @@ struct Audited {
 Algorithm forgetful() {
     Algorithm a = *find_algorithm("front_to_back");
     a.resolve_loop = nullptr;
+    a.run_with = nullptr;
     a.run = [](Region& region) {
         find_algorithm("front_to_back")->run(region);
         Trace& trace = RegionShortcuts{region}.trace();
@@ -131,6 +132,7 @@ TEST_CASE("what a blank tile is found to have done is counted in every tile that
     FragmentScene scene{32, 16};
     scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});  // the first tile is not blank
     Algorithm busy = *find_algorithm("front_to_back");
+    busy.run_with = nullptr;
     busy.run = [](Region& region) {
         find_algorithm("front_to_back")->run(region);
         if (region.rect().width() > 2) region.trace({2, 7, 0, Side::front, false});  // a layer that is none
@@ -144,6 +146,7 @@ TEST_CASE("a blank tile whose trace does not fit is looked at again in its own p
     FragmentScene scene{32, 16};
     scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});
     Algorithm busy = *find_algorithm("front_to_back");
+    busy.run_with = nullptr;
     busy.run = [](Region& region) {
         find_algorithm("front_to_back")->run(region);
         for (std::uint32_t p = 0; p < region.rect().area(); ++p) region.trace({p, 7, 0, Side::front, false});
@@ -173,6 +176,7 @@ TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence nam
 
 TEST_CASE("a pixel whose trace has no end is told with the memory doubled") {
     Algorithm endless = *find_algorithm("front_to_back");
+    endless.run_with = nullptr;
     endless.run = [](Region& region) {
         find_algorithm("front_to_back")->run(region);
         for (int i = 0; i < 1000; ++i) region.trace({0, 7, 0, Side::front, false});

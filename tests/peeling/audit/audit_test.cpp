@@ -65,6 +65,7 @@ Algorithm algorithm(void (*run)(Region&), TiePolicy ties = TiePolicy::unique) {
     Algorithm a = *find_algorithm("front_to_back");
     a.name = "broken";
     a.run = run;
+    a.run_with = nullptr;
     a.ties = ties;
     return a;
 }

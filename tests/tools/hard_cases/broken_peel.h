@@ -11,6 +11,7 @@ namespace strata::test {
 inline void peel_by_less(peeling::Algorithm& algorithm) {
     algorithm.name = "by-less";
     algorithm.resolve_loop = nullptr;
+    algorithm.run_with = nullptr;
     algorithm.run = [](pipeline::Region& region) {
         using namespace pipeline;
         const Target result = region.make_color();

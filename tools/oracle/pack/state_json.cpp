@@ -21,6 +21,30 @@ void optional_choice(Io& io, const std::string& key, Value& value,
 }
 
 template <class Io, class O>
+void algorithm_fields(Io& io, O& o) {
+    constexpr int most_fragments = INT32_MAX;
+    io.choice("weight", o.weight);
+    io.whole("nodes", o.nodes, 1, peeling::most_nodes);
+    optional_choice(io, "tail", o.tail);
+    io.whole("pixel_nodes", o.pixel_nodes, 0, most_fragments);
+    io.whole("frame_nodes", o.frame_nodes, 0, most_fragments);
+    io.choice("overflow", o.overflow);
+    io.whole("moments", o.moments, 4, 8);
+    io.optional("moment_bias", o.moment_bias, [](auto& inner, const std::string& key, auto& v) { inner.real(key, v); });
+    io.real("overestimation", o.overestimation);
+    io.whole("stochastic_samples", o.stochastic_samples, 1, peeling::most_stochastic_samples);
+    io.whole("stochastic_seed", o.stochastic_seed, std::uint32_t{0}, UINT32_MAX);
+}
+
+// Left out where all are their defaults.
+template <class Io>
+void algorithm(Io& io, std::optional<peeling::AlgorithmOptions>& given) {
+    io.if_any("algorithm", given, [](auto& outer, const std::string& key, auto& options) {
+        outer.nested(key, options, [](auto& inner, auto& o) { algorithm_fields(inner, o); });
+    });
+}
+
+template <class Io, class O>
 void fields(Io& io, O& o) {
     io.whole("width", o.width, 1, most_pixels_a_side);
     io.whole("height", o.height, 1, most_pixels_a_side);
@@ -101,6 +125,9 @@ nlohmann::ordered_json state_json(const RenderOptions& options) {
     if (options.raster.window_positions) refuse("raster.window_positions");
     JsonWriter io;
     fields(io, options);
+    std::optional<peeling::AlgorithmOptions> given;
+    if (options.algorithm != peeling::AlgorithmOptions{}) given = options.algorithm;
+    algorithm(io, given);
     return std::move(io.object);
 }
 
@@ -109,6 +136,9 @@ RenderOptions read_state(const nlohmann::json& manifest, const std::string& file
     JsonReader top{manifest, file, ""};
     JsonReader io{top.at("state"), file, "/state"};
     fields(io, options);
+    std::optional<peeling::AlgorithmOptions> given;
+    algorithm(io, given);
+    options.algorithm = given.value_or(peeling::AlgorithmOptions{});
     io.end();
     return options;
 }

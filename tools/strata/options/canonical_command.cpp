@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "scenes/packs/pack_scene.h"
+#include "tools/strata/options/algorithm_options.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/options/shell_words.h"
@@ -115,6 +116,7 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
         add(words, "--average-count", name_of(count_formats, render.average_count));
     if (render.termination != pipeline::Termination{}) add(words, "--termination", to_text(render.termination));
     if (render.max_passes != 0) add(words, "--max-passes", fmt::format("{}", render.max_passes));
+    for (const std::string& word : words_of(render.algorithm)) words.push_back(word);
 }
 
 void add_order(Words& words, const peeling::RenderOptions& render) {

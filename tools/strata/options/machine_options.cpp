@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "tools/strata/options/algorithm_options.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/options.h"
@@ -145,6 +146,7 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
         app, options.max_passes,
         {"--max-passes", "N", "geometry passes at most (default 0: as many as it takes)", "a whole number from 0"},
         to_count);
+    add_algorithm_options(app, options.algorithm);
 }
 
 void add_order_options(CLI::App& app, peeling::RenderOptions& options) {

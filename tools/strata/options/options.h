@@ -62,7 +62,7 @@ void add_execution_options(CLI::App& app, RunOptions& options);
 
 // Parts of both, for a command that takes lists of the rest.
 void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --color-space, --no-light
-void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth-format ... --max-passes
+void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth-format ... --stochastic-seed
 void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
 void add_profile_option(CLI::App& app, std::string& profile);
 void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);

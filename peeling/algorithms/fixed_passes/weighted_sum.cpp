@@ -1,4 +1,4 @@
-// peeling/algorithms/weighted_sum.cpp - one pass; the order-dependent terms of OVER are ignored.
+// peeling/algorithms/fixed_passes/weighted_sum.cpp - one pass; the order-dependent terms of OVER are ignored.
 // Bavoil and Myers 2008, "Weighted Sum" (after Meshkin 2007); algorithms.md 8.
 //
 // Needs      fp16 additive blending.

@@ -1,0 +1,129 @@
+// peeling/algorithms/fixed_passes/adaptive.cpp - a pixel's visibility as a step function of k nodes, then colours by
+// what they are seen through. Salvi, Montgomery and Lefohn 2011, "Adaptive Transparency", sections 3 and 4;
+// algorithms.md 19.2.
+//
+// Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), float targets that blend.
+// Passes     2. Exact where no pixel has more than k visible fragments and no two of one depth: equal depths do not
+// hide one another. Invariant  a pixel's nodes are sorted by depth; transmittance of node e = what everything up to its
+// depth lets through, or less where
+//            nodes were removed. The last one's is exact.
+#include <array>
+
+#include "peeling/algorithms/entry.h"
+#include "peeling/programs/depth_float.h"
+#include "peeling/programs/fixed_passes/node_depths.h"
+#include "peeling/programs/fixed_passes/visibility_curve.h"
+#include "peeling/programs/region_programs.h"
+
+namespace strata::peeling::listing::adaptive {
+
+using namespace pipeline;
+
+namespace {
+
+struct CurveTargets {
+    NodeDepths depths;
+    std::array<Target, 2> through{};
+};
+
+// Pass 1, fragment after fragment.
+void build(Region& region, const CurveTargets& t) {
+    const auto count = static_cast<std::size_t>(t.depths.nodes), first = t.depths.target_count();
+    PassState state = node_state(region, t.depths);
+    for (std::size_t e = 0; e < first; ++e) state.color[first + e] = state.reads[first + e] = t.through[e];
+    const DepthFormat format = region.frame().key_request().format;
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            VisibilityCurve curve;
+            curve.depth.fill(no_node);
+            curve.through.fill(1.0f);
+            for (std::size_t e = 0; e < count; ++e) {
+                curve.depth[e] = depth_of_node(own, e, i);
+                curve.through[e] = depth_of_node(own, 4 * first + e, i);
+            }
+            insert(curve, count, is_reversed(region.frame()), depth_as_float(in.code[i], format),
+                   1.0f - in.color[3][i]);
+            for (std::size_t e = 0; e < 4 * first; ++e) {
+                out.color[e / 4][e % 4][i] = e < count ? curve.depth[e] : no_node;
+                out.color[first + e / 4][e % 4][i] = e < count ? curve.through[e] : 1.0f;
+            }
+        }
+    }));
+}
+
+// Pass 2: (c a, a) times what the nodes before the fragment let through.
+void accumulate(Region& region, const CurveTargets& t, Target sums) {
+    const auto count = static_cast<std::size_t>(t.depths.nodes), first = t.depths.target_count();
+    region.clear(sums, {});
+    PassState state = node_state(region, t.depths);
+    state.ordered_rmw = false;
+    state.color = {sums};
+    state.blend[0] = blend_mode::sum;
+    for (std::size_t e = 0; e < first; ++e) state.reads[first + e] = t.through[e];
+    const DepthFormat format = region.frame().key_request().format;
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float depth = depth_as_float(in.code[i], format);
+            float seen = in.color[3][i];
+            std::size_t before = 0;
+            while (before < count && depth_of_node(own, before, i) < depth) ++before;
+            if (before > 0) seen *= depth_of_node(own, 4 * first + before - 1, i);
+            for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * seen;
+            out.color[0][3][i] = seen;
+        }
+    }));
+}
+
+void composite(Region& region, const CurveTargets& t, Target sums, Target result) {
+    const auto last = static_cast<std::size_t>(t.depths.nodes - 1);
+    PassState state;
+    state.color[0] = result;
+    state.reads = {t.through[last / 4], sums, region.opaque_color()};
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float through = own.color(0)[last % 4][i];
+            for (std::size_t c = 0; c < 3; ++c)
+                out.color[0][c][i] = scalar::composited(own.color(1)[c][i], through, own.color(2)[c][i]);
+            out.color[0][3][i] = scalar::alpha_over(through, own.color(2)[3][i]);
+        }
+    }));
+}
+
+void run(Region& region, const ListingInputs& inputs) {
+    CurveTargets t{make_node_depths(region, inputs.options.nodes), {}};
+    for (std::size_t e = 0; e < t.depths.target_count(); ++e) {
+        t.through[e] = region.make(Format::rgba32f);
+        region.call(t.through[e], "transmittances");
+        region.clear(t.through[e], {.color = {1, 1, 1, 1}});
+    }
+    const bool wide = region.frame().color_format == Format::rgba32f;
+    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Target result = region.make(region.frame().picture_format());
+    region.call(sums, "sums");
+    region.call(result, "result");
+    region.begin_iteration();
+    build(region, t);
+    accumulate(region, t, sums);
+    composite(region, t, sums, result);
+    region.publish(result);
+}
+
+}  // namespace
+
+std::vector<Algorithm> entries() {
+    return {Algorithm{
+        .name = "adaptive",
+        .listed = 191,
+        .paper = "Salvi et al. 2011",
+        .section = "3",
+        .summary = "a pixel's visibility as a step function of k nodes, then colours by what they are seen through",
+        .pass_formula = "2",
+        .ties = TiePolicy::none,
+        .compares_own_codes = true,
+        .geometry_passes = two_passes,
+        .run_with = run,
+        .features = {ordered_rmw, float_targets, fragment_programs},
+        .render_targets = 2}};
+}
+
+}  // namespace strata::peeling::listing::adaptive

@@ -1,0 +1,137 @@
+// peeling/algorithms/fixed_passes/linked_list.cpp - every fragment in a list of its pixel, sorted at the end; or as
+// many as there are nodes for. Yang et al. 2010, "Real-Time Concurrent Linked List Construction on the GPU";
+// algorithms.md 20.
+//
+// Needs      unordered access with atomics.
+// Passes     1. Equal depths: the first arrival in front. Exact unless nodes run out, which is reported.
+// Invariant  a pixel's list holds its fragments in submission order. A device's order is that of its threads [A].
+// Lists are looked up range by range where a region's do not fit into the memory: the pass is counted once.
+#include <algorithm>
+
+#include "peeling/algorithms/entry.h"
+#include "peeling/programs/depth_range.h"
+#include "peeling/programs/fragment_lists.h"
+#include "peeling/programs/tie_order.h"
+#include "peeling/programs/under.h"
+#include "pipeline/region/region_shortcuts.h"
+
+namespace strata::peeling::listing::linked_list {
+
+using namespace pipeline;
+
+namespace {
+
+struct Lists {
+    Region& region;
+    const AlgorithmOptions& options;
+    std::vector<std::uint32_t> coverage;
+    std::uint64_t last_node = ~std::uint64_t{0};  // the key of the last fragment that gets one of the frame's nodes
+
+    [[nodiscard]] PixelRange range_from(std::uint32_t first) const {
+        return next_range(coverage, region.rect().width(), first, region.frame().list_bytes / sizeof(KeyedFragment));
+    }
+    // Fragments that a list of its own limit holds, of those that a pixel has.
+    [[nodiscard]] std::size_t most(std::size_t count) const {
+        const auto limit = static_cast<std::size_t>(options.pixel_nodes);
+        return limit == 0 ? count : std::min(count, limit);
+    }
+};
+
+// The order in which a frame's nodes are given out: by triangle, and row by row within one [A].
+std::uint64_t node_key(const KeyedFragment& fragment, std::uint32_t pixel) {
+    return std::uint64_t{fragment.primitive} << 32 | pixel;
+}
+
+// With a limit of nodes a frame, the region is the frame: which fragment gets the last one.
+void give_out_nodes(Lists& lists) {
+    if (lists.options.frame_nodes == 0) return;
+    std::vector<std::uint64_t> keys;
+    FragmentLists found;
+    for (std::uint32_t first = 0; first < lists.coverage.size(); first = found.pixels.last) {
+        list_visible(lists.region, lists.range_from(first), lists.coverage, Counting::silent, found);
+        for (std::uint32_t pixel = first; pixel < found.pixels.last; ++pixel) {
+            const auto fragments = found.of(pixel);
+            for (std::size_t i = 0; i < lists.most(fragments.size()); ++i)
+                keys.push_back(node_key(fragments[i], pixel));
+        }
+    }
+    const auto nodes = static_cast<std::size_t>(lists.options.frame_nodes);
+    if (keys.size() <= nodes) return;
+    const auto last = keys.begin() + static_cast<std::ptrdiff_t>(nodes - 1);
+    std::nth_element(keys.begin(), last, keys.end());
+    lists.last_node = *last;
+}
+
+// OVER, straight source, each operation rounded to binary32; alpha as 0.8 has it.
+void blend_over(Rgba& below, const Rgba& source) noexcept {
+    const float a = source[3];
+    for (Rgba::length_type c = 0; c < 3; ++c) below[c] = a * source[c] + (1.0f - a) * below[c];
+    below[3] = scalar::alpha_over(1.0f - a, below[3]);
+}
+
+// The fragments of a pixel by depth, all of them or those that have nodes; those that have none are blended behind if
+// the rule says so.
+void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments, Target result,
+                   PixelSet& overflow, FragmentOrder& order) {
+    std::size_t nodes = lists.most(fragments.size());
+    while (nodes > 0 && node_key(fragments[nodes - 1], pixel) > lists.last_node) --nodes;
+    const Overflow rule = lists.options.overflow;
+    const bool is_full = nodes < fragments.size();
+    if (is_full) overflow.add(pixel);
+    const bool keeps_near = is_full && rule == Overflow::drop_far;
+    sort_by(&KeyedFragment::key, keeps_near ? fragments : fragments.first(nodes), order);
+    if (keeps_near) order.resize(nodes);
+    Rgba color = lists.region.targets().color(lists.region.opaque_color(), pixel);
+    if (rule == Overflow::blend)
+        for (const KeyedFragment& f : fragments.subspan(nodes)) blend_over(color, f.color);
+    for (std::size_t i = order.size(); i-- > 0;) blend_over(color, fragments[place_of(order[i])].color);
+    RegionShortcuts{lists.region}.store_pixel(result, pixel, color);
+    if (!lists.region.frame().trace) return;
+    for (const std::uint64_t entry : order) {
+        const KeyedFragment& f = fragments[place_of(entry)];
+        lists.region.trace({pixel, f.key, f.primitive, Side::front, true});
+    }
+}
+
+void run(Region& region, const ListingInputs& inputs) {
+    const Target result = region.make(region.frame().picture_format());
+    region.call(result, "result");
+    region.begin_iteration();
+    copy_color(region, region.opaque_color(), result);
+    Lists lists{region, inputs.options, coverage_of(region)};
+    give_out_nodes(lists);
+    const bool is_one_range = lists.range_from(0).size() == lists.coverage.size();
+    if (!is_one_range) count_list_pass(region);
+    PixelSet overflow{region};
+    FragmentLists found;
+    FragmentOrder order;
+    for (std::uint32_t first = 0; first < lists.coverage.size(); first = found.pixels.last) {
+        list_visible(region, lists.range_from(first), lists.coverage,
+                     is_one_range ? Counting::counted : Counting::silent, found);
+        for (std::uint32_t pixel = first; pixel < found.pixels.last; ++pixel)
+            if (const auto fragments = found.of(pixel); !fragments.empty())
+                resolve_pixel(lists, pixel, fragments, result, overflow, order);
+    }
+    overflow.report(region, Fault::buffer_overflow, "more fragments than nodes");
+    region.publish(result);
+}
+
+}  // namespace
+
+std::vector<Algorithm> entries() {
+    return {Algorithm{
+        .name = "linked_list",
+        .listed = 200,
+        .paper = "Yang et al. 2010",
+        .section = "",
+        .summary = "every fragment in a list of its pixel, sorted at the end; or as many as there are nodes for",
+        .pass_formula = "1",
+        .ties = TiePolicy::first,
+        .shares_nodes = true,
+        .compares_own_codes = true,
+        .geometry_passes = one_pass,
+        .run_with = run,
+        .features = {unordered_access, fragment_programs}}};
+}
+
+}  // namespace strata::peeling::listing::linked_list

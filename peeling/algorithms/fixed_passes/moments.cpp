@@ -1,0 +1,171 @@
+// peeling/algorithms/fixed_passes/moments.cpp - absorbance as power moments of depth, then colours by what they are
+// seen through. Muenstermann et al. 2018, "Moment-Based Order-Independent Transparency", sections 3 and 4;
+// algorithms.md 22.
+//
+// Needs      binary32 additive blending, up to three render targets.
+// Passes     2. An approximation: what lets through in all is exact but for rounding, where it lies is a bound of the
+// moments. Invariant  with A = -log(1 - a) and z = 2 d - 1: after pass 1 total = sum of A, moments = sums of A z, A z^2
+// ...
+#include <array>
+
+#include "peeling/algorithms/entry.h"
+#include "peeling/programs/fixed_passes/log_exp.h"
+#include "peeling/programs/fixed_passes/moment_bound.h"
+#include "peeling/programs/fixed_passes/weighted.h"
+
+namespace strata::peeling::listing::moments {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr float least_through = 0x1p-24f;  // of a fragment: an opaque one has no finite absorbance
+
+// The moments of a distribution that keep the matrix positive where roundings would not; and how much of them is taken.
+constexpr std::array<double, 8> fixed_4{0, 0.375, 0, 0.375}, fixed_6{0, 0.48, 0, 0.451, 0, 0.45},
+    fixed_8{0, 0.75, 0, 0.67666666666666664, 0, 0.63, 0, 0.60030303030303034};
+struct Bias {
+    const std::array<double, 8>& of;
+    double share;
+};
+Bias bias_of(const AlgorithmOptions& options) {
+    const float usual = options.moments == 4 ? 5e-7f : options.moments == 6 ? 5e-6f : 5e-5f;
+    return {options.moments == 4   ? fixed_4
+            : options.moments == 6 ? fixed_6
+                                   : fixed_8,
+            static_cast<double>(options.moment_bias.value_or(usual))};
+}
+
+struct MomentTargets {
+    int moments = 4;
+    Target total{};
+    std::array<Target, 2> powers{};  // A z, A z^2 ...: four in the first, the others in the second
+    [[nodiscard]] std::size_t targets() const noexcept { return moments > 4 ? 2 : 1; }
+};
+
+MomentTargets make_targets(Region& region, int count) {
+    MomentTargets t{count, region.make(Format::r32f), {region.make(Format::rgba32f)}};
+    if (count > 4) t.powers[1] = region.make(count == 6 ? Format::rg32f : Format::rgba32f);
+    region.call(t.total, "total");
+    region.clear(t.total, {});
+    for (std::size_t i = 0; i < t.targets(); ++i) {
+        region.call(t.powers[i], "moments");
+        region.clear(t.powers[i], {});
+    }
+    return t;
+}
+
+PassState visible_state(const Region& region) {
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.needs.code = false;
+    return state;
+}
+
+float place_of(const Frame& frame, float shader_z) noexcept {
+    return 2.0f * depth_behind_near(is_reversed(frame), shader_z) - 1.0f;
+}
+
+// Pass 1: binary32, powers from the left.
+void add_moments(Region& region, const MomentTargets& t) {
+    PassState state = visible_state(region);
+    state.color = {t.total, t.powers[0], t.powers[1]};
+    state.blend = {blend_mode::sum, blend_mode::sum, t.targets() > 1 ? blend_mode::sum : Blend{}};
+    const Frame& frame = region.frame();
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float absorbance = minus_log(std::max(1.0f - in.color[3][i], least_through));
+            const float z = place_of(frame, in.shader_z[i]);
+            for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = absorbance;
+            float power = 1.0f;
+            for (std::size_t m = 0; m < 4 * t.targets(); ++m) {
+                power = power * z;
+                out.color[1 + m / 4][m % 4][i] = absorbance * power;
+            }
+        }
+    }));
+}
+
+// What lets through before depth z.
+float through(const MomentTargets& t, const Loads& own, std::size_t i, float z, const Bias& bias,
+              double overestimation) {
+    const float total = own.color(0)[0][i];
+    if (!(total > 0.0f)) return 1.0f;
+    Moments b{1};
+    for (std::size_t m = 0; m < static_cast<std::size_t>(t.moments); ++m) {
+        const float normalized = own.color(static_cast<int>(1 + m / 4))[m % 4][i] / total;
+        b[m + 1] = (1.0 - bias.share) * static_cast<double>(normalized) + bias.share * bias.of[m];
+    }
+    const double share = share_before(b, static_cast<std::size_t>(t.moments), static_cast<double>(z), overestimation);
+    return exp_of_minus(total * static_cast<float>(share));
+}
+
+// Pass 2.
+void accumulate(Region& region, const MomentTargets& t, const AlgorithmOptions& options, Target sums) {
+    region.clear(sums, {});
+    PassState state = visible_state(region);
+    state.color[0] = sums;
+    state.blend[0] = blend_mode::sum;
+    state.reads = {t.total, t.powers[0], t.powers[1]};
+    const Frame& frame = region.frame();
+    const Bias bias = bias_of(options);
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float z = place_of(frame, in.shader_z[i]);
+            const float weight =
+                in.color[3][i] * through(t, own, i, z, bias, static_cast<double>(options.overestimation));
+            for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * weight;
+            out.color[0][3][i] = weight;
+        }
+    }));
+}
+
+// The colours cover as much as all absorbances say: everything, where they are that of an opaque fragment.
+void composite(Region& region, Target sums, Target total, Target result) {
+    PassState state;
+    state.color[0] = result;
+    state.reads = {sums, total, region.opaque_color()};
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        Lanes<float> all;
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float absorbance = own.color(1)[0][i];
+            all[i] = absorbance >= minus_log(least_through) ? 0.0f : exp_of_minus(absorbance);
+        }
+        resolve_weighted(own.color(0), own.color(0)[3], all, own.color(2), out.color[0], lanes(in));
+    }));
+}
+
+void run(Region& region, const ListingInputs& inputs) {
+    const MomentTargets t = make_targets(region, inputs.options.moments);
+    const bool wide = region.frame().color_format == Format::rgba32f;
+    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Target result = region.make(region.frame().picture_format());
+    region.call(sums, "sums");
+    region.call(result, "result");
+    region.begin_iteration();
+    add_moments(region, t);
+    accumulate(region, t, inputs.options, sums);
+    composite(region, sums, t.total, result);
+    region.publish(result);
+}
+
+}  // namespace
+
+std::vector<Algorithm> entries() {
+    return {Algorithm{
+        .name = "moments",
+        .listed = 220,
+        .paper = "Muenstermann et al. 2018",
+        .section = "3 and 4",
+        .summary = "absorbance as 4, 6 or 8 power moments of depth, then colours by what they are seen through",
+        .pass_formula = "2",
+        .ties = TiePolicy::none,
+        .key = DepthKey::shader_z,
+        .geometry_passes = two_passes,
+        .run_with = run,
+        .features = {float_targets, fragment_programs},
+        .render_targets = 2}};
+}
+
+}  // namespace strata::peeling::listing::moments

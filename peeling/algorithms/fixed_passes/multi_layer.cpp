@@ -1,0 +1,133 @@
+// peeling/algorithms/fixed_passes/multi_layer.cpp - the k nearest fragments so far at every pixel; one more merges the
+// two farthest. Salvi and Vaidyanathan 2014, "Multi-Layer Alpha Blending", section 3; algorithms.md 19.
+//
+// Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), a float target for depths.
+// Passes     1. Exact where no pixel has more than k visible fragments, or arrives front to back. Equal depths: the
+// last arrival in front. Invariant  a pixel's nodes are sorted by depth; under one another they are what has arrived,
+// but for the order of what was merged.
+#include <array>
+
+#include "peeling/algorithms/entry.h"
+#include "peeling/programs/depth_float.h"
+#include "peeling/programs/fixed_passes/node_depths.h"
+
+namespace strata::peeling::listing::multi_layer {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr int most_layers = 6;  // and two targets of their depths
+
+struct Node {
+    float depth = no_node;
+    Rgba layer{0, 0, 0, 1};  // premultiplied; alpha lets through
+};
+
+struct NodeTargets {
+    NodeDepths depths;
+    std::array<Target, most_nodes> layers{};
+};
+
+NodeTargets make_nodes(Region& region, int nodes) {
+    NodeTargets t{make_node_depths(region, nodes), {}};
+    for (std::size_t e = 0; e < static_cast<std::size_t>(nodes); ++e) {
+        t.layers[e] = region.make_color();
+        region.call(t.layers[e], "layer");
+        region.clear(t.layers[e], {.color = {0, 0, 0, 1}});
+    }
+    return t;
+}
+
+// `front` over `back`, as one layer.
+Rgba merged(const Rgba& front, const Rgba& back) noexcept {
+    Rgba both;
+    for (Rgba::length_type c = 0; c < 3; ++c) both[c] = front[c] + back[c] * front[3];
+    both[3] = front[3] * back[3];
+    return both;
+}
+
+// A new node goes before all that are not nearer; what is then behind the last one is merged into it.
+void insert(std::array<Node, most_nodes>& nodes, std::size_t count, Node node) noexcept {
+    for (std::size_t e = 0; e < count; ++e)
+        if (node.depth <= nodes[e].depth) std::swap(node, nodes[e]);
+    if (node.depth != no_node) nodes[count - 1].layer = merged(nodes[count - 1].layer, node.layer);
+}
+
+// The one geometry pass: a program reads and writes all nodes of its pixel, fragment after fragment.
+void insert_all(Region& region, const NodeTargets& t) {
+    const auto count = static_cast<std::size_t>(t.depths.nodes), first = t.depths.target_count();
+    PassState state = node_state(region, t.depths);
+    for (std::size_t e = 0; e < count; ++e) state.color[first + e] = state.reads[first + e] = t.layers[e];
+    const DepthFormat format = region.frame().key_request().format;
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            std::array<Node, most_nodes> nodes;
+            for (std::size_t e = 0; e < count; ++e) {
+                const ColorLanes& layer = own.color(static_cast<int>(first + e));
+                nodes[e] = {depth_of_node(own, e, i), {layer[0][i], layer[1][i], layer[2][i], layer[3][i]}};
+            }
+            const float a = in.color[3][i];
+            insert(nodes, count,
+                   {depth_as_float(in.code[i], format),
+                    {in.color[0][i] * a, in.color[1][i] * a, in.color[2][i] * a, 1.0f - a}});
+            for (std::size_t e = 0; e < 4 * first; ++e) out.color[e / 4][e % 4][i] = nodes[e].depth;
+            for (std::size_t e = 0; e < count; ++e)
+                for (std::size_t c = 0; c < 4; ++c) out.color[first + e][c][i] = nodes[e].layer[static_cast<int>(c)];
+        }
+    }));
+}
+
+// One quad: all layers from the nearest on, and what they let through of the background.
+void composite(Region& region, const NodeTargets& t, Target result) {
+    PassState state;
+    state.color[0] = result;
+    state.reads[0] = region.opaque_color();
+    for (std::size_t e = 0; e < static_cast<std::size_t>(t.depths.nodes); ++e) state.reads[1 + e] = t.layers[e];
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        const ColorLanes& background = own.color(0);
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            Rgba all{0, 0, 0, 1};
+            for (int e = 1; e <= t.depths.nodes; ++e) {
+                const ColorLanes& layer = own.color(e);
+                all = merged(all, {layer[0][i], layer[1][i], layer[2][i], layer[3][i]});
+            }
+            for (std::size_t c = 0; c < 3; ++c)
+                out.color[0][c][i] = scalar::composited(all[static_cast<int>(c)], all[3], background[c][i]);
+            out.color[0][3][i] = scalar::alpha_over(all[3], background[3][i]);
+        }
+    }));
+}
+
+void run(Region& region, const ListingInputs& inputs) {
+    if (inputs.options.nodes > most_layers)
+        throw Refused(region.profile(),
+                      {"targets for more than 6 layers and their depths in one pass", "", "use --nodes 6"});
+    const NodeTargets nodes = make_nodes(region, inputs.options.nodes);
+    const Target result = region.make(region.frame().picture_format());
+    region.call(result, "result");
+    region.begin_iteration();
+    insert_all(region, nodes);
+    composite(region, nodes, result);
+    region.publish(result);
+}
+
+}  // namespace
+
+std::vector<Algorithm> entries() {
+    return {
+        Algorithm{.name = "multi_layer",
+                  .listed = 190,
+                  .paper = "Salvi and Vaidyanathan 2014",
+                  .section = "3",
+                  .summary = "the k nearest fragments so far, sorted as they come; one more merges the two farthest",
+                  .pass_formula = "1",
+                  .ties = TiePolicy::none,
+                  .compares_own_codes = true,
+                  .geometry_passes = one_pass,
+                  .run_with = run,
+                  .features = {ordered_rmw, float_targets, fragment_programs},
+                  .render_targets = 5}};
+}
+
+}  // namespace strata::peeling::listing::multi_layer

@@ -1,0 +1,122 @@
+// peeling/algorithms/fixed_passes/weighted_blended.cpp - one pass, every colour of a pixel replaced by their average
+// weighted by alpha and depth. McGuire and Bavoil 2013, sections 3 and 4; algorithms.md 18.
+//
+// Needs      fp16 additive blending, two render targets: of unequal blends, or of one blend that treats alpha apart.
+// Passes     1. An approximation: exact where all fragments of a pixel have the same colour, whatever their alphas.
+// Invariant  sums = sum of (c a, a) w(z, a), revealage = product of (1 - a), in submission order and in the targets'
+// precision.
+#include <limits>
+
+#include "peeling/algorithms/entry.h"
+#include "peeling/programs/depth_range.h"
+#include "peeling/programs/fixed_passes/weighted.h"
+
+namespace strata::peeling::listing::weighted_blended {
+
+using namespace pipeline;
+
+namespace {
+
+// Where the two products of a pass stand. apart: the sum of weights beside the sums of colours, the revealage in the
+// other target; shared: the revealage is the alpha of the sums, and the other target sums the weights.
+enum class Form : std::uint8_t { apart, shared };
+
+// Targets that blend differently, or sums of colours and a product of alphas in both (section 4).
+std::array<Blend, max_color_targets> blends_of(Form form) noexcept {
+    constexpr BlendTerm sum{BlendEquation::add, BlendFactor::one, BlendFactor::one};
+    constexpr BlendTerm by_color{BlendEquation::add, BlendFactor::zero, BlendFactor::one_minus_src_color};
+    constexpr BlendTerm by_alpha{BlendEquation::add, BlendFactor::zero, BlendFactor::one_minus_src_alpha};
+    constexpr Blend shared{.enabled = true, .color = sum, .alpha = by_alpha};
+    if (form == Form::shared) return {shared, shared};
+    return {blend_mode::sum, Blend{.enabled = true, .color = by_color, .alpha = by_color}};
+}
+
+void accumulate(Region& region, const ListingInputs& inputs, Form form, Target sums, Target other) {
+    const bool apart = form == Form::apart;
+    region.clear(sums, {.color = {0, 0, 0, apart ? 0.0f : 1.0f}});
+    region.clear(other, {.color = Rgba(apart ? 1.0f : 0.0f)});
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.color = {sums, other};
+    state.blend = blends_of(form);
+    state.needs.code = false;
+    region.begin_iteration();
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        Lanes<float> weights;
+        weigh(inputs, region.frame(), in, weights);
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float a = in.color[3][i], w = weights[i];
+            for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * a * w;
+            out.color[0][3][i] = apart ? a * w : a;
+            for (std::size_t c = 0; c < 3; ++c) out.color[1][c][i] = apart ? a : a * w;
+            out.color[1][3][i] = a;
+        }
+    }));
+}
+
+// Reads the two targets and the background; reports the pixels whose sums are above their format's greatest number.
+void resolve(Region& region, Form form, const PassState& state) {
+    const bool half = region.storage(state.reads[0]).format() == Format::rgba16f;
+    const float limit = half ? 65504.0f : std::numeric_limits<float>::max();
+    PixelSet saturated{region};
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        const ColorLanes &sum = own.color(0), &background = own.color(2);
+        const Lanes<float>&weights = form == Form::apart ? sum[3] : own.color(1)[0],
+              &revealage = form == Form::apart ? own.color(1)[0] : sum[3];
+        resolve_weighted(sum, weights, revealage, background, out.color[0], lanes(in));
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            if (!(weights[i] <= limit && sum[0][i] <= limit && sum[1][i] <= limit && sum[2][i] <= limit))
+                saturated.add(in.pixel[i]);
+    }));
+    saturated.report(region, Fault::half_saturated, "a sum of weighted colours has overflowed");
+}
+
+template <Form form>
+void run(Region& region, const ListingInputs& inputs) {
+    const bool wide = region.frame().color_format == Format::rgba32f;
+    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Target other = region.make(wide ? Format::r32f : Format::r16f);
+    const Target result = region.make(region.frame().picture_format());
+    region.call(sums, "sums");
+    region.call(other, form == Form::apart ? "revealage" : "weights");
+    region.call(result, "result");
+    accumulate(region, inputs, form, sums, other);
+    PassState state;
+    state.color[0] = result;
+    state.reads = {sums, other, region.opaque_color()};
+    resolve(region, form, state);
+    region.publish(result);
+}
+
+}  // namespace
+
+std::vector<Algorithm> entries() {
+    return {
+        Algorithm{.name = "weighted_blended",
+                  .listed = 180,
+                  .paper = "McGuire and Bavoil 2013",
+                  .section = "equations 6 to 10",
+                  .summary = "every colour replaced by the average weighted by alpha and depth; an approximation",
+                  .pass_formula = "1",
+                  .ties = TiePolicy::none,
+                  .key = DepthKey::shader_z,
+                  .geometry_passes = one_pass,
+                  .run_with = run<Form::apart>,
+                  .features = {float_targets, fragment_programs, independent_blend},
+                  .render_targets = 2},
+        Algorithm{.name = "weighted_blended_shared",
+                  .listed = 181,
+                  .paper = "McGuire and Bavoil 2013",
+                  .section = "4",
+                  .summary = "weighted_blended with one blend for both targets: the revealage is the alpha of the sums",
+                  .pass_formula = "1",
+                  .ties = TiePolicy::none,
+                  .key = DepthKey::shader_z,
+                  .geometry_passes = one_pass,
+                  .run_with = run<Form::shared>,
+                  .features = {float_targets, fragment_programs, separate_alpha_blend},
+                  .render_targets = 2}};
+}
+
+}  // namespace strata::peeling::listing::weighted_blended

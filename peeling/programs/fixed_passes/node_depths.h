@@ -1,0 +1,48 @@
+// peeling/programs/fixed_passes/node_depths.h - the depths of a pixel's nodes, four to a target: what programs of k
+// nodes a pixel read and write in order.
+//
+// Rule     Node e stands in channel e mod 4 of target e / 4, as depth_float.h has it; no_node, behind every depth,
+// where it is empty. Tests    tests/peeling/algorithms/multi_layer_test.cpp
+#pragma once
+#include <array>
+#include <string>
+
+#include "peeling/programs/depth_float.h"
+#include "peeling/programs/depth_range.h"
+#include "pipeline/region/region.h"
+
+namespace strata::peeling {
+
+struct NodeDepths {
+    int nodes = 0;
+    std::array<pipeline::Target, 2> targets{};
+    [[nodiscard]] std::size_t target_count() const noexcept { return static_cast<std::size_t>(nodes + 3) / 4; }
+};
+
+[[nodiscard]] inline NodeDepths make_node_depths(pipeline::Region& region, int nodes) {
+    NodeDepths depths{nodes, {}};
+    for (std::size_t t = 0; t < depths.target_count(); ++t) {
+        depths.targets[t] = region.make(pipeline::Format::rgba32f);
+        region.call(depths.targets[t], "depths");
+        region.clear(depths.targets[t], {.color = pipeline::Rgba(no_node)});
+    }
+    return depths;
+}
+
+// A pass over what is visible whose program reads and writes nodes in order; its first targets, and loads, are the
+// depths.
+[[nodiscard]] inline pipeline::PassState node_state(const pipeline::Region& region, const NodeDepths& depths) {
+    pipeline::PassState state;
+    state.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.needs = code_with_color;
+    state.ordered_rmw = true;
+    for (std::size_t t = 0; t < depths.target_count(); ++t) state.color[t] = state.reads[t] = depths.targets[t];
+    return state;
+}
+
+[[nodiscard]] inline float depth_of_node(const pipeline::Loads& own, std::size_t node, std::size_t lane) noexcept {
+    return own.color(static_cast<int>(node / 4))[node % 4][lane];
+}
+
+}  // namespace strata::peeling

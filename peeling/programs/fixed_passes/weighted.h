@@ -1,0 +1,70 @@
+// peeling/programs/fixed_passes/weighted.h - the weights of McGuire and Bavoil 2013, and the pixel that sums of
+// weighted colours make.
+//
+// Rule     Equations 7 to 10, each operation rounded to binary32; pixel = (sums / weights) (1 - t) + background t, t
+// the product of
+//          (1 - a). The background where the sum of weights is not above 0.
+// Source   algorithms.md 18. The guard is ours, in place of the paper's least divisor.
+// Tests    tests/peeling/algorithms/weighted_blended_test.cpp
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "peeling/programs/algorithm_options.h"
+#include "peeling/programs/average.h"
+#include "peeling/programs/region_programs.h"
+
+namespace strata::peeling {
+inline namespace strict {
+
+// Without the factor alpha of equations 7 to 10. `z` is the distance from the eye, but in equation 10 the window depth,
+// 0 near and 1 far.
+[[nodiscard]] inline float weight_at(Weight weight, float z) noexcept {
+    const auto at_least = [](float w) { return std::max(0.01f, w); };
+    const auto between = [&](float w) { return at_least(std::min(3000.0f, w)); };
+    const auto squared = [](float v) { return v * v; };
+    const auto cubed = [](float v) { return v * v * v; };
+    switch (weight) {
+        case Weight::eq7: return between(10.0f / ((1e-5f + squared(z / 5.0f)) + squared(cubed(z / 200.0f))));
+        case Weight::eq8: return between(10.0f / ((1e-5f + cubed(z / 10.0f)) + squared(cubed(z / 200.0f))));
+        case Weight::eq9: return between(0.03f / (1e-5f + squared(squared(z / 200.0f))));
+        case Weight::eq10: return at_least(3000.0f * cubed(1.0f - z));
+        case Weight::constant: return 1.0f;
+    }
+    return 1.0f;  // unreachable: the enum is closed
+}
+
+// The distance from the eye of a window depth.
+[[nodiscard]] inline float distance_at(const EyeDistance& eye, float z) noexcept {
+    return std::abs(eye.a + eye.b * z) / std::abs(eye.c + eye.d * z);
+}
+
+// The weights of a batch: times alpha, but for a constant one.
+inline void weigh(const ListingInputs& inputs, const pipeline::Frame& frame, const pipeline::FragmentBatch& in,
+                  pipeline::Lanes<float>& weights) noexcept {
+    const Weight weight = inputs.options.weight;
+    const bool reversed = is_reversed(frame);
+    for (std::size_t i = 0; i < lanes(in); ++i) {
+        const float z = weight == Weight::eq10 ? depth_behind_near(reversed, in.shader_z[i])
+                                               : distance_at(inputs.eye, window_z(frame, in.shader_z[i]));
+        const float w = weight_at(weight, z);
+        weights[i] = weight == Weight::constant ? w : in.color[3][i] * w;
+    }
+}
+
+// A pixel of sums, their weight, and what lets through `t` of what is behind.
+inline void resolve_weighted(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& weights,
+                             const pipeline::Lanes<float>& through, const pipeline::ColorLanes& background,
+                             pipeline::ColorLanes& out, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float w = weights[i], t = through[i];
+        const bool has = w > 0.0f;
+        for (std::size_t c = 0; c < 3; ++c)
+            out[c][i] =
+                has ? scalar::average_over(scalar::OneAverage{}, sums[c][i], w, t, background[c][i]) : background[c][i];
+        out[3][i] = has ? scalar::alpha_over(t, background[3][i]) : background[3][i];
+    }
+}
+
+}  // namespace strict
+}  // namespace strata::peeling

@@ -1,0 +1,224 @@
+// weighted_blended against equations 6 to 10 of McGuire and Bavoil 2013 in binary64, its two forms, and the distance
+// from the eye against the projection itself. algorithms.md 18.
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "peeling/programs/fixed_passes/weighted.h"
+#include "peeling/raster_state.h"
+#include "tests/peeling/expectations.h"
+#include "tests/peeling/rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::peeling::Weight;
+using strata::pipeline::Fault;
+using strata::pipeline::Format;
+using strata::pipeline::Image;
+using strata::pipeline::Rgba;
+using strata::pipeline::View;
+
+const ExpectedRow expected_weighted_blended{{.algorithm = "weighted_blended",
+                                             .devices = Devices::independent_blending,
+                                             .passes = [](int) { return 1; },
+                                             .targets = {"sums", "revealage", "result"},
+                                             .render_targets = 2}};
+const ExpectedRow expected_weighted_blended_shared{{.algorithm = "weighted_blended_shared",
+                                                    .devices = Devices::programmable,
+                                                    .passes = [](int) { return 1; },
+                                                    .targets = {"sums", "weights", "result"},
+                                                    .render_targets = 2}};
+
+constexpr double eye_scale = 512;  // window depths 0 to 1 lie 512 before to 512 behind the eye, parallel
+
+View deep_view() {
+    View view;
+    view.view[2][2] = eye_scale;
+    view.projection[2][2] = 1 / eye_scale;
+    return view;
+}
+
+// By the definition, of a window depth that is exact.
+double weight_of(Weight weight, double depth, double a) {
+    const double z = std::abs(2 * depth - 1) * eye_scale;
+    switch (weight) {
+        case Weight::eq7: return a * std::clamp(10 / (1e-5 + std::pow(z / 5, 2) + std::pow(z / 200, 6)), 0.01, 3000.0);
+        case Weight::eq8: return a * std::clamp(10 / (1e-5 + std::pow(z / 10, 3) + std::pow(z / 200, 6)), 0.01, 3000.0);
+        case Weight::eq9: return a * std::clamp(0.03 / (1e-5 + std::pow(z / 200, 4)), 0.01, 3000.0);
+        case Weight::eq10: return a * std::max(0.01, 3000 * std::pow(1 - depth, 3));
+        case Weight::constant: return 1;
+    }
+    return 0;
+}
+
+struct BlendedPixel {
+    std::array<double, 3> color{};
+    int fragments = 0;
+};
+
+BlendedPixel blended_model(const GivenPixel& pixel, const Rgba& background, Weight weight) {
+    std::array<double, 3> sum{};
+    double weights = 0, through = 1;
+    BlendedPixel real;
+    for (const GivenFragment& f : visible(pixel)) {
+        const double a = f.color[3], w = weight_of(weight, f.depth, a);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += f.color[static_cast<int>(c)] * a * w;
+        weights += a * w;
+        through *= 1 - a;
+        ++real.fragments;
+    }
+    const Rgba behind = pixel.opaque ? pixel.opaque->color : background;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double b = behind[static_cast<int>(c)];
+        real.color[c] = weights > 0 ? sum[c] / weights * (1 - through) + b * through : b;
+    }
+    return real;
+}
+
+// How far colours in [0, 1] may be off. A weight takes at most 20 roundings to binary32, its constants among them, its
+// colour 2 more, both in numerator and denominator, and the quad 5; a store into a sum rounds by `stored` for each
+// fragment so far, in both, and in the revealage.
+double allowed_error(int n, double stored) { return (44.0 + 5.0) * 0x1p-24 + (3.0 * n + 3.0) * stored; }
+
+// Up to 7 fragments a pixel at depths from the nearest to where the least weight holds, some of them behind an opaque
+// surface.
+FragmentScene weighted_pixels(unsigned seed) {
+    std::mt19937 random{seed};
+    constexpr float depths[]{0, 0.125f, 0.498046875f, 0.50390625f, 0.75f, 0.875f, 0.998046875f};
+    const auto eighth = [&](unsigned least) { return static_cast<float>(least + random() % (9 - least)) / 8.0f; };
+    FragmentScene scene{16, 16};
+    for (GivenPixel& pixel : scene.pixels) {
+        for (auto left = random() % 8; left > 0; --left)
+            pixel.fragments.push_back({depths[random() % 7], {eighth(1), eighth(1), eighth(1), eighth(4)}});
+        if (random() % 4 == 0) pixel.opaque = GivenFragment{0.8125f, {eighth(1), eighth(1), eighth(1), 1}};
+    }
+    return scene;
+}
+
+double stored_value(const Image& image, Format format, std::size_t pixel, std::size_t channel) {
+    const std::uint32_t code = image.codes[4 * pixel + channel];
+    return format == Format::rgba8 ? code / 255.0 : static_cast<double>(std::bit_cast<float>(code));
+}
+
+// The first pixel that is further from the model than roundings allow; empty if there is none.
+std::string off_the_model(const FragmentScene& scene, const RenderResult& result, const RenderOptions& options,
+                          Format format) {
+    for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
+        const BlendedPixel real = blended_model(scene.pixels[p], options.background, options.algorithm.weight);
+        // Halves round by 2^-11, binary32 by 2^-24; an 8-bit picture by half a code once more.
+        const double limit = format == Format::rgba8 ? allowed_error(real.fragments, 0x1p-11) + 0.5 / 255 + 1e-9
+                                                     : allowed_error(real.fragments, 0x1p-24);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double found = stored_value(result.frame.color, format, p, c);
+            if (std::abs(found - real.color[c]) <= limit) continue;
+            std::ostringstream text;
+            text << "pixel " << p << " channel " << c << ": found " << found << ", expected " << real.color[c];
+            return text.str();
+        }
+    }
+    return "";
+}
+
+RenderOptions options_over_blue(const FragmentScene& scene, Format format) {
+    RenderOptions options = options_for(scene);
+    options.color_format = format;
+    options.background = {0.25f, 0.5f, 1, 1};
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "weighted_blended averages colours by each of its weights over what lies behind, in both forms and every way of "
+    "running") {
+    const FragmentScene scene = weighted_pixels(1);
+    for (const char* algorithm : {"weighted_blended", "weighted_blended_shared"})
+        for (const Weight weight : {Weight::eq7, Weight::eq8, Weight::eq9, Weight::eq10, Weight::constant})
+            for (const Format format : {Format::rgba32f, Format::rgba8}) {
+                const char* profile = format == Format::rgba8 ? "geforce8_dx101" : "ideal";
+                std::optional<Image> first;
+                for (const Running& running : all_ways_of_running) {
+                    INFO(algorithm << " on " << profile << ", weight " << static_cast<int>(weight));
+                    RenderOptions options = options_over_blue(scene, format);
+                    options.algorithm.weight = weight;
+                    running.apply(options);
+                    const RenderResult result = render(draw_list(scene), deep_view(), {profile, algorithm}, options);
+                    REQUIRE_FALSE(result.refusal);
+                    CHECK(result.frame.passes.geometry == 1);
+                    CHECK(off_the_model(scene, result, options, format) == "");
+                    if (!first) first = result.frame.color;
+                    CHECK(result.frame.color == *first);
+                }
+            }
+}
+
+TEST_CASE("a program finds the distance from the eye that the projection was made from") {
+    View view;
+    const double near = 0.5, far = 300;
+    view.projection = strata::pipeline::Matrix(0.0);
+    view.projection[0][0] = view.projection[1][1] = 1;
+    view.projection[2][3] = -1;
+    for (const bool is_half : {true, false}) {
+        strata::rasterizer::RasterState state;
+        state.depth_near = 0.25f;
+        state.clip_depth =
+            is_half ? strata::rasterizer::ClipDepth::minus_one_to_one : strata::rasterizer::ClipDepth::zero_to_one;
+        view.projection[2][2] = is_half ? -(far + near) / (far - near) : -far / (far - near);
+        view.projection[3][2] = (is_half ? -2 : -1) * far * near / (far - near);
+        const auto eye = strata::peeling::eye_distance(view, state);
+        for (double distance = near; distance <= far; distance *= 1.25) {
+            const double clip = -view.projection[2][2] * distance + view.projection[3][2], ndc = clip / distance;
+            const double window = is_half ? 0.25 + 0.75 * (ndc + 1) / 2 : 0.25 + 0.75 * ndc;
+            const double found = strata::peeling::distance_at(eye, static_cast<float>(window));
+            // Half a unit of the depth is so much of the distance, and the uniforms and the quotient err by as little.
+            const double slope = distance * distance / (near * 0.75);
+            CHECK(std::abs(found - distance) <= slope * 4 * 0x1p-24 + distance * 8 * 0x1p-24);
+        }
+    }
+}
+
+TEST_CASE(
+    "weighted_blended does not ask in which order fragments arrive, and takes depth 1 for near under reversed depth") {
+    FragmentScene scene{2, 1};
+    const GivenFragment near{0.125f, {1, 0.5f, 0.25f, 0.5f}}, far{0.875f, {0.25f, 0.5f, 1, 0.25f}};
+    scene.pixels[0].fragments = {near, far};
+    scene.pixels[1].fragments = {far, near};
+    RenderOptions options = options_over_blue(scene, Format::rgba32f);
+    const Image image = render(scene, {"ideal", "weighted_blended"}, options).frame.color;
+    for (std::size_t c = 0; c < 4; ++c) CHECK(image.codes[c] == image.codes[4 + c]);
+    for (GivenPixel& pixel : scene.pixels)
+        for (GivenFragment& f : pixel.fragments) f.depth = 1 - f.depth;
+    options.raster.depth_order = strata::rasterizer::DepthOrder::greater;
+    CHECK(render(scene, {"ideal", "weighted_blended"}, options).frame.color == image);
+}
+
+TEST_CASE("weighted_blended is exact where the fragments of a pixel have one colour, whatever their alphas") {
+    FragmentScene scene{1, 1};
+    for (int i = 1; i <= 6; ++i)
+        scene.pixels[0].fragments.push_back(
+            {static_cast<float>(i) / 8.0f, {0.75f, 0.5f, 0.25f, static_cast<float>(i) / 8.0f}});
+    for (const char* algorithm : {"weighted_blended", "weighted_blended_shared"})
+        CHECK(render(scene, {"ideal", algorithm}).audit.max_difference < 1e-4);
+}
+
+TEST_CASE("weighted sums that half precision cannot hold are told, with their pixels") {
+    FragmentScene scene{2, 2};  // 21 weights of 3000 are below 65504, 22 are above
+    scene.pixels[1].fragments.assign(21, {0, {1, 1, 1, 1}});
+    scene.pixels[2].fragments.assign(22, {0, {1, 1, 1, 1}});
+    for (const char* algorithm : {"weighted_blended", "weighted_blended_shared"}) {
+        const RenderResult half = render(scene, {"geforce8_dx101", algorithm}, options_over_blue(scene, Format::rgba8));
+        REQUIRE(diagnosed(half, Fault::half_saturated) == 1);
+        for (const auto& d : half.frame.diagnostics)
+            if (d.fault == Fault::half_saturated) {
+                CHECK(d.first_x == 0);
+                CHECK(d.first_y == 1);
+            }
+        const RenderResult single = render(scene, {"ideal", algorithm}, options_over_blue(scene, Format::rgba32f));
+        CHECK_FALSE(has_diagnostic(single, Fault::half_saturated));
+    }
+}
