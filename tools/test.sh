@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
-#   tools/test.sh               unit and golden tests
-#   tools/test.sh --ci          those, and the fast ones and 2,000 frames under sanitizers: what continuous integration runs
+#   tools/test.sh               unit and golden tests, all but those that take seconds each
+#   tools/test.sh --long        these
+#   tools/test.sh --ci          both, and the fast ones and 2,000 frames under sanitizers: what continuous integration runs
 #   tools/test.sh --nightly     what compiles other projects: an installation's users, the recipe, builds without a build type
 #   tools/test.sh --sanitizers  every test of the libraries under the sanitizers, the slow ones and the scenes' too, and the tests themselves; half a
 #                               minute of guided fuzzing each for frames and for the loader
@@ -81,7 +82,7 @@ sanitized() {
     step "the fast tests of the core under the sanitizers, and beside them the frames of seeds $first..$((first + 2000))"
     quietly frames "build/$preset/tests/fuzz/differential_seeds" --seeds "$first..$((first + 2000))" &
     frames=$!
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|slow|golden|command|fuzz|lint|specification|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|nightly|long|slow|golden|command|fuzz|lint|specification|docs|browser|python|port|engines|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     wait "$frames"
 }
@@ -135,15 +136,16 @@ matrix() {
 }
 
 case "${1:-}" in
-    "") tools/setup.sh; step "building"; build release ;;
-    --ci) tools/setup.sh; builds; sanitized ;;
+    "") tools/setup.sh; step "building"; build release; preset=short ;;
+    --ci) tools/setup.sh; builds; sanitized; preset=release ;;
+    --long) tools/setup.sh; build release; ctest --preset release -L long -j "$(nproc)"; exit 0 ;;
     --nightly) tools/setup.sh; build release; ctest --test-dir build/release -L nightly --output-on-failure -j "$(nproc)"; exit 0 ;;
     --sanitizers) tools/setup.sh; sanitizers; exit 0 ;;
     --instrumented) tools/setup.sh; instrumented; exit 0 ;;
     --matrix) tools/setup.sh; matrix; exit 0 ;;
     --exhaustive) tools/setup.sh; build release; ctest --preset exhaustive -j "$(nproc)"; exit 0 ;;
-    *) echo "tools/test.sh: expected nothing, --ci, --nightly, --sanitizers, --instrumented, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
+    *) echo "tools/test.sh: expected nothing, --ci, --long, --nightly, --sanitizers, --instrumented, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
 esac
 
-step "all unit and golden tests"
-ctest --preset release -j "$(nproc)"
+step "unit and golden tests"
+ctest --preset "$preset" -j "$(nproc)"

@@ -23,7 +23,7 @@ TEST_CASE("compare with a scene calls a picture right whatever its format and or
     }
 }
 
-TEST_CASE("compare with a scene names the mistake of a peel that stops early, and ends with 1") {
+TEST_CASE("compare with a scene names the mistake of a peel that stops early, and ends with 1", "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render teapot --size 48x36 --algorithm front_to_back --max-passes 2 -q -o a.png && "
@@ -42,7 +42,7 @@ TEST_CASE("compare with a scene names the mistake of a peel that stops early, an
     CHECK(document["explanations"][0]["mistakes"][0]["n"] == 2);
 }
 
-TEST_CASE("a picture that is right by another profile's rules is right, and says by which") {
+TEST_CASE("a picture that is right by another profile's rules is right, and says by which", "[long]") {
     const Folder folder;
     const std::string scene = "random:seed=3,triangles=80";
     const std::string draw = "strata render " + scene + " --size 48x36 --profile softpipe --color-format rgba32f -q ";
@@ -94,7 +94,7 @@ TEST_CASE("explain --candidate tells which layers a port composited at a pixel")
     CHECK(outside.err.find("expected a pixel from 0,0 to 23,17, found 24,0") != std::string::npos);
 }
 
-TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit") {
+TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit", "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render teapot --size 32x24 --algorithm dual,front_to_back -q -o a.png && "

@@ -6,7 +6,8 @@
 
 using namespace strata::test;
 
-TEST_CASE("diagnose names the mistake that render was told to make, with status 1, and a right picture with status 0") {
+TEST_CASE("diagnose names the mistake that render was told to make, with status 1, and a right picture with status 0",
+          "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render showroom --size 64x64 -o right.png && "
@@ -80,7 +81,7 @@ TEST_CASE("diagnose takes a folder of packs, and says who made the pictures of a
           "strata: set/room: has no picture or folder with the name of a pack, such as left_out\n");
 }
 
-TEST_CASE("diagnose of a picture that was made by another command says in what the commands differ") {
+TEST_CASE("diagnose of a picture that was made by another command says in what the commands differ", "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render showroom --size 32x32 --background 1,1,1 --alpha 0.5 -o mine.png && "

@@ -23,7 +23,7 @@ std::vector<std::string> examples_of(const std::string& help) {
 
 }  // namespace
 
-TEST_CASE("every example of every --help runs as printed") {
+TEST_CASE("every example of every --help runs as printed", "[long]") {
     const std::string verb = GENERATE(from_range(commands()));
     if (verb == "hardware-check") return;  // its examples need captures
     const Folder folder;

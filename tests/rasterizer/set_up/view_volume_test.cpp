@@ -148,7 +148,7 @@ namespace {
 }  // namespace
 
 TEST_CASE("depth first, the view volume cuts by near and far before its sides, new corners weighed by both distances",
-          "[slow]") {
+          "[long][slow]") {
     const Clipper clipper{scene_state(64, 48), {.clip = ClipVolume::view_volume_depth_first}};
     Random random{513};
     std::uint64_t wrong = 0, cut = 0, gone = 0, unlike = 0;

@@ -202,7 +202,7 @@ struct Wrong {
 }  // namespace
 
 TEST_CASE("planes begin at the corner of the greatest w of what was given: depths and values are the rounded steps",
-          "[slow]") {
+          "[long][slow]") {
     for (const auto& [kind, clip_depth, direction] :
          {std::tuple{SoupKind::perspective, ClipDepth::minus_one_to_one, YDirection::up},
           {SoupKind::needs_clipping, ClipDepth::zero_to_one, YDirection::up},
@@ -223,7 +223,8 @@ TEST_CASE("planes begin at the corner of the greatest w of what was given: depth
     }
 }
 
-TEST_CASE("polygon offset is added to the value of each fragment, its unit that of differences of depth", "[slow]") {
+TEST_CASE("polygon offset is added to the value of each fragment, its unit that of differences of depth",
+          "[long][slow]") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d32f}) {
         RasterState state = scene_state(23, 17);
         state.depth_format = format;

@@ -34,7 +34,8 @@ TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right, and its pi
     CHECK(judged(opened, exact).right.at_edges == 0);
 }
 
-TEST_CASE("a picture of another profile is right: its colours, depths and coverage are off by what snapping changes") {
+TEST_CASE("a picture of another profile is right: its colours, depths and coverage are off by what snapping changes",
+          "[long]") {
     for (const char* const name : {"teapot", "showroom"}) {
         const OpenedScene opened{name, 40, 30};
         for (const char* const profile : {"llvmpipe", "softpipe"}) {

@@ -37,7 +37,7 @@ bool says(const std::vector<Rule>& rules, RuleKind kind) {
 
 }  // namespace
 
-TEST_CASE("the map of edits tells two mistakes apart by where each shows") {
+TEST_CASE("the map of edits tells two mistakes apart by where each shows", "[long]") {
     const TwoMistakes port;
     SceneFragments fragments = port.opened.fragments();
     const Colors colors{port.picture};
@@ -59,7 +59,7 @@ TEST_CASE("the map of edits tells two mistakes apart by where each shows") {
     CHECK(map.not_explained * 5 < wrong);
 }
 
-TEST_CASE("one pixel's edits name the layer that it lacks, and none where it is right") {
+TEST_CASE("one pixel's edits name the layer that it lacks, and none where it is right", "[long]") {
     const TwoMistakes port;
     SceneFragments fragments = port.opened.fragments();
     const Colors colors{port.picture};

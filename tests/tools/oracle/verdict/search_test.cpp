@@ -92,7 +92,8 @@ const std::vector<WrongPort>& wrong_ports() {
 
 }  // namespace
 
-TEST_CASE("a port's mistake in the structure is found from its picture alone, whatever its order of blending") {
+TEST_CASE("a port's mistake in the structure is found from its picture alone, whatever its order of blending",
+          "[long]") {
     const OpenedScene opened{"showroom", 48, 48};
     std::vector<std::string> missed;
     std::size_t number = 0;
@@ -126,7 +127,8 @@ TEST_CASE("a mistake is found in a picture of floats, too, whose rounding leaves
         CHECK(found(judged(opened, *opened.picture("unsorted", format))).contains("as_submitted 0"));
 }
 
-TEST_CASE("layers that are lost in the middle of many are found, though a port that cuts could lose as much") {
+TEST_CASE("layers that are lost in the middle of many are found, though a port that cuts could lose as much",
+          "[long]") {
     const OpenedScene opened{"hard:case=inside-out", 32, 32};
     Hypothesis floats = port_of_codes(Order::both_ends);
     floats.front = floats.back = {Storage::single, Source::unrounded, Rounding::nearest};
@@ -160,7 +162,7 @@ TEST_CASE("another background is told with its colour") {
     CHECK(verdict.facts.background == Rgba{1, 0.6f, 0.2f, 1});
 }
 
-TEST_CASE("what explains a part of the wrong pixels is a lead and no finding") {
+TEST_CASE("what explains a part of the wrong pixels is a lead and no finding", "[long]") {
     const OpenedScene opened{"showroom", 32, 32};
     std::size_t number = 0;
     const auto change = [&](PortList& l) {

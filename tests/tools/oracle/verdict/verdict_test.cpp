@@ -31,7 +31,7 @@ std::vector<std::string> not_right(const OpenedScene& opened) {
 
 }  // namespace
 
-TEST_CASE("every exact algorithm's own picture is right by structure, in every format") {
+TEST_CASE("every exact algorithm's own picture is right by structure, in every format", "[long]") {
     CHECK(not_right(OpenedScene{"showroom", 40, 30}).empty());
     OpenedScene ties{"random:seed=7,triangles=60", 24, 24};
     CHECK(not_right(ties) == std::vector<std::string>{});
