@@ -1,6 +1,6 @@
-// tests/support/color_machine.h - a colour target of the machine as a model: one channel at a time, in binary64 rounded
-// to binary32 after every operation (a product or sum of binary32 that is rounded twice is rounded once: 53 >= 2 * 24 +
-// 2), stored by rules of its own.
+// tests/support/color_machine.h - independent model of a colour target, one channel at a time. Each operation is
+// computed in binary64 and rounded to binary32; for one product or sum of binary32 values this double rounding gives
+// the correctly rounded result (53 >= 2 * 24 + 2). Storing follows the model's own rules.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 #include "pipeline/stages/stored_color.h"
 #include "tests/support/random_numbers.h"
 
-// A namespace of its own: names of the model are short.
+// The model's short names have a namespace of their own.
 namespace strata::testing::color_model {
 
 using pipeline::BlendRounding;
@@ -20,7 +20,7 @@ using pipeline::ChannelType;
 using pipeline::HalfRounding;
 using pipeline::UnormRounding;
 
-// Every rule that a colour is stored and blended by.
+// All combinations of rules for storing and blending a colour that the tests use.
 inline std::vector<pipeline::ColorRules> all_color_rules() {
     std::vector<pipeline::ColorRules> rules;
     for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product,
@@ -45,7 +45,7 @@ inline float rounded(double exact) { return static_cast<float>(exact); }
 inline float product(float a, float b) { return rounded(double{a} * b); }
 inline float sum(float a, float b) { return rounded(double{a} + b); }
 
-// The half nearest to x, or the next one toward zero: units of 2^(exponent - 10), of 2^-24 for small ones.
+// x rounded to a half, to nearest or toward zero. The unit is 2^(exponent - 10), or 2^-24 below the normal range.
 inline float model_half(float x, HalfRounding rounding) {
     const bool has_infinity = rounding != HalfRounding::no_infinity;
     if (!has_infinity && !(std::fabs(x) < 131040)) return std::isnan(x) ? -131008.0f : std::copysign(131008.0f, x);
@@ -53,19 +53,19 @@ inline float model_half(float x, HalfRounding rounding) {
     const int unit = std::max(std::ilogb(x), -14) - 10;
     double units = std::ldexp(double{x}, -unit);
     if (!has_infinity)
-        units = std::ldexp(std::trunc(std::ldexp(units, 13)), -13);  // 24 bits from the first digit of a normal one
+        units = std::ldexp(std::trunc(std::ldexp(units, 13)), -13);  // keeps 24 significant bits of a normal half
     const double whole = rounding == HalfRounding::toward_zero ? std::trunc(units) : std::nearbyint(units);
     const double half = std::copysign(std::ldexp(whole, unit), x);
     if (std::fabs(half) < 65536 || !has_infinity) return rounded(half);
     return std::copysign(rounding == HalfRounding::nearest_even ? std::numeric_limits<float>::infinity() : 65504.0f, x);
 }
 
-// A target of the machine.
+// The model of one colour target under the given rules.
 struct ColorMachine {
     pipeline::ColorRules rules;
 
     [[nodiscard]] bool is_unorm8() const { return rules.type == ChannelType::unorm8; }
-    // Codes are blended as numbers, and not as the values that they stand for.
+    // True if the codes are blended as integers, not the values that they represent.
     [[nodiscard]] bool blends_codes() const {
         return is_unorm8() && rules.storage == BlendStorage::target && rules.blend != BlendRounding::unrounded_source;
     }
@@ -93,7 +93,8 @@ struct ColorMachine {
             return (std::signbit(half) ? 0xfc00u : 0x7c00u) + static_cast<std::uint32_t>(std::fabs(half) / 64.0f) -
                    1024u;
         if (rules.type == ChannelType::half)
-            return pipeline::to_half<HalfRounding::toward_zero>(model_half(x, rules.rounding.half));  // a half already
+            // already exact as a half
+            return pipeline::to_half<HalfRounding::toward_zero>(model_half(x, rules.rounding.half));
         const float clamped = std::isnan(x) ? 0.0f : std::clamp(x, 0.0f, 1.0f);
         if (rules.rounding.unorm == UnormRounding::half_up)
             return static_cast<std::uint32_t>(std::floor(double{clamped} * 255 + 0.5));
@@ -103,7 +104,7 @@ struct ColorMachine {
         return is_unorm8() ? std::max(write(x), code) : write(std::max(flushed(x), read(code)));
     }
 
-    // s F + d G, the factors as values or codes: a float of the source that is to be stored, `rest` for 1 - alpha.
+    // s F + d G on codes. `floats` is the same on values.
     [[nodiscard]] std::uint32_t integers(std::uint32_t s, std::uint32_t F, std::uint32_t d, std::uint32_t G) const {
         const auto part = [](std::uint32_t ab) { return (ab + ab / 256 + 128) / 256; };
         if (rules.blend == BlendRounding::each_product) return std::min(part(s * F) + part(d * G), 255u);
@@ -130,7 +131,7 @@ struct ColorMachine {
     }
 };
 
-// A stored code: any, or that of a plain value.
+// A random stored code: an arbitrary one, or the code of a random channel value.
 inline std::uint32_t any_stored_code(Random& random, const pipeline::ColorRules& rules) {
     if (rules.type == ChannelType::unorm8) return static_cast<std::uint32_t>(random_int(random, 0, 255));
     const std::uint32_t bits = random() & (rules.type == ChannelType::half ? 0xffffu : 0xffffffffu);

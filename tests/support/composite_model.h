@@ -1,7 +1,7 @@
-// tests/support/composite_model.h - what each exact algorithm must show at one pixel, one fragment after another.
-// Written from algorithms.md 0 and 2 to 6 with the arithmetic of fragment-stages.md 8 to 9, formats.md 2 to 3: it
-// shares nothing with the product. The targets' arithmetic is here a number line of its own: integers over 255, or
-// binary32 (and its rounding to 11 bits).
+// tests/support/composite_model.h - expected result of each exact algorithm at one pixel, computed fragment by fragment
+// from algorithms.md 0 and 2 to 6 with the arithmetic of fragment-stages.md 8 to 9 and formats.md 2 to 3. It shares no
+// code with the implementation. Target values are modelled independently: integers over 255, or binary32 (rounded to an
+// 11-bit significand for half).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace strata::testing {
 using pipeline::Format;
 using pipeline::Rgba;
 
-// Colour targets of one format. Values are what a program loads: k / 255 rounded to binary32, or the float itself.
+// A colour target. Values are as a shader reads them: k / 255 rounded to binary32, or the float itself.
 struct TargetModel {
     Format format = Format::rgba8;
 
@@ -33,9 +33,9 @@ struct TargetModel {
         return k;
     }
     [[nodiscard]] static float as_float(int k) { return static_cast<float>(k) / 255.0f; }
-    // t / 255^2 to the nearest code: t / 255 rounded, halves cannot occur.
+    // Nearest code of t / 255^2, which is t / 255 rounded; there are no ties because 255 is odd.
     [[nodiscard]] static float from_products(int t) { return as_float((2 * t + 255) / 510); }
-    // Nearest multiple of the half format's spacing, ties to even; 65504 is not reached in these tests.
+    // Nearest multiple of the half format's spacing, ties to even. Values in these tests stay below 65504.
     [[nodiscard]] static float to_half_precision(float x) {
         const int exponent = x == 0.0f ? -14 : std::max(std::ilogb(x), -14);
         return std::ldexp(std::nearbyint(std::ldexp(x, 10 - exponent)), exponent - 10);
@@ -45,7 +45,7 @@ struct TargetModel {
         if (format == Format::rgba8) return as_float(code_255(x));
         return format == Format::rgba16f ? to_half_precision(x) : x;
     }
-    // The target's code of a value that is already stored in it; colours are not negative.
+    // The target's code of a value that is already representable in it; colours are not negative.
     [[nodiscard]] std::uint32_t code(float value) const {
         if (format == Format::rgba8) return static_cast<std::uint32_t>(code_255(value));
         const auto bits = std::bit_cast<std::uint32_t>(value);
@@ -60,22 +60,22 @@ struct TargetModel {
         const float source = s * a, destination = d * (1.0f - a);
         return stored(source + destination);
     }
-    // (DST_ALPHA, ONE): premultiplied source s behind d, which lets T through.
+    // UNDER, (DST_ALPHA, ONE): adds premultiplied s behind d; T is the transmittance of the layers in front.
     [[nodiscard]] float under(float d, float T, float s) const {
         if (format == Format::rgba8)
             return from_products(std::min(code_255(s) * code_255(T) + code_255(d) * 255, 65025));
         const float source = s * T;
         return stored(source + d);
     }
-    // (ZERO, ONE_MINUS_SRC_ALPHA): what a layer of alpha a leaves of T.
+    // (ZERO, ONE_MINUS_SRC_ALPHA): transmittance T after a layer of alpha a.
     [[nodiscard]] float faded(float T, float a) const {
         if (format == Format::rgba8) return from_products(code_255(T) * (255 - code_255(a)));
         return stored(T * (1.0f - a));
     }
 };
 
-// The targets of a peel: what it composites onto from the front, or at all; the back of a peel from both ends, and the
-// background; the picture.
+// The targets of a peel. front: the accumulation target, also of front-to-back peels. back: the back target of dual
+// peeling, initialised with the background. picture: the final image.
 struct PeelTargets {
     TargetModel front{}, back{}, picture{};
     PeelTargets(const TargetModel& all) : front{all}, back{all}, picture{all} {}
@@ -92,7 +92,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return groups;
 }
 
-// algorithms.md 2. UNIQUE; layers are stored straight.
+// algorithms.md 2. Of equal depths only the first submitted fragment is kept; layers are stored with non-premultiplied
+// colour.
 [[nodiscard]] inline Rgba depth_units_model(const PeelTargets& targets, const DepthGroups& groups,
                                             const Rgba& background) {
     Rgba result = background;
@@ -105,7 +106,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 4. UNIQUE; a layer is stored premultiplied, then blended UNDER.
+// algorithms.md 4. Of equal depths only the first submitted fragment is kept; a layer is stored premultiplied and
+// blended UNDER.
 [[nodiscard]] inline Rgba front_to_back_model(const PeelTargets& targets, const DepthGroups& groups,
                                               const Rgba& background) {
     Rgba front{0, 0, 0, 1};
@@ -124,7 +126,7 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 5. MERGED: all fragments of a peeled depth write, component-wise MAX keeps one mixture.
+// algorithms.md 5. All fragments of a peeled depth write; component-wise MAX merges them into one layer.
 [[nodiscard]] inline Rgba dual_model(const PeelTargets& targets, DepthGroups groups, const Rgba& background,
                                      int peels = 1 << 20) {
     Rgba front{0, 0, 0, 0}, back = background;  // front alpha: 1 - transmittance
@@ -158,7 +160,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 6. Every fragment blends: FIRST in the front half, LAST in the back half.
+// algorithms.md 6. Every fragment is blended. Of equal depths the first submitted is in front in the front half, the
+// last submitted in the back half.
 [[nodiscard]] inline Rgba dual_independent_model(const PeelTargets& targets, DepthGroups groups,
                                                  const Rgba& background) {
     Rgba front{0, 0, 0, 1}, back = background;
@@ -181,7 +184,7 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 17, the oracle: all fragments, the first submitted of a depth in front, in binary64.
+// algorithms.md 17, the oracle: all fragments in binary64; of equal depths the first submitted is in front.
 [[nodiscard]] inline std::array<double, 3> exact_composite(const DepthGroups& groups, const Rgba& background) {
     std::array<double, 3> result{background[0], background[1], background[2]};
     for (auto depth = groups.rbegin(); depth != groups.rend(); ++depth)

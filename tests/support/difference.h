@@ -1,4 +1,4 @@
-// tests/support/difference.h - what a user can see of two runs, compared.
+// tests/support/difference.h - compares the results of two runs that should be equal.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace strata::testing {
 
-// What differs between two results, by name; empty if nothing does. `work` and `seconds` may differ.
+// Names of the members that differ between two results; empty if they are equal. `work` and `seconds` may differ.
 [[nodiscard]] inline std::string difference(const peeling::RenderResult& a, const peeling::RenderResult& b) {
     const auto same_layer = [](const auto& x, const auto& y) {
         return x.color == y.color && x.depth == y.depth && x.side == y.side;

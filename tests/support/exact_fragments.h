@@ -1,9 +1,9 @@
-// tests/support/exact_fragments.h - the fragments of a scene by exact arithmetic: nothing is snapped, clipped or
+// tests/support/exact_fragments.h - the fragments of a scene in exact arithmetic: nothing is snapped, clipped or
 // rounded.
 //
-// A corner's clip coordinates are rationals. The weights l of a window point (X, Y) solve l0 v0 + l1 v1 + l2 v2 =
-// (X, Y, 1) over v = (x, y, w); the point is inside where no weight is negative, which also holds only in front of the
-// eye. Its depth in normalized device coordinates is then l0 z0 + l1 z1 + l2 z2.
+// A corner's clip coordinates are rationals. The weights l of a window point (X, Y) solve l0 v0 + l1 v1 + l2 v2 = (X,
+// Y, 1) over v = (x, y, w); the point is inside where no weight is negative, which holds only in front of the eye. Its
+// depth in normalized device coordinates is l0 z0 + l1 z1 + l2 z2.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,8 +20,8 @@ namespace strata::testing {
 using rasterizer::Rational;
 
 struct ExactFragment {
-    std::uint32_t triangle = 0;  // its number in its mesh
-    Rational depth{};            // of the window
+    std::uint32_t triangle = 0;  // index of the triangle in its mesh
+    Rational depth{};            // window depth
 };
 
 using ExactPixels = std::map<std::size_t, std::vector<ExactFragment>>;
@@ -37,7 +37,8 @@ struct Linear {
     [[nodiscard]] Rational at(const Rational& x, const Rational& y) const {
         return exact[0] * x + exact[1] * y + exact[2];
     }
-    // The sign at a point whose rounded coordinates are given, too: exact arithmetic only where rounding could matter.
+    // The sign at a point whose rounded coordinates are given as well. Exact arithmetic runs only where rounding could
+    // change the sign.
     [[nodiscard]] int sign(const Rational& x, const Rational& y, double near_x, double near_y) const {
         const double a = rounded[0] * near_x, b = rounded[1] * near_y, sum = a + b + rounded[2];
         if (std::fabs(sum) > 1e-12 * (std::fabs(a) + std::fabs(b) + std::fabs(rounded[2]))) return sum > 0 ? 1 : -1;
@@ -55,8 +56,8 @@ class ExactScene {
           transparent_{fragments_of(scene, scene.list.meshes[0])},
           opaque_{fragments_of(scene, scene.list.meshes[1])} {}
 
-    // The visible fragments by pixel, row by row from the top, in the order of their triangles. A pixel that no
-    // triangle covers is missing.
+    // The visible fragments of each pixel, row by row from the top, in triangle order. Pixels that no triangle covers
+    // are omitted.
     [[nodiscard]] ExactPixels visible() const {
         ExactPixels result = transparent_;
         for (auto& [pixel, fragments] : result) {
@@ -108,14 +109,14 @@ class ExactScene {
         return result;
     }
 
-    // Pixels from x0, y0 up to but without x1, y1.
+    // Pixels from (x0, y0) inclusive to (x1, y1) exclusive.
     struct Reach {
         int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
         [[nodiscard]] bool is_empty() const { return x0 >= x1 || y0 >= y1; }
     };
 
-    // Pixels whose centres a triangle in front of the eye can cover, with a millionth of a pixel to spare for rounding
-    // here; all pixels for any other triangle.
+    // Pixels whose centres a triangle in front of the eye can cover, with a margin of a millionth of a pixel for
+    // rounding in this function; all pixels for any other triangle.
     [[nodiscard]] Reach reach_of(const std::array<std::array<double, 4>, 3>& clip) const {
         double lo_x = 1e300, hi_x = -1e300, lo_y = 1e300, hi_y = -1e300;
         for (const auto& [cx, cy, cz, w] : clip) {
@@ -138,7 +139,7 @@ class ExactScene {
 
     void add(const std::array<std::array<Rational, 4>, 3>& clip, std::uint32_t triangle, const Reach& reach,
              ExactPixels& pixels) const {
-        // Rows k: the cross product of the two other corners over (x, y, w).
+        // Row k is the cross product of the two other corners over (x, y, w).
         const auto cross = [&](std::size_t a, std::size_t b) -> std::array<Rational, 3> {
             const auto& [ax, ay, az, aw] = clip[a];
             const auto& [bx, by, bz, bw] = clip[b];
@@ -179,7 +180,7 @@ class ExactScene {
     ExactPixels transparent_, opaque_;
 };
 
-// The figures of hard_case.h.
+// The statistics of hard_case.h.
 [[nodiscard]] inline scenes::HardAnswer counts_of(const ExactPixels& pixels) {
     scenes::HardAnswer counts;
     for (const auto& [pixel, fragments] : pixels) {

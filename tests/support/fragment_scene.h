@@ -1,7 +1,7 @@
-// tests/support/fragment_scene.h - frames whose pixels get exactly the fragments that a test wants, in its order.
-// Each fragment is a triangle of 1.5 pixels' legs over its pixel's corner: it covers that pixel's centre and no other.
-// Window positions are multiples of half a pixel and depths small binary fractions, so that nothing on the way is
-// rounded.
+// tests/support/fragment_scene.h - frames whose pixels get exactly the fragments that a test specifies, in its order.
+// Each fragment is a right triangle with legs of 1.5 pixels at its pixel's corner: it covers only that pixel's centre.
+// Window positions are multiples of half a pixel and depths small binary fractions, so every intermediate value is
+// exact.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace strata::testing {
 
 struct GivenFragment {
     float depth = 0;         // window depth; 2 depth - 1 must be exact in binary32
-    pipeline::Rgba color{};  // straight
+    pipeline::Rgba color{};  // not premultiplied
 };
 
 struct GivenPixel {
@@ -69,8 +69,8 @@ inline void add_fragment(pipeline::Mesh& mesh, const FragmentScene& scene, std::
     return list;
 }
 
-// What a fragment-ordering model works on: the visible ones, nearer than the opaque surface (or than the clear value
-// 1).
+// The visible fragments, which are nearer than the opaque surface (or than the clear value 1): the input of a
+// fragment-ordering model.
 [[nodiscard]] inline std::vector<GivenFragment> visible(const GivenPixel& pixel) {
     const float limit = pixel.opaque ? pixel.opaque->depth : 1.0f;
     std::vector<GivenFragment> kept;

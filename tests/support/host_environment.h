@@ -1,4 +1,4 @@
-// tests/support/host_environment.h - a host program's floating-point environment for the length of a scope.
+// tests/support/host_environment.h - sets a host program's floating-point environment for the lifetime of a scope.
 #pragma once
 #include <array>
 #include <cfenv>
@@ -11,7 +11,8 @@ namespace strata::testing {
 
 #if defined(__SSE2__)
 
-// MXCSR with all exceptions masked: flush-to-zero and denormals-are-zero, three rounding modes, both.
+// MXCSR values with all exceptions masked: flush-to-zero with denormals-are-zero, the three other rounding modes, and
+// both.
 inline constexpr std::array<unsigned, 5> host_environments{0x9fc0, 0x3f80, 0x5f80, 0x7f80, 0xdfc0};
 
 class HostEnvironment {
@@ -20,7 +21,7 @@ class HostEnvironment {
     ~HostEnvironment() { _mm_setcsr(saved_); }
     HostEnvironment(const HostEnvironment&) = delete;
     HostEnvironment& operator=(const HostEnvironment&) = delete;
-    [[nodiscard]] bool is_in_force() const { return (_mm_getcsr() & 0xffc0u) == mxcsr_; }  // without the sticky flags
+    [[nodiscard]] bool is_in_force() const { return (_mm_getcsr() & 0xffc0u) == mxcsr_; }  // ignores the sticky flags
 
   private:
     unsigned saved_, mxcsr_;

@@ -1,4 +1,4 @@
-// tests/support/own_folder.h - a folder with a unique name; it goes when the test does.
+// tests/support/own_folder.h - a folder with a unique name, deleted when the test ends.
 #pragma once
 #include <unistd.h>
 

@@ -1,11 +1,12 @@
-// tests/support/partial_order_model.h - what Carr's algorithms and their kin must show at one pixel. Written from
-// algorithms.md 9 to 14 with the targets' arithmetic of composite_model.h: it shares nothing with the product.
+// tests/support/partial_order_model.h - expected result of Carr's algorithms and related ones at one pixel. Written
+// from algorithms.md 9 to 14 with the target arithmetic of composite_model.h; it shares no code with the
+// implementation.
 #pragma once
 #include "tests/support/composite_model.h"
 
 namespace strata::testing {
 
-// UNDER of straight fragments, near to far, each blended as it is.
+// UNDER of non-premultiplied fragments, near to far; each is premultiplied as it is blended.
 [[nodiscard]] inline Rgba under_model(const TargetModel& target, const std::vector<Rgba>& near_to_far,
                                       const Rgba& background) {
     Rgba front{0, 0, 0, 1};
@@ -21,7 +22,7 @@ namespace strata::testing {
     return result;
 }
 
-// FIRST: by depth, the first submitted in front.
+// Sorted by depth; of equal depths the first submitted is in front.
 [[nodiscard]] inline std::vector<Rgba> in_first_order(const std::vector<GivenFragment>& fragments) {
     std::vector<Rgba> colors;
     for (const auto& [depth, sources] : groups_of(fragments))
@@ -29,7 +30,7 @@ namespace strata::testing {
     return colors;
 }
 
-// algorithms.md 13: samples hold straight colours; the program that sorts them works in binary32.
+// algorithms.md 13: samples hold non-premultiplied colours; the program that sorts them computes in binary32.
 [[nodiscard]] inline Rgba routed_model(const TargetModel& target, const std::vector<Rgba>& near_to_far,
                                        const Rgba& background) {
     Rgba sum{0, 0, 0, 1};
@@ -51,10 +52,10 @@ namespace strata::testing {
     return result;
 }
 
-// algorithms.md 14: the four nearest so far are held back.
+// algorithms.md 14: the four nearest fragments so far are held back.
 [[nodiscard]] inline std::vector<Rgba> k_buffer_order(const std::vector<GivenFragment>& fragments) {
     std::vector<Rgba> out;
-    std::multimap<float, Rgba> held;  // equal keys stay in the order of their insertion
+    std::multimap<float, Rgba> held;  // equal keys keep the order of their insertion
     for (const GivenFragment& f : fragments) {
         held.insert({f.depth, f.color});
         if (held.size() <= 4) continue;

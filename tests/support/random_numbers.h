@@ -1,4 +1,4 @@
-// tests/support/random_numbers.h - small helpers over one generator; a test names its seed.
+// tests/support/random_numbers.h - random values for tests from one generator; each test names its seed.
 #pragma once
 #include <cstdint>
 #include <random>
@@ -9,7 +9,7 @@ namespace strata::testing {
 
 using Random = std::mt19937_64;
 
-[[nodiscard]] inline int random_int(Random& random, int low, int high) {  // both included
+[[nodiscard]] inline int random_int(Random& random, int low, int high) {  // low to high, both inclusive
     return low + static_cast<int>(random() % (static_cast<std::uint64_t>(high - low) + 1));
 }
 
@@ -17,7 +17,7 @@ using Random = std::mt19937_64;
     return low + (high - low) * (static_cast<float>(random() >> 40) * 0x1p-24f);
 }
 
-// A channel: an 8-bit code or any binary fraction of 24 digits; 0 and 1 come often.
+// A channel value: an 8-bit code / 255 or a binary fraction of 24 digits; 0 and 1 are frequent.
 [[nodiscard]] inline float random_channel(Random& random) {
     switch (random_int(random, 0, 7)) {
         case 0: return 0.0f;

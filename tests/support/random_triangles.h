@@ -1,5 +1,5 @@
-// tests/support/random_triangles.h - random triangles under a perspective view: opaque, masked and transparent, lit and
-// unlit, plain and textured, with ties (some triangles come twice).
+// tests/support/random_triangles.h - random triangles in a perspective view: opaque, masked and transparent, lit and
+// unlit, plain and textured. Some triangles occur twice, so that depths tie.
 #pragma once
 #include "tests/support/random_numbers.h"
 
@@ -26,11 +26,12 @@ struct TriangleScene {
         {.name = "stone", .back = {0.5f, 1, 1, 1}}};
 }
 
-// `reach`: how much of the view the triangles may fill, from its lower left corner. Eye at the origin, looking down -z.
+// `reach`: fraction of the view that the triangles may fill, from its lower left corner. The eye is at the origin and
+// looks down -z.
 [[nodiscard]] inline TriangleScene random_triangles(std::uint64_t seed, int triangles, float reach = 1.0f) {
     Random random{seed};
     TriangleScene scene;
-    scene.view.projection = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5, 0};  // near 1, far 5
+    scene.view.projection = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5, 0};  // near plane 1, far plane 5
     scene.list.materials = four_materials();
     scene.list.textures = {random_texture(random)};
     for (std::uint32_t material = 0; material < 4; ++material) {
@@ -46,7 +47,8 @@ struct TriangleScene {
         }
         const auto count = static_cast<std::uint32_t>(mesh.positions.size() / 3 * 3);
         for (std::uint32_t i = 0; i < count; ++i) mesh.indices.push_back(i);
-        for (std::uint32_t i = 0; material == 0 && i < count / 2 / 3 * 3; ++i) mesh.indices.push_back(i);  // ties
+        // repeated triangles, for ties
+        for (std::uint32_t i = 0; material == 0 && i < count / 2 / 3 * 3; ++i) mesh.indices.push_back(i);
         scene.list.instances.push_back({.mesh = material, .material = material});
         scene.list.meshes.push_back(std::move(mesh));
     }
