@@ -1,4 +1,4 @@
-// tests/tools/hard_cases/broken_peel.h - a peel that is wrong on purpose.
+// tests/tools/hard_cases/broken_peel.h - a peel with a deliberate mistake, for tests that must find it.
 #pragma once
 #include "peeling/programs/programs.h"
 #include "peeling/registry.h"
@@ -6,8 +6,8 @@
 
 namespace strata::test {
 
-// Front to back with < where <= belongs: a fragment does not lie behind its own depth, so that the nearest layer is
-// found again and again. Four passes.
+// Front to back that rejects with < where <= is required: a fragment at the peeled depth is not rejected, so the
+// nearest layer is found in every pass. Four passes.
 inline void peel_by_less(peeling::Algorithm& algorithm) {
     algorithm.name = "by-less";
     algorithm.resolve_loop = nullptr;

@@ -1,4 +1,5 @@
-// The model: fragments and traces typed by hand, with the figures that they ought to give.
+// Tests the statistics of composited fragments on fragments and traces written by hand. The expected counts are worked
+// out by hand.
 #include "tools/lab/hard_cases/composited.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +14,7 @@ namespace {
 using namespace strata;
 using tools::Composited;
 
-// Pixel 0 has fragments of depth 5, 3 and 5, pixel 1 one of depth 7, and behind the opaque surface one of depth 20.
+// Pixel 0 has fragments of depth 5, 3 and 5, pixel 1 one of depth 7 and, behind the opaque surface, one of depth 20.
 peeling::FrameFragments two_pixels() {
     peeling::FrameFragments fragments;
     const auto add = [&](std::uint32_t pixel, std::uint32_t primitive, std::uint32_t code, float alpha) {
@@ -43,14 +44,14 @@ Composited found_by(peeling::TiePolicy ties, const Entries& entries, bool kills_
 
 }  // namespace
 
-TEST_CASE("a peel that shows every fragment once, nearest first, has no fault") {
+TEST_CASE("a peel that composites every fragment once in order from the nearest has no fault") {
     const Composited found =
         found_by(peeling::TiePolicy::first,
                  {{0, 3, 1, front, true}, {1, 7, 2, front, true}, {0, 5, 3, back, true}, {0, 5, 0, back, true}});
     CHECK(found == Composited{.visible = 4, .deepest = 3, .layers = 2, .tied_pixels = 1, .lost_by_ties = 1});
 }
 
-TEST_CASE("a peel that keeps one fragment a depth shows every depth once") {
+TEST_CASE("a peel that keeps one fragment per depth shows every depth once") {
     const Entries entries{{0, 3, 1, front, true}, {0, 5, 0, front, true}, {1, 7, 2, front, true}};
     CHECK(found_by(peeling::TiePolicy::unique, entries).wrong_pixels == 0);
     const Composited keeps_ties = found_by(peeling::TiePolicy::first, entries);
@@ -58,7 +59,7 @@ TEST_CASE("a peel that keeps one fragment a depth shows every depth once") {
     CHECK(keeps_ties.wrong_pixels == 1);
 }
 
-TEST_CASE("lost, repeated and misplaced fragments are counted with their pixels") {
+TEST_CASE("lost and repeated and misplaced fragments are counted with their pixels") {
     const Composited lost = found_by(peeling::TiePolicy::unique, {{0, 3, 1, front, true}});
     CHECK(lost.lost == 2);
     CHECK(lost.wrong_pixels == 2);
@@ -71,23 +72,24 @@ TEST_CASE("lost, repeated and misplaced fragments are counted with their pixels"
         found_by(peeling::TiePolicy::unique, {{0, 5, 0, front, true}, {0, 3, 1, front, true}, {1, 7, 2, front, true}});
     CHECK(misplaced.misplaced == 1);
     CHECK(misplaced.wrong_pixels == 1);
-    // A layer of the opaque surface's depth belongs to no fragment.
+    // A layer at the opaque surface's depth belongs to no fragment.
     const Composited invented =
         found_by(peeling::TiePolicy::unique,
                  {{0, 3, 1, front, true}, {0, 5, 0, front, true}, {1, 7, 2, front, true}, {1, 20, 4, front, true}});
     CHECK(invented.repeated == 1);
 }
 
-TEST_CASE("a fragment that stores alpha 0 is no layer where an alpha test looks for them") {
+TEST_CASE("a fragment with alpha 0 is not a layer where an alpha test detects layers") {
     const Entries entries{{0, 3, 1, front, true}, {0, 5, 0, front, true}};
     CHECK(found_by(peeling::TiePolicy::unique, entries, true).wrong_pixels == 0);
     CHECK(found_by(peeling::TiePolicy::unique, entries, false).lost == 1);
 }
 
-TEST_CASE("pixels come in the frame's order with what they show, and empty ones between them cost nothing") {
+TEST_CASE("pixels are visited in frame order with their fragments and empty pixels between them cost nothing") {
     const peeling::Algorithm& algorithm = *peeling::find_algorithm("dual");
     peeling::FrameFragments fragments;
-    // A frame of 2^10 x 2^10 pixels, of which three are shown: one that is visible, one in both ways, one composited.
+    // A frame of 2^10 x 2^10 pixels of which three are listed: one with a visible fragment, one with both, one with a
+    // composited layer.
     constexpr int side = 1 << 10;
     fragments.opaque.resize(std::size_t{side} * side, 100);
     fragments.all.push_back({.pixel = 2 * side, .primitive = 1, .code = 9, .exact_code = 9, .color = {1, 1, 1, 1}});
@@ -99,7 +101,7 @@ TEST_CASE("pixels come in the frame's order with what they show, and empty ones 
     CHECK((pixels[0].pixel == side + 5 && pixels[1].pixel == side + 7 && pixels[2].pixel == 2 * side));
     CHECK((pixels[0].visible.size() == 1 && pixels[0].sequence.size() == 1));
     CHECK(pixels[1].visible.empty());
-    // From the near end as they came; from the far end, the last one first.
+    // From the near end in the order of the passes; from the far end, in reverse.
     REQUIRE(pixels[1].sequence.size() == 3);
     CHECK(pixels[1].sequence[0].primitive == 6);
     CHECK(pixels[1].sequence[1].primitive == 5);

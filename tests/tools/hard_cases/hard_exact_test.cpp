@@ -1,5 +1,5 @@
-// The model: rational arithmetic over the corners (tests/support/exact_fragments.h), which shares no function with the
-// code.
+// Tests the exact answer of hard cases against rational arithmetic over the corners (tests/support/exact_fragments.h),
+// which shares no function with the code.
 #include "tools/lab/hard_cases/hard_exact.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ RationalPixels by_rationals(const scenes::HardCase& hard, const scenes::Scene& s
     return pixels;
 }
 
-// Every fragment is there, and none else; a nearer one never has a later place.
+// Every fragment is listed and no other; a nearer one is before a farther one, and equal depths share an index.
 bool is_answer(const SeenPixel& seen, std::vector<testing::ExactFragment> exact) {
     std::ranges::sort(exact, {}, &testing::ExactFragment::triangle);
     if (seen.fragments.size() != exact.size()) return false;
@@ -40,7 +40,7 @@ bool is_answer(const SeenPixel& seen, std::vector<testing::ExactFragment> exact)
     return true;
 }
 
-// The same triangles in the same order.
+// True if both have the same triangles in the same order.
 bool is_same_answer(std::vector<testing::ExactFragment> a, std::vector<testing::ExactFragment> b) {
     const auto near_to_far = [](const testing::ExactFragment& x, const testing::ExactFragment& y) {
         return x.depth != y.depth ? x.depth < y.depth : x.triangle < y.triangle;
@@ -52,7 +52,7 @@ bool is_same_answer(std::vector<testing::ExactFragment> a, std::vector<testing::
 
 }  // namespace
 
-TEST_CASE("the answer that movements are measured from is that of rational arithmetic, ties included", "[slow]") {
+TEST_CASE("the exact answer from which movements are measured equals rational arithmetic including ties", "[slow]") {
     int cases = 0;
     for (const scenes::HardCase& hard : scenes::hard_cases()) {
         if (!hard.is_moved) continue;
@@ -70,7 +70,8 @@ TEST_CASE("the answer that movements are measured from is that of rational arith
     CHECK(cases >= 20);
 }
 
-TEST_CASE("no movement changes the rational answer at a pixel that is not open to it, and few pixels are", "[slow]") {
+TEST_CASE("no movement changes the rational answer at a pixel that is not marked as open and few pixels are",
+          "[slow]") {
     int changed_open = 0;
     for (const char* name : {"crossing-along-a-row", "rotated-quad", "through-near-and-far", "planes-1-unit",
                              "opaque-crossing", "cyclic-overlap"}) {
@@ -90,13 +91,13 @@ TEST_CASE("no movement changes the rational answer at a pixel that is not open t
             }
         }
     }
-    // The movements do change something, so that the first count could have been other than 0.
+    // The movements do change open pixels, so the count above could have been other than 0.
     CHECK(changed_open > 100);
 }
 
-// Two planes near depth 9/10, whose distance grows by 2^-23 from column to column on both sides of the middle: a
-// movement by 2^-20 of a depth reorders some columns there.
-TEST_CASE("a movement reorders planes only where the pixels are open to it, and reorders some") {
+// Two planes near depth 9/10, whose distance grows by 2^-23 per pixel column on both sides of the middle: a movement of
+// a depth by 2^-20 reorders some columns there.
+TEST_CASE("a movement reorders planes only at pixels that are marked as open and reorders some") {
     const scenes::HardCase close{.name = "close",
                                  .hard = "",
                                  .answer = "",
@@ -110,7 +111,7 @@ TEST_CASE("a movement reorders planes only where the pixels are open to it, and 
     const scenes::Scene scene = make_hard_case({}, close);
     const auto open =
         ExactCase{close, scene, *scene.own_view}.open_pixels({.relative = share_of(tools::MoveSize::relative)});
-    // More than the square's diagonal, and not everything.
+    // More pixels than the square's diagonal, but not all.
     CHECK(std::ranges::count(open, true) > 200);
     CHECK(std::ranges::count(open, false) > 200);
     const RationalPixels before = by_rationals(close, scene);
@@ -124,7 +125,7 @@ TEST_CASE("a movement reorders planes only where the pixels are open to it, and 
     CHECK(reordered > 500);
 }
 
-TEST_CASE("triangles of the cases that are moved have one colour each, which the exact picture blends") {
+TEST_CASE("triangles of cases that are moved have one colour each and the exact picture blends these") {
     for (const scenes::HardCase& hard : scenes::hard_cases()) {
         if (!hard.is_moved) continue;
         const scenes::Scene scene = make_hard_case({}, hard);
@@ -135,6 +136,6 @@ TEST_CASE("triangles of the cases that are moved have one colour each, which the
     // Colours of build_case.h: two layers of alpha 1/2 over black, the second plane in front.
     const scenes::HardCase& hard = *scenes::find_hard_case("planes-1-unit");
     const scenes::Scene scene = make_hard_case({}, hard);
-    const double front = 0.875, back = 0.5;  // red of the colours 2 and 1
+    const double front = 0.875, back = 0.5;  // red channel of colours 2 and 1
     CHECK(ExactCase{hard, scene, *scene.own_view}.seen()[33].color[0] == 0.5 * front + 0.25 * back);
 }

@@ -1,4 +1,5 @@
-// The model: lookers whose flips are known, and counts of fragments by the exact answer.
+// Tests the flicker measurement on renderers whose flips are known: the exact answer, and the exact answer with a fault
+// in every second frame.
 #include "tools/lab/hard_cases/hard_flicker.h"
 
 #include <catch2/catch.hpp>
@@ -26,17 +27,17 @@ Look look_exactly(const scenes::HardCase& hard) {
 
 }  // namespace
 
-TEST_CASE("the exact answer never flips where it stays, and pixels are compared in 63 pairs of frames") {
+TEST_CASE("the exact answer never flips where it does not change and pixels are compared in 63 pairs of frames") {
     const scenes::HardCase& hard = hard_named("crossing-between-rows");
     const Flicker flicker = PathCase{hard}.flicker(look_exactly(hard));
     CHECK(flicker.order == 0);
     CHECK(flicker.coverage == 0);
-    // All but some that the planes' line and the square's diagonal pass.
+    // All pixels except some that the line of intersection and the square's diagonal cross.
     CHECK(flicker.compared <= 63 * 1024);
     CHECK(flicker.compared > 63 * 1024 * 9 / 10);
 }
 
-TEST_CASE("one who turns all layers round in every second frame flips in order wherever two are seen") {
+TEST_CASE("a renderer that reverses all layers in every second frame flips in order wherever two layers are visible") {
     const scenes::HardCase& hard = hard_named("crossing-between-rows");
     const auto frame = std::make_shared<int>(0);
     const Look turning = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
@@ -50,13 +51,13 @@ TEST_CASE("one who turns all layers round in every second frame flips in order w
     const Flicker flicker = path.flicker(turning);
     CHECK(flicker.coverage == 0);
     CHECK(flicker.compared == path.flicker(look_exactly(hard)).compared);
-    // The camera's shift leaves some pixels at the side with fewer than two fragments.
+    // The camera's shift leaves some pixels at the border with fewer than two fragments.
     CHECK(flicker.order > flicker.compared * 9 / 10);
-    // The order by exact depths does not know of it.
+    // The order by exact depths does not depend on the reported order.
     CHECK(path.flicker_of_exact_depths(turning).order == 0);
 }
 
-TEST_CASE("one who loses a triangle in every second frame flips in coverage, and not in order") {
+TEST_CASE("a renderer that loses a triangle in every second frame flips in coverage and not in order") {
     const scenes::HardCase& hard = hard_named("crossing-between-rows");
     const auto frame = std::make_shared<int>(0);
     const Look losing = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
@@ -70,9 +71,8 @@ TEST_CASE("one who loses a triangle in every second frame flips in coverage, and
     CHECK(flicker.coverage > flicker.compared * 9 / 10);
 }
 
-// Stored depths flicker at one unit's distance, whatever the format, and exact ones do not.
-TEST_CASE("a device's stored depths flicker where planes are one unit apart, by path, and exact depths never do",
-          "[slow]") {
+// Stored depths flicker at a distance of one unit in every format, exact depths do not.
+TEST_CASE("stored depths flicker on every path where planes are one unit apart and exact depths never do", "[slow]") {
     const scenes::HardCase& hard = hard_named("planes-1-unit");
     const tools::MovedMachine machine{hard};
     const pipeline::DeviceProfile& eight = *pipeline::find_profile("geforce8");
@@ -82,7 +82,7 @@ TEST_CASE("a device's stored depths flicker where planes are one unit apart, by 
     const nlohmann::ordered_json json = flicker_json(row);
     CHECK(json["paths"]["float32"]["order"] == row.own.order);
     CHECK(json["paths"]["float32_plane"]["order"] > row.own.order);
-    CHECK(json["paths"]["window_z"].is_null());  // geforce8 has no such path
+    CHECK(json["paths"]["window_z"].is_null());  // geforce8 does not have this path
     CHECK(json["paths"]["exact_unstored"]["order"] == 0);
     CHECK(row.stability.verdict == tools::StabilityVerdict::stable);
     // Other algorithms have no table of paths.

@@ -1,4 +1,5 @@
-// The model: bits of binary32, whose neighbours are the next integers, and the definition of a rotation.
+// Tests the movements of hard cases: single units against binary32 bits, whose neighbours are the adjacent integers,
+// and camera paths against the definition of a rotation.
 #include "tools/lab/hard_cases/hard_moves.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ using namespace strata;
 
 scenes::Scene moves_scene(const char* name) { return make_hard_case({}, *scenes::find_hard_case(name)); }
 
-// Calls with each coordinate of both scenes.
+// Calls body with each coordinate of both scenes.
 void for_each_coordinate(const scenes::Scene& a, const scenes::Scene& b, const auto& body) {
     for (std::size_t m = 0; m < 2; ++m)
         for (std::size_t i = 0; i < a.list.meshes[m].positions.size(); ++i)
@@ -25,7 +26,7 @@ void for_each_coordinate(const scenes::Scene& a, const scenes::Scene& b, const a
 
 }  // namespace
 
-TEST_CASE("every coordinate moves by one unit or by 2^-20 of itself, up or down") {
+TEST_CASE("every coordinate moves by one unit or by 2^-20 of its value upwards or downwards") {
     const scenes::Scene scene = moves_scene("planes-8-close");
     int up = 0, down = 0, wrong = 0;
     for_each_coordinate(scene, tools::moved(scene, {tools::MoveSize::unit, 1}), [&](float before, float after) {
@@ -43,9 +44,10 @@ TEST_CASE("every coordinate moves by one unit or by 2^-20 of itself, up or down"
     CHECK(wrong == 0);
 }
 
-TEST_CASE("corners at one place of a mesh move as one, and one coordinate alone leaves all others") {
+TEST_CASE(
+    "corners of a mesh with equal positions move together and a move of one coordinate leaves all others unchanged") {
     const scenes::Scene scene = moves_scene("rotated-quad");
-    // Two triangles share a diagonal: four places.
+    // Two triangles share a diagonal: four distinct positions.
     CHECK(tools::coordinate_count(scene) == 12);
     const auto moved_all = tools::moved(scene, {tools::MoveSize::relative, 5});
     const auto& before = scene.list.meshes[0].positions;
@@ -64,7 +66,7 @@ TEST_CASE("corners at one place of a mesh move as one, and one coordinate alone 
     }
 }
 
-TEST_CASE("a permutation has every triangle once, at the place that it tells") {
+TEST_CASE("a permutation has every triangle once at the index that it reports") {
     const scenes::Scene scene = moves_scene("pinwheel");
     const tools::Permuted other = tools::permuted(scene, 7);
     std::vector<std::uint32_t> sorted = other.from;
@@ -82,7 +84,7 @@ TEST_CASE("a permutation has every triangle once, at the place that it tells") {
     CHECK(other.from != sorted);
 }
 
-TEST_CASE("a camera path begins at the view, turns without stretching, and goes on by like steps") {
+TEST_CASE("a camera path begins at the view and rotates rigidly in equal steps") {
     const scenes::Scene scene = moves_scene("woven");
     CHECK(tools::view_on_path(scene, 0).view == scene.own_view->view);
     double last = 0;

@@ -1,4 +1,4 @@
-// The model: lines made up by hand, and the numbers that the page ought to show.
+// Tests the page of hard cases on invented rows. The expected figures are counted by hand.
 #include "tools/lab/hard_cases/hard_page.h"
 
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 
 using namespace strata;
 
-TEST_CASE("the page counts each verdict a device, and tells the first trouble of each kind") {
+TEST_CASE("the page counts each verdict per device and describes the first failure of each kind") {
     const tools::HardSweep sweep{.cases = {scenes::find_hard_case("coincident")},
                                  .profiles = {*pipeline::find_profile("geforce8"), *pipeline::find_profile("ideal")},
                                  .formats = {pipeline::DepthFormat::d24},
@@ -29,8 +29,7 @@ TEST_CASE("the page counts each verdict a device, and tells the first trouble of
     CHECK_THAT(page, Catch::Contains("Exact geometry has 3072 visible fragments, 3 at the deepest pixel, 1 layers"));
 }
 
-TEST_CASE(
-    "the page sets two devices side by side, and its sentence has the figures of their rows and names their rules") {
+TEST_CASE("the page compares two devices and its sentence has the figures of their rows and names their rules") {
     const tools::HardSweep sweep{.cases = {scenes::find_hard_case("planes-1-unit")},
                                  .profiles = {*pipeline::find_profile("geforce3"), *pipeline::find_profile("geforce8"),
                                               *pipeline::find_profile("llvmpipe")},
@@ -49,7 +48,7 @@ TEST_CASE(
     const tools::Lines lines{to_line(sweep, 0, {}, moved(77, 12, 40)), to_line(sweep, 1, {}, moved(1, 2, 30)),
                              to_line(sweep, 2, {}, moved(90, 16, 33))};
     const std::string page = page_of(sweep, lines);
-    // 3 within the move, 77 within the device, 2 beyond: 82 of 8 exact ones.
+    // 3 within the move, 77 within the device, 2 beyond: 82, against 8 of the exact answer.
     CHECK_THAT(page, Catch::Contains("| geforce3 | d24 | 82 | 8 | 10.25 | 12 | 3 | 77 | 2 | 40 | 5 | stable |\n"));
     CHECK_THAT(page, Catch::Contains("| llvmpipe | 1 | 0 | 0 | 0 | 33 | 5 |\n"));
     CHECK_THAT(page, Catch::Contains("At d24 llvmpipe changes 90 times within a step of the device and 2 times beyond, "
@@ -66,7 +65,7 @@ TEST_CASE(
                Catch::Contains("the grid of geforce3 has steps of 1/16 pixel, that of geforce8 1/256"));
 }
 
-TEST_CASE("a page of cases that are not moved tells nothing of movements") {
+TEST_CASE("a page of cases that are not moved does not mention movements") {
     const tools::HardSweep sweep{.cases = {scenes::find_hard_case("coincident")},
                                  .profiles = {*pipeline::find_profile("geforce8")},
                                  .formats = {pipeline::DepthFormat::d24},
@@ -75,10 +74,10 @@ TEST_CASE("a page of cases that are not moved tells nothing of movements") {
 }
 
 TEST_CASE(
-    "a picture of the page shows every pixel of a small frame as a block, and no bright pixel of a large one is lost") {
+    "a picture of the page shows every pixel of a small frame as a block and keeps every bright pixel of a large one") {
     using pipeline::Image;
     const auto red_at = [](const Image& image, int x, int y) { return image.codes[image.index(x, y)]; };
-    // 2 x 1 pixels, 128 times as large.
+    // 2 x 1 pixels, enlarged 128 times.
     Image small{pipeline::Format::rgba8, 2, 1};
     small.codes[small.index(1, 0)] = 200;
     const Image blocks = tools::page_picture(small);
@@ -88,7 +87,7 @@ TEST_CASE(
         for (int x = 0; x < 256; ++x)
             if (red_at(blocks, x, y) != (x < 128 ? 0u : 200u)) ++wrong;
     CHECK(wrong == 0);
-    // Columns 0 to 3 of 4096 become one; the one row becomes 32.
+    // 4096 columns are reduced to 1024 by fours; the one row is enlarged to 32.
     Image wide{pipeline::Format::rgba8, 4096, 1};
     wide.codes[wide.index(2, 0)] = 90;
     wide.codes[wide.index(3, 0)] = 40;

@@ -1,4 +1,5 @@
-// The model: cases whose outcome is known from the algorithms' own rules, and an algorithm that is broken on purpose.
+// Tests the runs of hard cases on cases whose outcome follows from the algorithms' own rules, and on an algorithm with
+// a deliberate mistake.
 #include "tools/lab/hard_cases/hard_run.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +26,7 @@ HardRow run(const char* hard, const char* profile, DepthFormat format, const cha
 
 }  // namespace
 
-TEST_CASE("crossing planes are stable where the format keeps them apart, and break where two depths are one") {
+TEST_CASE("crossing planes are stable where the format distinguishes them and break where two depths are equal") {
     const HardRow stable = run("crossing-between-rows", "geforce8", DepthFormat::d24, "front_to_back");
     CHECK(stable.verdict == HardVerdict::stable);
     CHECK(stable.reasons.empty());
@@ -37,7 +38,7 @@ TEST_CASE("crossing planes are stable where the format keeps them apart, and bre
     CHECK(run("crossing-along-a-row", "geforce8", DepthFormat::d24, "layer_peel").found.lost == 0);
 }
 
-TEST_CASE("sorted triangles break on a cyclic overlap, and their diagnostic names the pixels") {
+TEST_CASE("sorted triangles break on a cyclic overlap and their diagnostic names the pixels") {
     const HardRow row = run("cyclic-overlap", "geforce3", DepthFormat::d24, "painter");
     CHECK(row.verdict == HardVerdict::breaks);
     CHECK(row.found.wrong_pixels > 0);
@@ -47,43 +48,42 @@ TEST_CASE("sorted triangles break on a cyclic overlap, and their diagnostic name
     CHECK(named->pixels == row.found.wrong_pixels);
 }
 
-TEST_CASE("a strip of 1/256 pixel is not there on a grid of 1/16, which is a loss of geometry and not of layers") {
+TEST_CASE("a strip of 1/256 pixel vanishes on a grid of 1/16 which is a loss of geometry and not of layers") {
     const HardRow coarse = run("sliver-1-256", "geforce3", DepthFormat::d24, "depth_units");
     CHECK(coarse.verdict == HardVerdict::degrades);
     CHECK(coarse.found.visible == 0);
     CHECK(run("sliver-1-256", "geforce8", DepthFormat::d24, "depth_units").verdict == HardVerdict::stable);
 }
 
-// Dual peeling keeps depths in a float target by MAX, and G80 flushes what it blends there.
-TEST_CASE(
-    "denormal depths are lost to dual peeling where blending flushes them, and a diagnostic says at which pixels") {
+// Dual peeling keeps depths in a float target by MAX blending, where G80 flushes denormals.
+TEST_CASE("denormal depths are lost to dual peeling where blending flushes them and a diagnostic names the pixels") {
     const HardRow flushed = run("depth-denormal", "geforce8", DepthFormat::d32f, "dual");
     CHECK(flushed.verdict == HardVerdict::breaks);
     CHECK(flushed.found.wrong_pixels == 1024);
-    // The colour that keeps the depth before is flushed, too: this peel would go on for ever.
+    // The colour that keeps the previous depth is flushed, too, so this peel would never end.
     CHECK(run("depth-denormal", "geforce8", DepthFormat::d32f, "coherent_blend").verdict == HardVerdict::breaks);
     CHECK(run("depth-denormal", "ideal", DepthFormat::d32f, "dual").verdict == HardVerdict::stable);
     CHECK(run("depth-denormal", "geforce8", DepthFormat::d32f, "front_to_back").verdict == HardVerdict::stable);
 }
 
-TEST_CASE("a reversed depth range is refused by name") {
+TEST_CASE("a reversed depth range is rejected by name") {
     const HardRow row = run("reversed-range", "geforce8", DepthFormat::d24, "dual");
     CHECK(row.verdict == HardVerdict::refused);
     CHECK_THAT(row.refusal, Catch::Contains("reversed depth range"));
 }
 
-TEST_CASE("a peel that compares with < for <= is called failed, with the fragments that it repeats and loses") {
+TEST_CASE("a peel that compares with < in place of <= fails with the fragments that it repeats and loses") {
     peeling::Algorithm broken = *peeling::find_algorithm("front_to_back");
     peel_by_less(broken);
     const HardRow row = run("crossing-between-rows", "geforce8", DepthFormat::d24, broken);
     CHECK(row.verdict == HardVerdict::failed);
-    // Each of 1024 pixels shows its nearer layer four times and the farther one never.
+    // Each of 1024 pixels shows its nearer layer four times and never the farther one.
     CHECK(row.found.repeated == 3 * 1024);
     CHECK(row.found.lost == 1024);
     CHECK(row.found.wrong_pixels == 1024);
 }
 
-TEST_CASE("no algorithm fails on a choice of hard cases on any of four devices") {
+TEST_CASE("no algorithm fails on a selection of hard cases on any of four devices") {
     int rows = 0;
     std::string first;
     for (const char* hard : {"planes-8-close", "cyclic-overlap", "three-through-a-point", "through-near-and-far",
@@ -101,8 +101,7 @@ TEST_CASE("no algorithm fails on a choice of hard cases on any of four devices")
     CHECK(rows > 350);
 }
 
-TEST_CASE(
-    "every case runs in every way, and a deep one literally and with all effects at once, a huge frame in one way") {
+TEST_CASE("every case runs in every execution except deep ones and huge frames which run in fewer") {
     std::vector<std::string> deep, other;
     for (const scenes::HardCase& hard : scenes::hard_cases()) {
         const std::vector<std::string> ways = tools::ways_of(hard);
@@ -118,7 +117,7 @@ TEST_CASE(
     CHECK(other == std::vector<std::string>{"frame-8192x8192: literal threads=2 effects=all simd=scalar"});
 }
 
-TEST_CASE("an algorithm whose execution by default gives other bits than its passes is called failed") {
+TEST_CASE("an algorithm whose default execution differs from its literal passes fails") {
     peeling::Algorithm broken = *peeling::find_algorithm("front_to_back");
     broken.resolve_loop = [](Region& region) {
         if (region.frame().replay.bytes == 0) return false;  // literal execution

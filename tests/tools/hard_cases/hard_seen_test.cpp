@@ -1,4 +1,4 @@
-// The model: pixels typed by hand, and the changes that a reader counts in them.
+// Tests the changes between two pixels. The pixels are written by hand and the expected changes are counted by hand.
 #include "tools/lab/hard_cases/hard_seen.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@ using strata::tools::Shown;
 
 namespace {
 
-// Triangle 0 in front of 1, 2 and 3 behind in one layer, 5 lost.
+// Triangle 0 is in front of 1; 2 and 3 are behind in one layer; 5 is lost.
 SeenPixel five_fragments() {
     return {.fragments = {{0, 0, 0.25}, {1, 1, 0.5}, {2, 2, 0.75}, {3, 2, 0.75}, {5, -1, 0.75}},
             .layers = 3,
@@ -17,7 +17,7 @@ SeenPixel five_fragments() {
 
 }  // namespace
 
-TEST_CASE("a pixel that stays changes nothing, and its colour counts in 255ths") {
+TEST_CASE("an unchanged pixel has no changes and a colour difference is counted in 255ths") {
     SeenPixel after = five_fragments();
     CHECK(changes(five_fragments(), after) == strata::tools::Changes{});
     after.color = {0.5, 0.25, 0.5};
@@ -25,7 +25,7 @@ TEST_CASE("a pixel that stays changes nothing, and its colour counts in 255ths")
     CHECK_FALSE(changes(five_fragments(), after).is_any());
 }
 
-TEST_CASE("a fragment is gained or lost by being composited, not by being there") {
+TEST_CASE("a fragment is gained or lost if it becomes composited or is no longer composited") {
     SeenPixel after = five_fragments();
     after.fragments = {{0, 0, 0.25}, {1, -1, 0.5}, {2, 1, 0.5}, {3, 1, 0.75}, {4, 0, 0.25}, {5, 1, 0.75}};
     after.color = {1, 1, 1};
@@ -33,20 +33,21 @@ TEST_CASE("a fragment is gained or lost by being composited, not by being there"
     CHECK(found.gained == 2);  // 4 and 5
     CHECK(found.lost == 1);    // 1
     CHECK(found.reordered == 0);
-    CHECK(found.color == 0);  // fragments came and went
+    CHECK(found.color == 0);  // not counted where fragments were gained or lost
     CHECK(found.depth == 0.25);
 }
 
-TEST_CASE("pairs are reordered when they change places, fall into one layer, or part") {
+TEST_CASE("pairs are reordered when they swap or fall into one layer or are separated") {
     SeenPixel after = five_fragments();
-    after.fragments[0].place = 1;  // now with 1
+    after.fragments[0].place = 1;  // now in one layer with 1
     after.fragments[3].place = 3;  // now behind 2
     CHECK(changes(five_fragments(), after).reordered == 2);
     after.fragments[1].place = 0;  // now before 0
     CHECK(changes(five_fragments(), after).reordered == 2);
 }
 
-TEST_CASE("a pixel shows another if it composites its fragments once each, in its order where that counts") {
+TEST_CASE(
+    "a pixel shows another one if it composites its fragments once each and in its order where the order counts") {
     SeenPixel other = five_fragments();
     CHECK(shows(other, five_fragments(), Shown::in_order));
     std::swap(other.fragments[0].place, other.fragments[1].place);

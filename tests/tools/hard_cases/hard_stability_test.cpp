@@ -1,5 +1,5 @@
-// The model: rasterizers made here whose faults are known: one that is the exact answer itself, and one whose planes
-// are binary32 numbers, anchored at the window's corner or at the triangle's own.
+// Tests the stability verdicts on renderers whose faults are known: the exact answer, and two whose planes are computed
+// in binary32, anchored at the window's corner or at the triangle's own corner.
 #include "tools/lab/hard_cases/hard_stability.h"
 
 #include <algorithm>
@@ -40,8 +40,9 @@ Look device_look(const scenes::HardCase& hard, const char* profile, const peelin
     };
 }
 
-// Strips 1/8 of a pixel wide over the centres of a column next to the middle, whose depth goes from 1/4 to 3/4 in them:
-// at the window's corner their planes have the depth -125.5, where binary32 has steps of 2^-17. They are 2^-19 apart.
+// Strips 1/8 pixel wide over the centres of a column next to the middle, in which the depth goes from 1/4 to 3/4. At
+// the window's corner their planes have the depth -125.5, where binary32 has steps of 2^-17. The strips are 2^-19
+// apart.
 void steep_strips(scenes::CaseScene& scene) {
     for (int i = 0; i < 4; ++i) {
         const scenes::hard::Box box{31.4375, 16.0 * i, 31.5625, 16.0 * i + 16};
@@ -60,7 +61,7 @@ const scenes::HardCase steep{.name = "steep-strips",
 
 enum class Anchor : std::uint8_t { window_corner, triangle_corner };
 
-// The depth of a triangle's plane at a pixel's centre, in binary32 from the anchor on.
+// The depth of a triangle's plane at a pixel's centre, computed in binary32 from the anchor.
 float stepped_depth(const scenes::Scene& scene, std::uint32_t triangle, std::size_t pixel, Anchor anchor) {
     const pipeline::Mesh& mesh = scene.list.meshes[0];
     std::array<std::array<double, 3>, 3> v{};
@@ -97,7 +98,7 @@ Look stepping_look(Anchor anchor) {
 
 }  // namespace
 
-TEST_CASE("the exact answer is stable on every case, and amplifies nothing") {
+TEST_CASE("the exact answer is stable on every case and amplifies nothing") {
     for (const char* name : {"planes-1-unit", "cyclic-overlap", "through-near-and-far", "rotated-quad"}) {
         INFO(name);
         const scenes::HardCase& hard = *scenes::find_hard_case(name);
@@ -110,7 +111,7 @@ TEST_CASE("the exact answer is stable on every case, and amplifies nothing") {
     }
 }
 
-TEST_CASE("planes anchored at the window's corner are called unstable, and those anchored at the triangle's are not") {
+TEST_CASE("planes anchored at the window's corner are unstable and those anchored at the triangle's corner are not") {
     const MovedCase moved{steep};
     const Looker without_grid{.grid = 0, .depth = 0x1p-24};
     const StabilityRow corner = moved.stability(without_grid, stepping_look(Anchor::window_corner));
@@ -121,13 +122,13 @@ TEST_CASE("planes anchored at the window's corner are called unstable, and those
     CHECK(own.verdict < StabilityVerdict::breaks);
     CHECK(own.by_size[0].wrong_beyond == 0);
     CHECK_FALSE(own.by_size[0].ours[beyond].is_any());
-    // A diagnostic, or a device that is known to step its planes, makes it the hardware's fault.
+    // With a diagnostic, or on a device whose planes are known to have steps, the fault is attributed to the hardware.
     Looker excused = without_grid;
     excused.is_excused = true;
     CHECK(moved.stability(excused, stepping_look(Anchor::window_corner)).verdict == StabilityVerdict::breaks);
 }
 
-TEST_CASE("a peel that compares with < for <= is called unstable: it shows the nearest layer again, whatever moves") {
+TEST_CASE("a peel that compares with < in place of <= repeats the nearest layer and is unstable") {
     const scenes::HardCase& hard = *scenes::find_hard_case("crossing-between-rows");
     const MovedCase moved{hard};
     peeling::Algorithm broken = *peeling::find_algorithm("front_to_back");
@@ -138,7 +139,7 @@ TEST_CASE("a peel that compares with < for <= is called unstable: it shows the n
     CHECK(row.by_size[0].wrong_beyond > 1000);
 }
 
-TEST_CASE("a coarse grid moves depths that a fine one keeps, and the table says by how much") {
+TEST_CASE("a coarse grid moves depths that a fine one keeps and the table says by how much") {
     const scenes::HardCase& hard = *scenes::find_hard_case("planes-1-unit");
     const MovedCase moved{hard};
     const peeling::Algorithm& peel = *peeling::find_algorithm("depth_units");
@@ -153,7 +154,7 @@ TEST_CASE("a coarse grid moves depths that a fine one keeps, and the table says 
 }
 
 TEST_CASE(
-    "another order of triangles changes no pixel of dual peeling, and of other peels only where depths are equal") {
+    "another order of triangles changes no pixel of dual peeling and of other peels only where depths are equal") {
     const scenes::HardCase& hard = *scenes::find_hard_case("crossing-along-a-row");
     const MovedCase moved{hard};
     const auto row_by = [&](const char* name) {
@@ -162,7 +163,7 @@ TEST_CASE(
     const StabilityRow dual = row_by("dual"), first = row_by("front_to_back");
     CHECK(dual.permuted + dual.permuted_ties == 0);
     CHECK(first.permuted == 0);
-    // 32 pixels have a tie; a permutation exchanges the two triangles of most of them in some of eight draws.
+    // 32 pixels have a tie; a permutation swaps the two triangles of most of them in some of eight draws.
     CHECK(first.permuted_ties > 0);
     CHECK(first.permuted_ties <= 8 * 32);
 }

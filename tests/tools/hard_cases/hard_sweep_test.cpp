@@ -1,4 +1,5 @@
-// The model: the sweep in one go, byte by byte; and the combinations, counted by hand.
+// Tests the sweep over hard cases: shards and resumed runs against the bytes of an uninterrupted one, and the number of
+// combinations, counted by hand.
 #include "tools/lab/hard_cases/hard_sweep.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +15,7 @@ namespace {
 using namespace strata;
 using strata::test::bytes_of;
 
-// reversed-range is refused whole, and geforce3 refuses dual.
+// reversed-range is rejected in every combination, and geforce3 rejects dual.
 tools::HardSweep small_sweep() {
     return {.cases = {scenes::find_hard_case("frame-1x1"), scenes::find_hard_case("reversed-range")},
             .profiles = {*pipeline::find_profile("geforce3"), *pipeline::find_profile("geforce8")},
@@ -24,7 +25,7 @@ tools::HardSweep small_sweep() {
 
 }  // namespace
 
-TEST_CASE("a sweep of hard cases has the same bytes in shards, and after it was torn at any line") {
+TEST_CASE("a sweep of hard cases has the same bytes in shards and when resumed after being truncated at any line") {
     const test::TemporaryFolder whole, parts, torn;
     const tools::HardSweep sweep = small_sweep();
     const tools::Work work = hard_work(sweep);
@@ -48,7 +49,7 @@ TEST_CASE("a sweep of hard cases has the same bytes in shards, and after it was 
     CHECK(unlike == 0);
 }
 
-TEST_CASE("lines of another sweep are refused, and so is a shard that is not whole") {
+TEST_CASE("lines of another sweep are rejected and so is an incomplete shard") {
     const test::TemporaryFolder folder;
     const tools::HardSweep sweep = small_sweep();
     static_cast<void>(run_sweep(hard_work(sweep), folder.path, {}));
@@ -62,14 +63,14 @@ TEST_CASE("lines of another sweep are refused, and so is a shard that is not who
     CHECK_FALSE(std::filesystem::exists(nowhere));
 }
 
-TEST_CASE("a sweep of hard cases in which every combination is refused has exit status 2") {
+TEST_CASE("a sweep of hard cases in which every combination is rejected has exit status 2") {
     const test::TemporaryFolder folder;
     tools::HardSweep sweep = small_sweep();
     sweep.cases = {scenes::find_hard_case("reversed-range")};
     CHECK(run_sweep(hard_work(sweep), folder.path, {}) == 2);
 }
 
-TEST_CASE("a combination that a movement shows to be unstable is told, and fails the sweep") {
+TEST_CASE("a combination that a movement shows to be unstable is reported and fails the sweep") {
     tools::HardSweep sweep = small_sweep();
     tools::MovedRow moved;
     const auto line = [&] { return to_line(sweep, 0, {}, moved); };
