@@ -18,7 +18,7 @@ const Names factors{"0",      "1",        "srcRGB",  "1-srcRGB", "srcA",   "1-sr
                     "dstRGB", "1-dstRGB", "srcAsat", "cRGB",     "1-cRGB", "cA",     "1-cA"};
 const Names equations{"ADD", "SUB", "REVSUB", "MIN", "MAX", "SADD", "SREVSUB"};
 
-// `steps` clear values down from `max`.
+// `steps` clear values from `max` downwards.
 Names cleared(const std::string& start, std::uint32_t max, std::uint32_t steps) {
     Names all;
     for (const char* const compressed : {"n", "y"})
@@ -43,7 +43,7 @@ void add_fragment_suites(Archive& archive) {
     Names blend = with({"#spot_"}, with(factors, with({"_"}, equations)));
     for (const std::string& name : with(with(with(factors, {"_"}), with(equations, {"_"})), factors))
         blend.push_back(name);
-    add(archive, Says::drawn, "Blend_tests", blend, 1673 + 7);  // 0_..._0 is left out upstream
+    add(archive, Says::drawn, "Blend_tests", blend, 1673 + 7);  // 0_..._0 is omitted upstream
     add(archive, Says::drawn, "Blend_surface", with({"DstAlpha_", "1-DstAlpha_"}, surfaces), 16);
     add(archive, Says::drawn, "Blend_surface", with(surfaces, {"_Add_SrcA_1-SrcA", "_Add_SrcA_DstA"}), 16);
     add(archive, Says::drawn, "Color_mask_blend", {"C00010101_O32774_S772_D0"}, 1);
@@ -177,7 +177,7 @@ void add_texture_suites(Archive& archive) {
          "SignedToUnsignedMapping", "UnboundTexSampler"},
         7);
     add(archive, Says::drawn, "Pixel_shader", {"ClipPlane", "Passthru"}, 2);
-    add(archive, Says::not_modelled, "Pixel_shader",  // the first two need the test's own images
+    add(archive, Says::not_modelled, "Pixel_shader",  // the first two need image files of the test suite
         {"DotZW", "DotST", "BumpEnvMap", "BumpEnvMapLuminance", "StageDependentAlphaRed", "StageDependentGreenBlue"},
         6);
 }

@@ -1,6 +1,5 @@
-// tests/tools/hardware_check/archive_names.h - every name that the test suite on the chip can give its pictures, made
-// as its programs make them (abaire/nxdk_pgraph_tests, MIT), and what is said of each: drawn, or not modelled for a
-// reason.
+// tests/tools/hardware_check/archive_names.h - every name that the test suite for the NV2A can give its captures,
+// generated as its programs do (abaire/nxdk_pgraph_tests, MIT), and whether each is drawn or not modelled.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,7 +12,7 @@ using Names = std::vector<std::string>;
 
 enum class Says : std::uint8_t { drawn, not_modelled, unknown };
 
-// Names of one suite that share an answer. `count` is how many there are by the suite's parameters, counted by hand.
+// Names of one suite with the same outcome. `count` is their number by the suite's parameters, counted by hand.
 struct NameGroup {
     Says says;
     std::string_view suite;

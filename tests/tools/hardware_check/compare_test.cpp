@@ -1,4 +1,5 @@
-// Model: pictures of one or a few marked pixels, their words worked out by hand for each reading.
+// Tests the comparison with hardware captures on pictures of one or a few marked pixels. The expected values are worked
+// out by hand for each reading.
 #include "tools/hardware_check/compare.h"
 
 #include <catch2/catch.hpp>
@@ -20,7 +21,7 @@ void paint(Image& image, int x, int y, const Bytes4& color) {
     std::copy(color.begin(), color.end(), image.codes.begin() + static_cast<std::ptrdiff_t>(image.index(x, y)));
 }
 
-// A drawn depth picture with one word at (5, 7), and a capture with one pixel there.
+// A drawn depth picture with one value at (5, 7), and a capture with one pixel there.
 struct OneWord {
     Picture drawn;
     Image capture = blank(Format::rgba8);
@@ -48,7 +49,7 @@ Picture colored(const Bytes4& background) {
 
 }  // namespace
 
-TEST_CASE("a 16-bit depth is shown as R5G6B5 widened: upper five, middle six and lower five bits") {
+TEST_CASE("a 16-bit depth is read from R5G6B5 expanded to 8 bits per channel") {
     for (const std::uint32_t word : {0u, 1u, 0x001fu, 0x0020u, 0x07e0u, 0x0800u, 0x1234u, 0xfedcu, 0xffffu}) {
         const std::uint32_t r = word >> 11, g = word >> 5 & 63, b = word & 31;
         const OneWord same{Reading::depth16, word, {}, {r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2, 255}};
@@ -64,24 +65,24 @@ TEST_CASE("a 16-bit depth is shown as R5G6B5 widened: upper five, middle six and
     CHECK(less.compared().theirs == 0x1234);
 }
 
-TEST_CASE("a 24-bit depth is shown in A R G from its highest byte on, its stencil in B") {
+TEST_CASE("a 24-bit depth is read from channels A R G with the highest byte first and its stencil from B") {
     const OneWord equal{Reading::depth24, 0x123456, 0x78, {0x34, 0x56, 0x78, 0x12}};
     CHECK(equal.compared().differing == 0);
     const OneWord nearer{Reading::depth24, 0x123456, 0x78, {0x34, 0x54, 0x78, 0x12}};
-    CHECK(nearer.compared().histogram == Histogram{{-2, 1}});  // in units of depth
+    CHECK(nearer.compared().histogram == Histogram{{-2, 1}});  // in depth units
     const OneWord both{Reading::depth24, 0x123456, 0x78, {0x34, 0x57, 0x70, 0x12}};
-    CHECK(both.compared().histogram == Histogram{{1, 1}});  // depth first: the stencil is not added
+    CHECK(both.compared().histogram == Histogram{{1, 1}});  // the depth difference counts, the stencil is not added
     const OneWord counted{Reading::depth24, 0x123456, 0x78, {0x34, 0x56, 0x7b, 0x12}};
     CHECK(counted.compared().histogram == Histogram{{3, 1}});
     const OneWord highest{Reading::depth24, 0x123456, 0xff, {0x34, 0x56, 0x00, 0x12}};
     CHECK(highest.compared().histogram == Histogram{{-255, 1}});
     const OneWord without{Reading::depth24, 0x123456, {}, {0x34, 0x56, 0x99, 0x12}};
-    CHECK(without.compared().differing == 0);  // then B says nothing
+    CHECK(without.compared().differing == 0);  // B is ignored
     const OneWord farthest{Reading::depth24, 0, {}, {0xff, 0xff, 0, 0xff}};
     CHECK(farthest.compared().largest == 0xffffff);
 }
 
-TEST_CASE("of a drawn picture it counts which pixels are not the background, not what they are") {
+TEST_CASE("for a picture that is read as drawn or not only the covered pixels are compared and not their colours") {
     Picture picture = colored({1, 2, 3, 4});
     picture.reading = Reading::drawn;
     Image capture = picture.image;
@@ -95,7 +96,7 @@ TEST_CASE("of a drawn picture it counts which pixels are not the background, not
     CHECK(found.first == std::array{11, 20});
 }
 
-TEST_CASE("colours differ by their largest channel, whichever of the four it is and in whichever direction") {
+TEST_CASE("colours differ by their largest channel difference in any of the four channels and in either direction") {
     for (std::size_t channel = 0; channel < 4; ++channel)
         for (const bool is_more : {false, true}) {
             const Picture picture = colored({100, 100, 100, 100});
@@ -111,7 +112,7 @@ TEST_CASE("colours differ by their largest channel, whichever of the four it is 
         }
 }
 
-TEST_CASE("a difference is within the bound if neither more pixels nor larger ones are off") {
+TEST_CASE("a difference is within the bound if neither the pixel count nor the largest difference exceeds it") {
     Picture picture = colored({0, 0, 0, 255});
     Image capture = picture.image;
     for (int x = 0; x < 3; ++x) paint(capture, x, 0, {4, 0, 0, 255});
@@ -124,7 +125,8 @@ TEST_CASE("a difference is within the bound if neither more pixels nor larger on
     CHECK(compare(picture, picture.image, "c.png").within_bound);
 }
 
-TEST_CASE("labels are white without alpha, in pictures of colours and of drawn pixels, and in depths they are words") {
+TEST_CASE(
+    "labels are white with alpha 0 in pictures of colours and coverage and such pixels are values in depth pictures") {
     for (const Reading reading : {Reading::color, Reading::drawn, Reading::depth16, Reading::depth24}) {
         Picture picture = colored({0, 0, 0, 0});
         picture.reading = reading;
@@ -133,7 +135,7 @@ TEST_CASE("labels are white without alpha, in pictures of colours and of drawn p
         Image capture = blank(Format::rgba8);
         paint(capture, 30, 40, {255, 255, 255, 0});
         paint(capture, 33, 41, {255, 255, 255, 0});
-        paint(capture, 34, 45, {255, 255, 255, 1});  // is none
+        paint(capture, 34, 45, {255, 255, 255, 1});  // not a label pixel
         const bool has_labels = reading == Reading::color || reading == Reading::drawn;
         CHECK(label_box(picture, capture) == (has_labels ? rasterizer::Rect{30, 40, 34, 42} : rasterizer::Rect{}));
         CHECK(compare(picture, capture, "c.png").compared == 640 * 480 - (has_labels ? 2u : 0u));
@@ -141,7 +143,7 @@ TEST_CASE("labels are white without alpha, in pictures of colours and of drawn p
     }
 }
 
-TEST_CASE("a hidden rectangle holds its left and upper sides and not its right and lower ones") {
+TEST_CASE("a hidden rectangle includes its left and upper sides and excludes its right and lower ones") {
     Picture picture = colored({0, 0, 0, 255});
     picture.hidden = {{100, 200, 103, 202}, {0, 0, 1, 1}};
     for (const auto& [x, y, is_hidden] : {std::tuple{100, 200, true},
@@ -162,9 +164,9 @@ TEST_CASE("a hidden rectangle holds its left and upper sides and not its right a
 }
 
 TEST_CASE(
-    "a difference is shown red where the chip's word is more and cyan where it is less, and what is hidden is white") {
+    "differences are red where the chip's value is greater and cyan where it is less and hidden pixels are white") {
     OneWord words{Reading::depth16, 100, {}, {0, 0, 0, 255}};
-    paint(words.capture, 6, 7, {0, 0, 0x28, 255});  // 5 where ours is 0
+    paint(words.capture, 6, 7, {0, 0, 0x28, 255});  // 5, ours is 0
     words.drawn.hidden = {{50, 60, 51, 61}};
     const Image shown = difference_picture(words.drawn, words.capture);
     const auto pixel = [&](int x, int y) {
@@ -173,12 +175,12 @@ TEST_CASE(
     };
     CHECK(pixel(0, 0) == Bytes4{0, 0, 0, 255});
     CHECK(pixel(50, 60) == Bytes4{255, 255, 255, 255});
-    CHECK(pixel(5, 7) == Bytes4{0, 255, 255, 255});  // 100 less: as bright as there is
+    CHECK(pixel(5, 7) == Bytes4{0, 255, 255, 255});  // 100 less: full brightness
     CHECK(pixel(6, 7) == Bytes4{96 + 16 * 5, 0, 0, 255});
     CHECK((shown.format == Format::rgba8 && shown.width == 640 && shown.height == 480));
 }
 
-TEST_CASE("a capture of another size or format is refused with the file's name and what it is") {
+TEST_CASE("a capture of another size or format is rejected with the name of the file and what it contains") {
     const Picture picture = colored({0, 0, 0, 0});
     const auto said = [&](const Image& capture) {
         try {
@@ -194,7 +196,7 @@ TEST_CASE("a capture of another size or format is refused with the file's name a
     CHECK(said({Format::rgba16f, 640, 480}).ends_with("found 640 x 480 pixels of rgba16f"));
 }
 
-TEST_CASE("suites are listed once each by the alphabet of bytes, and found by their whole names alone") {
+TEST_CASE("suites are listed once each in byte order and found by their full names only") {
     const std::span<const Suite> all = suites();
     CHECK(all.size() == 25);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -209,7 +211,7 @@ TEST_CASE("suites are listed once each by the alphabet of bytes, and found by th
     CHECK(find_suite("") == nullptr);
 }
 
-TEST_CASE("a suite tells of what it can show: depths, colours, coordinates, quotients") {
+TEST_CASE("a suite is marked with the kinds of constants that its captures can distinguish") {
     const std::map<std::string_view, unsigned> told{{"Alpha_func", 4},
                                                     {"Color_mask_blend", 4},
                                                     {"Combiner", 8},

@@ -1,5 +1,6 @@
-// What is said of every name of the archive, and what is drawn for it. A profile without any depth format is refused by
-// every surface, after the name is understood and before anything is drawn.
+// Checks for every name of the archive whether it is drawn or not modelled, and that its picture depends on the name
+// alone. A profile without any depth format is rejected by every surface after the name is parsed and before anything
+// is drawn, so parsing is tested without drawing.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/check.h"
@@ -22,7 +23,7 @@ Says says_of(const Suite& suite, const std::string& name) {
     }
 }
 
-// The names that are not said to be `expected`.
+// The names whose outcome is not `expected`.
 std::string said_otherwise(Says expected, std::string_view suite, const Names& names) {
     std::string otherwise;
     for (const std::string& name : names)
@@ -30,7 +31,7 @@ std::string said_otherwise(Says expected, std::string_view suite, const Names& n
     return otherwise;
 }
 
-// The digest of the picture that geforce3 draws for a name, or why there is none.
+// The digest of the picture that geforce3 draws for a name, or the reason why there is none.
 std::string drawn_or_reason(std::string_view suite, const std::string& name) {
     const Drawing drawing = find_suite(suite)->draw(name, *pipeline::find_profile("geforce3"));
     return drawing.picture ? digest_outside({}, *drawing.picture) : drawing.reason;
@@ -38,7 +39,7 @@ std::string drawn_or_reason(std::string_view suite, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("every name of the archive is drawn, or said to be not modelled") {
+TEST_CASE("every name of the archive is drawn or reported as not modelled") {
     std::string otherwise;
     std::size_t names = 0;
     for (const NameGroup& group : archive_names()) {
@@ -51,8 +52,8 @@ TEST_CASE("every name of the archive is drawn, or said to be not modelled") {
     CHECK(names >= 3600);
 }
 
-// Between the two drawings of a name stand all other names, in the opposite order.
-TEST_CASE("every picture of the archive is drawn to its end and depends on its name alone", "[exhaustive]") {
+// Each name is drawn twice, with all other names drawn in between in the opposite order.
+TEST_CASE("every picture of the archive is drawn completely and depends on its name alone", "[exhaustive]") {
     const Archive archive = archive_names();
     std::vector<std::string> first;
     std::string without_reason, different;
@@ -72,7 +73,7 @@ TEST_CASE("every picture of the archive is drawn to its end and depends on its n
     CHECK(drawn >= 3400);
 }
 
-TEST_CASE("parameters that no test has are not guessed") {
+TEST_CASE("parameters that no test of the suite uses are rejected") {
     const std::pair<std::string_view, Names> wrong[] = {
         {"Vertex_shader_rounding_tests",
          {"Geometry_nan", "Geometry_inf", "Geometry_1e30", "Geometry_-0.5", "Geometry_", "Geometry_0.5x"}},

@@ -1,4 +1,5 @@
-// The host's matrices against rationals, and where the chip's pictures say that its points come back.
+// Checks the matrices that the test suite's host (the Xbox CPU) computes against exact rational arithmetic, and the
+// un-projected points against the hardware captures.
 #include "tools/hardware_check/host_matrices.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -17,7 +18,7 @@ namespace {
     return sum;
 }
 
-// The largest of |entries|, as a scale for differences.
+// Largest absolute value in column c, as a scale for differences.
 [[nodiscard]] double size_of_column(const HostMatrix& m, std::size_t c) {
     double size = 0;
     for (const HostVector& row : m) size = std::max(size, std::fabs(double{row[c]}));
@@ -26,14 +27,14 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("a host matrix times its inverse is the identity but for roundings") {
+TEST_CASE("a host matrix times its inverse is the identity within rounding error") {
     for (const HostCamera& camera : {default_camera(65535.0f), default_camera(16777215.0f),
                                      camera_of(look_at({0, 50, -7}, {0, 47, 0}), perspective_to_window(16777215.0f)),
                                      camera_of(look_at({0, 0, -7}, {0, 0, 0}), orthographic_to_window(10, 100))}) {
         std::string wrong;
         for (std::size_t r = 0; r < 4; ++r)
             for (std::size_t c = 0; c < 4; ++c) {
-                // In units of the terms that cancel.
+                // The tolerance is relative to the largest product in the sum.
                 double terms = 0;
                 for (std::size_t i = 0; i < 4; ++i)
                     terms = std::max(terms, std::fabs(double{camera.composite[r][i]} * double{camera.inverse[i][c]}));
@@ -46,7 +47,7 @@ TEST_CASE("a host matrix times its inverse is the identity but for roundings") {
     }
 }
 
-TEST_CASE("a view's axes are orthonormal, and its eye becomes the origin") {
+TEST_CASE("the axes of a view are orthonormal and its eye becomes the origin") {
     const std::array<float, 3> eye{0, 50, -7};
     const HostMatrix view = look_at(eye, {0, 47, 0});
     for (std::size_t a = 0; a < 3; ++a)
@@ -57,12 +58,13 @@ TEST_CASE("a view's axes are orthonormal, and its eye becomes the origin") {
         }
     const HostVector origin = product(HostVector{eye[0], eye[1], eye[2], 1}, view);
     for (std::size_t i = 0; i < 3; ++i) CHECK(origin[i] == Approx(0).margin(1e-5));
-    CHECK(view[2][2] > 0);  // the point ahead lies at positive z
+    CHECK(view[2][2] > 0);  // the point ahead has positive z
 }
 
-// ProjAdjacentGeometry_0.5625: corners asked for 9/16 past a pixel come back beside that step of 1/16 pixel. Its
-// columns and rows say on which side, at world z 10 and 0 (chip-geometry.md 1.3).
-TEST_CASE("points that the host un-projects come back on the side of a sixteenth that the chip shows") {
+// Capture ProjAdjacentGeometry_0.5625: corners are requested at 9/16 pixel, on a step of the 1/16-pixel grid. After
+// un-projection and re-projection they are just above or below that step. The expected sides of columns and rows are
+// read from the capture, at world z 10 and 0 (chip-geometry.md 1.3).
+TEST_CASE("points that the host un-projects are re-projected to the same side of a 1/16-pixel step as in the capture") {
     const HostCamera camera = default_camera(65535.0f);
     const CompositeMatrix view = columns_of(look_at({0, 0, -7}, {0, 0, 0})),
                           to_window = columns_of(perspective_to_window(65535.0f));
@@ -86,8 +88,9 @@ TEST_CASE("points that the host un-projects come back on the side of a sixteenth
     CHECK(by_program(220 + past, 340 + past, 0)[1] < 340 + past);
 }
 
-// At 24 bits depth 64000 lies next to the near plane, so the line is short and its last bits are long.
-TEST_CASE("a window point goes to the world and back, near where it was") {
+// Un-projection interpolates between the points at depths 0 and 64000. With a 24-bit buffer both are next to the near
+// plane, so the line is short and the rounding error is amplified.
+TEST_CASE("un-projecting a window point and projecting it again returns the same point within a tolerance") {
     const HostCamera camera = default_camera(16777215.0f);
     for (const float z : {-6.0f, -5.0f, 0.0f, 96.5f, 193.0f})
         for (const float x : {0.5f, 128.0f, 511.9f})
@@ -103,18 +106,19 @@ TEST_CASE("a window point goes to the world and back, near where it was") {
     const HostVector again = product(back, flat.composite);
     CHECK(again[0] == Approx(90).margin(1e-3));
     CHECK(again[1] == Approx(60).margin(1e-3));
-    CHECK(again[2] == Approx(45).margin(0.1));  // of 65535
+    CHECK(again[2] == Approx(45).margin(0.1));  // on a scale of 65535
 }
 
-// The test makes the buffer a float one behind the back of what builds its matrices, which keep the scale of fixed
-// depth: of 16-bit floats every word of the floor is the greatest one, as the chip's are.
-TEST_CASE("behind the fixed pipeline a float buffer holds depths of the fixed buffer's scale") {
+// The test suite switches the depth buffer to a float format without rebuilding its matrices, so depths keep the scale
+// of the fixed-point buffer. With 16-bit floats every depth of the floor is then the greatest code, as in the captures.
+TEST_CASE(
+    "with the fixed-function pipeline a float depth buffer stores depths in the scale of the fixed-point buffer") {
     const auto picture = [](const char* name) {
         return *find_suite("W_buffering")->draw(name, *strata::pipeline::find_profile("geforce3")).picture;
     };
     const Picture small = picture("ZBuf16F_FloorQuad_V0_ZB0_ZS0_ZB");
     CHECK(std::all_of(small.image.codes.begin(), small.image.codes.end(), [](std::uint32_t c) { return c == 0xffff; }));
-    // w does not go through the matrix's scale: both formats have the same w.
+    // w is not affected by the depth scale, so both formats store the same w.
     const Picture fixed = picture("WBuf24D_FloorQuad_V0_ZB0_ZS0_ZB"),
                   large = picture("WBuf24F_FloorQuad_V0_ZB0_ZS0_ZB");
     std::size_t wrong = 0, drawn = 0;

@@ -1,6 +1,6 @@
-// The geforce3 profile against pictures of silicon: hardware_digests.txt holds, of every capture that is reproduced,
-// the digest of its pixels outside the box round its labels (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0). `strata
-// hardware-check DIR --digests` made it; the pictures themselves are not needed.
+// Tests the geforce3 profile against captures of an NV2A. hardware_digests.txt holds, for each reproduced capture, the
+// digest of its pixels outside the box around its labels (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0). `strata
+// hardware-check DIR --digests` wrote it; the captures themselves are not needed.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
@@ -56,7 +56,7 @@ Row first_of(const std::string& suite) {
 
 }  // namespace
 
-TEST_CASE("geforce3 draws the pictures that an NV2A gave: every compared word of every listed capture", "[slow]") {
+TEST_CASE("geforce3 reproduces every compared pixel of every listed NV2A capture", "[slow]") {
     const std::vector<Row> all = rows();
     CHECK(all.size() >= 289);
     std::string different;
@@ -66,7 +66,7 @@ TEST_CASE("geforce3 draws the pictures that an NV2A gave: every compared word of
 }
 
 TEST_CASE(
-    "a profile that rounds positions, depth, coordinates or blending otherwise is caught by the chip's pictures") {
+    "a profile that rounds positions or depth or coordinates or blending differently does not reproduce the captures") {
     pipeline::DeviceProfile nearest = geforce3();
     nearest.raster.snap = rasterizer::Snap::nearest_even;
     const Row geometry{"Vertex_shader_rounding_tests", "Geometry_0.5624", "", {}};
@@ -94,10 +94,10 @@ TEST_CASE(
     CHECK(digest_with(shadow, unquantized) != digest_with(shadow, geforce3()));
 }
 
-// Words at the left column of quads whose weights are exact there, as captures of the NV2A hold them, and world z as
-// the test suite steps it. Exact arithmetic gives 4 for the first, and 16633061, 16726379, 16746512 where the
-// reciprocal's last bits show.
-TEST_CASE("window depths of the fixed pipeline are the words that the chip stored") {
+// Depth codes in the left column of quads whose weights are exact there, from captures of the NV2A, and the world z
+// values of the test suite. Exact arithmetic gives 4 for the first, and 16633061, 16726379, 16746512 where the last
+// bits of the reciprocal matter.
+TEST_CASE("window depths of the fixed-function pipeline are the codes that the chip stored") {
     constexpr std::pair<float, int> at_24_bits[] = {{-6.0f, 8},
                                                     {-5.393292427062988f, 6367072},
                                                     {0.06707406044006348f, 14475595},
@@ -108,9 +108,9 @@ TEST_CASE("window depths of the fixed pipeline are the words that the chip store
     for (const auto& [z, word] : at_24_bits) CHECK(static_cast<int>(chip_window_z(z, 16777215.0f)) == word);
 }
 
-// The texels of this picture differ from the chip's where a coordinate lies exactly on a cell's edge, so the list above
-// lacks it.
-TEST_CASE("a square with a corner of w = -infinity covers the chip's pixels") {
+// The texels of this picture differ from the chip's where a coordinate is exactly on a cell's edge, so it is not in
+// the list above.
+TEST_CASE("a square with a corner of w = -infinity covers the same pixels as on the chip") {
     const Row row{"W_param", "prog_w_zero_inf__bitri_w-inf", "db40237f2459e2ebc4fd910187e4c6f7", {20, 25, 407, 416}};
     Drawing drawing = draw(*find_suite(row.suite), row.picture, geforce3(), textures);
     REQUIRE(drawing.picture);
@@ -119,7 +119,7 @@ TEST_CASE("a square with a corner of w = -infinity covers the chip's pixels") {
     CHECK(digest_outside(row.labels, *drawing.picture) == row.digest);
 }
 
-TEST_CASE("with all bits of a vertex colour the chip's greys do not come out") {
+TEST_CASE("with all bits of a vertex colour the greys of the capture are not reproduced") {
     pipeline::DeviceProfile all_bits = geforce3();
     all_bits.raster.interpolation.vertex_color_bits = 24;
     const Row row{
@@ -128,7 +128,7 @@ TEST_CASE("with all bits of a vertex colour the chip's greys do not come out") {
     CHECK(digest_with(row, all_bits) != row.digest);  // 28,607 pixels, one unit
 }
 
-TEST_CASE("a difference is counted, sized, placed and held against the bound") {
+TEST_CASE("a difference is counted and located and its size compared with the bound") {
     const Drawing drawing = find_suite("Front_face")->draw("FrontFace_CW_CF_B", geforce3());
     REQUIRE(drawing.picture);
     Picture picture = *drawing.picture;
@@ -151,7 +151,7 @@ TEST_CASE("a difference is counted, sized, placed and held against the bound") {
     CHECK_FALSE(compare(picture, capture, "capture.png").within_bound);
     CHECK(label_box(picture, capture) == rasterizer::Rect{600, 11, 601, 12});
 
-    // What the test drew over its picture in a colour of its own is a label, too.
+    // A drawing of the test suite over its picture in a colour that the picture does not use is a label, too.
     const std::size_t line = capture.index(7, 9);
     for (std::size_t c = 0; c < 4; ++c) capture.codes[line + c] = c == 2 ? 0 : 255;
     CHECK(compare(picture, capture, "capture.png").differing == 2);
@@ -161,7 +161,7 @@ TEST_CASE("a difference is counted, sized, placed and held against the bound") {
     CHECK(label_box(picture, capture) == rasterizer::Rect{7, 9, 601, 12});
 }
 
-TEST_CASE("names that no test has are unknown, and what is not understood says why") {
+TEST_CASE("names that no test has are unknown and names that are not modelled give a reason") {
     CHECK(find_suite("Fog") == nullptr);
     for (const char* name : {"", "Nonsense", "FrontFace_CW_CF_X", "FrontFace_", "TopLeftRaster_"})
         CHECK(find_suite("Front_face")->draw(name, geforce3()).reason == unknown_name_reason);
@@ -177,7 +177,7 @@ TEST_CASE("names that no test has are unknown, and what is not understood says w
     CHECK(fixed.reason != unknown_name_reason);
 }
 
-TEST_CASE("the chip's two-dimensional stage compares 0: what has a depth is greater, whatever r the texture is given") {
+TEST_CASE("the two-dimensional shadow stage of the chip compares r = 0 and ignores the r of the texture coordinates") {
     const auto picture = [](const char* name) {
         return *find_suite("Texture_shadow_comparator")->draw(name, geforce3()).picture;
     };
@@ -187,7 +187,7 @@ TEST_CASE("the chip's two-dimensional stage compares 0: what has a depth is grea
     CHECK(picture("2P24_10.00-20.00_11.4500_LT").image == picture("2P24_10.00-20.00_11.4500_A").image);
 }
 
-TEST_CASE("hidden rectangles are neither compared nor digested") {
+TEST_CASE("hidden rectangles are excluded from the comparison and the digest") {
     const Row row{"Texture_shadow_comparator", "3R16_100-200_180_EQ", "", {}};
     const Picture drawn = *find_suite(row.suite)->draw(row.picture, geforce3()).picture;
     pipeline::Image capture = drawn.image;
@@ -199,13 +199,13 @@ TEST_CASE("hidden rectangles are neither compared nor digested") {
     CHECK(digest_outside({}, drawn, capture) != digest_outside({}, drawn));
 }
 
-TEST_CASE("a suite whose test loads images says which one is missing") {
+TEST_CASE("a suite whose test loads images names the missing image") {
     const Drawing drawing = find_suite("Pixel_shader")->draw("DotST", geforce3());
     CHECK_FALSE(drawing.picture);
     CHECK(drawing.reason.find("textures/water_bump_map.png") != std::string::npos);
 }
 
-TEST_CASE("occlusion queries answer what the chip answered: 40960, then 49152") {
+TEST_CASE("occlusion queries return the counts of the chip which are 40960 and 49152") {
     const Drawing drawing = find_suite("ZPass_pixel_count")->draw("ZPass", geforce3());
     REQUIRE(drawing.picture);
     CHECK(drawing.picture->reports == std::vector<std::uint64_t>{40960, 49152});

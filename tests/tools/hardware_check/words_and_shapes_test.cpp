@@ -1,5 +1,5 @@
-// Model: tables of OpenGL's words typed a second time, vertices in the order of a GeForce3's QUADS, texels by their own
-// bits.
+// Tests the parser of capture names and the shapes of the test suite. The expected values are OpenGL's names listed by
+// hand, the vertex order of a GeForce3's QUADS, and texels decoded bit by bit.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ using pipeline::BlendEquation;
 using pipeline::BlendFactor;
 using pipeline::CompareFunc;
 
-// Eight bits of a field of 1, 4, 5, 6 or 8, as its most significant bits again and again.
+// Expands a field of 1, 4, 5, 6 or 8 bits to 8 bits by repeating it from the most significant bit.
 std::uint8_t repeated(std::uint32_t value, int bits) {
     std::string text;
     while (text.size() < 8)
@@ -27,7 +27,7 @@ std::uint8_t repeated(std::uint32_t value, int bits) {
 
 }  // namespace
 
-TEST_CASE("a word of a file name means what it says, and only as it is written") {
+TEST_CASE("a word in a file name has its documented meaning and is case sensitive") {
     const std::pair<const char*, CompareFunc> compares[] = {{"Never", CompareFunc::never},
                                                             {"N", CompareFunc::never},
                                                             {"Less", CompareFunc::less},
@@ -76,7 +76,7 @@ TEST_CASE("a word of a file name means what it says, and only as it is written")
     for (const char* word : {"", "add", "SSUB"}) CHECK_FALSE(blend_equation(word));
 }
 
-TEST_CASE("a name is taken apart from either end, and stays whole where a part is not there") {
+TEST_CASE("a name is split from either end and unchanged where the separator is missing") {
     std::string_view name = "AB_CD_EF";
     CHECK_FALSE(take(name, "B"));
     CHECK_FALSE(take_last(name, "E"));
@@ -85,7 +85,7 @@ TEST_CASE("a name is taken apart from either end, and stays whole where a part i
     CHECK(take_last(name, "F"));
     CHECK(name == "B_CD_E");
     CHECK(take_until(name, "_") == "B");
-    CHECK(take_until(name, "_C") == "CD_E");  // "_C" is nowhere: all of it
+    CHECK(take_until(name, "_C") == "CD_E");  // "_C" does not occur: returns the whole name
     CHECK(name.empty());
     CHECK(take_until(name, "_").empty());
     std::string_view ends = "X--";
@@ -99,7 +99,7 @@ TEST_CASE("a name is taken apart from either end, and stays whole where a part i
     for (const char* text : {"", "0x1", "g", "100000000", "-1", "1 "}) CHECK_FALSE(to_hexadecimal(text));
 }
 
-TEST_CASE("a packed colour is alpha, red, green, blue from its highest byte on, each a 255th") {
+TEST_CASE("a packed colour is alpha red green blue from its highest byte down in units of 1/255") {
     CHECK(unpack(0x12345678) == pipeline::PixelCode{0x34, 0x56, 0x78, 0x12});
     const std::array<float, 4> color = to_float(0x00ff8001);
     CHECK((color[0] == 1 && color[1] == 128 / 255.0f && color[2] == 1 / 255.0f && color[3] == 0));
@@ -111,7 +111,7 @@ TEST_CASE("a packed colour is alpha, red, green, blue from its highest byte on, 
     CHECK(at(0, 0, 0.25f, {}, 7).w == 7);
 }
 
-TEST_CASE("a box is a quad from its upper left corner, clockwise as seen, and a quad is (0,1,2) and (0,2,3)") {
+TEST_CASE("a box is a quad from its upper left corner in clockwise order and a quad is the triangles 0 1 2 and 0 2 3") {
     TriangleSoup soup = box({10, 20, 30, 50}, 0xff00ff00, 0.5f);
     add_box(soup, {0, 0, 1, 2}, 0xffffffff);
     REQUIRE(soup.vertices.size() == 12);
@@ -125,13 +125,13 @@ TEST_CASE("a box is a quad from its upper left corner, clockwise as seen, and a 
     CHECK((soup.vertices[11].x == 0 && soup.vertices[11].y == 2 && soup.vertices[11].z == 0));
 }
 
-TEST_CASE("the next binary32 below is the next one, over the ends of binades too") {
+TEST_CASE("the next lower binary32 is the adjacent value across binades as well") {
     for (const float x : {1.0f, 0.5625f, 3.0e38f, 0x1p-126f, 0x1p-149f, 1.5f})
         CHECK(next_below(x) == std::nextafter(x, 0.0f));
 }
 
 TEST_CASE(
-    "a textured quad has the coordinates of all units at each of its six vertices, and combiners show a register") {
+    "a textured quad has the coordinates of all units at each of its six vertices and combiners output a register") {
     std::array<TexturedCorner, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k) {
         corners[k].x = static_cast<float>(k);
@@ -163,7 +163,7 @@ TEST_CASE(
     CHECK(own.final_stage.g.mapping == pipeline::CombinerMapping::unsigned_identity);
 }
 
-TEST_CASE("an image is a rectangle texture of its codes") {
+TEST_CASE("an image becomes a rectangle texture of its codes") {
     pipeline::Image image{pipeline::Format::rgba8, 3, 2};
     for (std::size_t i = 0; i < image.codes.size(); ++i) image.codes[i] = static_cast<std::uint32_t>(7 * i);
     const pipeline::Texture texture = as_texture(image);
@@ -174,7 +174,7 @@ TEST_CASE("an image is a rectangle texture of its codes") {
     for (std::size_t i = 0; i < 24; ++i) CHECK(texture.texels[i] == 7 * i);
 }
 
-TEST_CASE("a flat pattern's texel is its word's fields, their upper bits repeated, and 255 where there is no alpha") {
+TEST_CASE("a texel of a flat pattern has the fields of its packed value expanded to 8 bits") {
     struct Field {
         int shift, bits;
     };
@@ -200,7 +200,7 @@ TEST_CASE("a flat pattern's texel is its word's fields, their upper bits repeate
     for (std::size_t f = 0; f < 7; ++f) CHECK(blended_formats[f].is_wide == (f < 2));
 }
 
-TEST_CASE("a wide pattern is four equal quarters of ramps whose alpha falls from the centre") {
+TEST_CASE("a wide pattern consists of four equal quarters of ramps whose alpha decreases from the centre") {
     constexpr std::size_t side = 64, half = side / 2;
     const auto texels = radial_pattern(blended_formats[0], side).texels;
     const auto texel = [&](std::size_t x, std::size_t y, std::size_t c) {
@@ -220,11 +220,9 @@ TEST_CASE("a wide pattern is four equal quarters of ramps whose alpha falls from
     CHECK(texel(0, 0, 3) == 0);
 }
 
-TEST_CASE(
-    "a narrow pattern's blue falls from left to right, red rises downwards, and green goes over from one to the "
-    "other") {
+TEST_CASE("a narrow pattern has blue that decreases to the right and red that increases downwards") {
     constexpr std::size_t side = 31;
-    const auto texels = radial_pattern(blended_formats[6], side).texels;  // A4R4G4B4: a digit is 17
+    const auto texels = radial_pattern(blended_formats[6], side).texels;  // A4R4G4B4: a 4-bit digit is a multiple of 17
     const auto digit = [&](std::size_t x, std::size_t y, std::size_t c) {
         return texels.at(4 * (y * side + x) + c) / 17;
     };
@@ -232,7 +230,7 @@ TEST_CASE(
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x) {
             const double fx = x / 30.0, fy = y / 30.0, dx = x - 15.0, dy = y - 15.0;
-            const auto is = [&](std::size_t c, double exact) {  // cut, of a binary32 next to it
+            const auto is = [&](std::size_t c, double exact) {  // truncated; the exact value may be next to a binary32
                 return digit(x, y, c) == std::floor(exact + 1e-5) || digit(x, y, c) == std::floor(exact - 1e-5);
             };
             wrong += is(2, 15 * (1 - fx)) && is(0, 15 * fy) && is(1, 15 * (fx * (1 - fy) + (1 - fx) * fy)) ? 0 : 1;
@@ -241,7 +239,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the test suite's camera puts world points where its matrix does") {
+TEST_CASE("the test suite's camera projects world points as its matrix does") {
     const std::array<float, 4> white{1, 1, 1, 1};
     const ClipVertex centre = project(0, 0, 0, 16777215, white), right = project(1, 0, -6, 16777215, white),
                      above = project(0, 2, -3, 65535, white);
@@ -254,8 +252,8 @@ TEST_CASE("the test suite's camera puts world points where its matrix does") {
     CHECK(window_z(-6, 65535) == 0);
     CHECK(window_z(193, 65535) == Approx(65535).epsilon(1e-12));
     CHECK(window_z(0, 199) == Approx(200 * (1 - 1 / 7.0)));
-    // A floor's corners, by a camera that looks down by three in seven: the chip's words put them there to 1/16 pixel,
-    // three steps inside of the exact places.
+    // A floor's corners, seen by a camera that looks down by 3 in 7. The expected positions are those of the chip, in
+    // 1/16 pixel, three steps inside the exact ones.
     const float ahead = 7.0f * (1.0f / std::sqrt(58.0f)), start = 26.1299801f;
     const CompositeMatrix camera{
         {320.0f * chip_cotangent_x, 0, ahead * 320.0f, start * 320.0f}, {}, {}, {0, 0, ahead, start}};
@@ -263,7 +261,7 @@ TEST_CASE("the test suite's camera puts world points where its matrix does") {
     CHECK(sixteenth(15000) == 16 * 513420.875);
     CHECK(sixteenth(-15000) == 16 * -512779.8125);
     double last = -1;
-    for (float z = -6; z <= 193; z += 0.37f) {  // the chip's own is near the exact one, and monotonic
+    for (float z = -6; z <= 193; z += 0.37f) {  // the chip's depth is near the exact one and monotonic
         const double chip = double{chip_window_z(z, 16777215.0f)};
         CHECK(std::fabs(chip - window_z(double{z}, 16777215)) < 40);
         CHECK(chip >= last);
