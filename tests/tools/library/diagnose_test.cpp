@@ -1,4 +1,4 @@
-// Model: the mistake that is made on purpose in the pixels, or by a wrong state.
+// Tests the library's diagnosis on pictures with a deliberate mistake in their pixels or in the state.
 #include <strata/strata.h>
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@ using Catch::Contains;
 namespace {
 
 strata::Scene own_triangles() {
-    // Two triangles that cross, clip space.
+    // Two triangles that cross, in clip space.
     const float positions[] = {-0.9f, -0.8f, 0.1f, 0.9f, -0.7f, 0.6f, 0.0f, 0.9f,  -0.2f,
                                -0.7f, 0.8f,  0.5f, 0.8f, 0.7f,  0.0f, 0.1f, -0.9f, 0.2f};
     strata::Scene scene;
@@ -21,7 +21,7 @@ const strata::RenderOptions frame{.width = 24, .height = 20, .background = {0.1f
 
 }  // namespace
 
-TEST_CASE("the library names the mistake that a picture was made with, and a right picture right") {
+TEST_CASE("the library names the mistake of a picture and accepts a correct picture") {
     const strata::Scene scene = own_triangles();
     const auto& dual = strata::algorithm("dual");
     const auto profile = strata::profile("geforce8");
@@ -31,7 +31,7 @@ TEST_CASE("the library names the mistake that a picture was made with, and a rig
     CHECK(fine.verdict() == "right");
     CHECK(fine.mistakes().empty());
 
-    // Red and blue exchanged by hand, colour alone.
+    // Red and blue are swapped by hand; the picture has only colour.
     auto turned = strata::picture_of(right.color());
     auto& codes = turned.targets[0].codes;
     for (std::size_t i = 0; i < codes.size(); i += 4) std::swap(codes[i], codes[i + 2]);
@@ -49,7 +49,7 @@ TEST_CASE("the library names the mistake that a picture was made with, and a rig
     CHECK(none.mistakes().empty());
 }
 
-TEST_CASE("a candidate without a target is an input that is named") {
+TEST_CASE("a candidate without a target is rejected by name") {
     const strata::Scene scene = own_triangles();
     CHECK_THROWS_WITH(
         strata::diagnose(scene, strata::Picture{}, strata::algorithm("dual"), strata::profile("geforce8"), frame),

@@ -1,4 +1,4 @@
-// Model: pictures of 4 x 2 pixels by hand.
+// Tests the GoogleTest matcher on pictures of 4 x 2 pixels written by hand.
 #include "strata/gtest.h"
 
 #include <gtest/gtest-spi.h>

@@ -1,4 +1,4 @@
-// Model: pictures of 4 x 2 pixels by hand; the files of a folder.
+// Tests the Catch2 matcher on pictures of 4 x 2 pixels written by hand, and the files that a failure writes.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// STRATA_PICTURES names a folder that is not there yet, and goes with the test.
+// Sets STRATA_PICTURES to a folder that does not exist yet and is deleted when the test ends.
 class PictureFolder {
   public:
     PictureFolder() { setenv("STRATA_PICTURES", folder_.path().c_str(), 1); }
@@ -44,13 +44,13 @@ const strata::Reference& reds() {
 
 }  // namespace
 
-TEST_CASE("an equal picture matches and leaves nothing behind") {
+TEST_CASE("an equal picture matches and no file is written") {
     const PictureFolder folder;
     CHECK_THAT(row_of_reds({10, 20, 30, 40}), strata::MatchesReference(reds()));
     CHECK_FALSE(std::filesystem::exists(folder.path()));
 }
 
-TEST_CASE("a failure's message says the kind, the number and the first pixel, and where the pictures are") {
+TEST_CASE("a failure's message has the kind and number and first pixel of the differences and the pictures' path") {
     const PictureFolder folder;
     const strata::MatchesReference matcher{reds()};
     CHECK_FALSE(matcher.match(row_of_reds({10, 20, 31, 44})));
@@ -58,10 +58,10 @@ TEST_CASE("a failure's message says the kind, the number and the first pixel, an
     CHECK_THAT(matcher.describe(), Contains("color at 2 pixels, first at (2, 1)"));
     CHECK_THAT(matcher.describe(), Contains("some/red row.exr") && Contains(side));
     const strata::Picture left = strata::read_picture(side);
-    CHECK(left.targets[0].width > 3 * 4);  // three pictures with a line between
+    CHECK(left.targets[0].width > 3 * 4);  // three pictures and separating lines
 }
 
-TEST_CASE("a tolerance forgives as many codes as it says, and no more") {
+TEST_CASE("a tolerance accepts differences up to its number of codes") {
     const PictureFolder folder;
     strata::Tolerances two;
     two.color_codes = 2;
@@ -69,14 +69,14 @@ TEST_CASE("a tolerance forgives as many codes as it says, and no more") {
     CHECK_THAT(row_of_reds({13, 20, 30, 40}), !strata::MatchesReference(reds(), two));
 }
 
-TEST_CASE("pictures of unequal size are a failure with a message, not an error") {
+TEST_CASE("pictures of unequal size are a failure with a message and not an error") {
     const std::array<unsigned char, 4> one{1, 2, 3, 4};
     const auto checked = strata::check(strata::from_memory(one.data(), one.size(), "1x1:rgba8"), reds());
     CHECK_FALSE(checked.is_accepted);
     CHECK_THAT(checked.message, Contains("cannot be compared") && Contains("4x2") && Contains("1x1"));
 }
 
-TEST_CASE("pictures that cannot be written leave the difference told") {
+TEST_CASE("if pictures cannot be written the failure still reports the difference") {
     const strata::test::OwnFile file{"", "not a folder"};
     setenv("STRATA_PICTURES", file.path().c_str(), 1);
     const auto checked = strata::check(row_of_reds({11, 20, 30, 40}), reds());
@@ -85,7 +85,7 @@ TEST_CASE("pictures that cannot be written leave the difference told") {
     CHECK_THAT(checked.message, Contains("color at 1 pixels, first at (0, 1)") && Contains("no picture could be left"));
 }
 
-TEST_CASE("a golden pack is a reference, algorithm by algorithm") {
+TEST_CASE("a golden pack is a reference for each of its algorithms") {
     const strata::test::OwnFile folder{""};
     strata::oracle::Golden golden;
     golden.scene = strata::scenes::load_scene("volume-beam:slices=4", {});
@@ -114,7 +114,7 @@ TEST_CASE("a golden pack is a reference, algorithm by algorithm") {
     std::filesystem::remove_all(folder.path());
 }
 
-TEST_CASE("a reference file is read by its name") {
+TEST_CASE("a missing reference file is reported by its name") {
     const strata::test::OwnFile missing{".exr"};
     CHECK_THROWS_WITH(strata::Reference{missing.path()}, Contains(missing.path()));
 }

@@ -1,4 +1,4 @@
-// Model: bytes typed by hand, and the codes that they stand for.
+// Tests images in memory against bytes written by hand and the codes that they represent.
 #include <array>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// One of each kind of channel: 2 x 2 pixels whose codes count up.
+// 2 x 2 pixels of the format whose codes count up from channel to channel.
 Image counted(pipeline::Format format) {
     Image image{format, 2, 2};
     for (std::size_t i = 0; i < image.codes.size(); ++i) image.codes[i] = static_cast<std::uint32_t>(0x10 + i);
@@ -23,7 +23,7 @@ std::span<const std::byte> as_memory(const std::vector<unsigned char>& bytes) {
 
 }  // namespace
 
-TEST_CASE("codes go into memory and come back whatever their type") {
+TEST_CASE("codes of every type are unchanged after a round trip through memory") {
     struct Case {
         pipeline::Format format;
         const char* layout;
@@ -46,8 +46,8 @@ TEST_CASE("codes go into memory and come back whatever their type") {
     }
 }
 
-TEST_CASE("rows may be padded, and may come from the bottom up") {
-    // Two rows of two bytes, four bytes apart; the last row without padding.
+TEST_CASE("rows may be padded and may start at the bottom") {
+    // Two rows of two bytes, four bytes apart; the last row has no padding.
     const std::vector<unsigned char> padded{1, 2, 99, 99, 3, 4};
     CHECK(from_memory(as_memory(padded), layout("2x2:r8"), 4).targets[0].codes ==
           std::vector<std::uint32_t>{1, 2, 3, 4});
@@ -61,14 +61,14 @@ TEST_CASE("rows may be padded, and may come from the bottom up") {
           std::vector<std::byte>{std::byte{3}, std::byte{4}, std::byte{99}, std::byte{99}, std::byte{1}, std::byte{2}});
 }
 
-TEST_CASE("a half and a float keep the bits of a NaN through memory") {
+TEST_CASE("the bits of a half or float NaN are unchanged after a round trip through memory") {
     Image image{pipeline::Format::r32f, 1, 1};
-    image.codes[0] = 0x7fa00001u;  // signalling
+    image.codes[0] = 0x7fa00001u;  // signalling NaN
     const std::vector<std::byte> memory = to_memory(image);
     CHECK(from_memory(memory.data(), 4, "1x1:r32f").targets[0].codes[0] == 0x7fa00001u);
 }
 
-TEST_CASE("memory that is too small, rows that overlap and unknown layouts are refused by name") {
+TEST_CASE("too little memory or overlapping rows or an unknown layout is rejected by name") {
     const std::vector<unsigned char> bytes(15);
     CHECK_THROWS_WITH(from_memory(as_memory(bytes), layout("2x2:rgba8")),
                       Contains("memory: expected at least 16 bytes, found 15"));

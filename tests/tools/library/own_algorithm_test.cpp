@@ -1,4 +1,5 @@
-// Model: sums of a program's outputs over triangles that cover every pixel, worked out by hand.
+// Tests user-defined algorithms. The expected values are sums of the shader's outputs over triangles that cover every
+// pixel, worked out by hand.
 #include <atomic>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -11,7 +12,7 @@ using namespace strata::pipeline;
 
 namespace {
 
-// Every fragment adds (gain a, 0, 0), and is counted.
+// Every fragment adds (gain a, 0, 0) and is counted.
 struct Gain {
     float gain;
     std::atomic<std::uint64_t>* seen;
@@ -52,7 +53,7 @@ const RenderOptions float_options{.width = 40, .height = 30, .color_format = For
 
 }  // namespace
 
-TEST_CASE("an algorithm of one's own runs with its state, in every execution and on every thread") {
+TEST_CASE("a user-defined algorithm runs with its state in every execution and on every thread") {
     for (const Execution execution : {Execution::literal, Execution::replay})
         for (const int threads : {1, 3}) {
             std::atomic<std::uint64_t> seen = 0;
@@ -69,14 +70,14 @@ TEST_CASE("an algorithm of one's own runs with its state, in every execution and
         }
 }
 
-TEST_CASE("an algorithm of one's own that takes the whole frame sees every fragment once") {
+TEST_CASE("a user-defined algorithm that takes the whole frame sees every fragment once") {
     std::atomic<std::uint64_t> seen = 0;
     const Rendering picture = render(three_screens(), adding({1.0f, &seen}, true), profile("ideal"), float_options);
     CHECK_FALSE(picture.is_refused());
     CHECK(seen == 3u * 40 * 30);
 }
 
-TEST_CASE("passes show an algorithm of one's own, and a device that cannot blend so refuses it") {
+TEST_CASE("passes lists the passes of a user-defined algorithm and a device without its blending rejects it") {
     std::atomic<std::uint64_t> seen = 0;
     const auto shown = passes(three_screens(), adding({1.0f, &seen}), profile("ideal"), float_options);
     REQUIRE(shown.size() == 2);

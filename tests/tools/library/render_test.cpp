@@ -1,4 +1,5 @@
-// Model: OVER of full-screen triangles worked out by hand; what the same call says through the floors below.
+// Tests the library's rendering functions: pictures against OVER of full-screen triangles, worked out by hand, and
+// results against the same calls on the modules below.
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -10,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Two triangles over the whole frame: white far and black near, both of alpha 0.5, over black.
+// Two triangles over the whole frame: a far white one and a near black one, both of alpha 0.5, over black.
 Scene far_white_near_black() {
     const float far[] = {-1, -1, 0.5f, 3, -1, 0.5f, -1, 3, 0.5f};
     const float near[] = {-1, -1, -0.5f, 3, -1, -0.5f, -1, 3, -0.5f};
@@ -24,7 +25,7 @@ const RenderOptions small{.width = 6, .height = 5, .color_format = pipeline::For
 
 }  // namespace
 
-TEST_CASE("a picture, its layers and its fragments are those of the scene") {
+TEST_CASE("a picture and its layers and its fragments are those of the scene") {
     const Scene scene = far_white_near_black();
     const Rendering picture = render(scene, algorithm("front_to_back"), profile("ideal"), small);
     REQUIRE_FALSE(picture.is_refused());
@@ -45,7 +46,7 @@ TEST_CASE("a picture, its layers and its fragments are those of the scene") {
     CHECK(all[0].color[3] == 0.5f);
 }
 
-TEST_CASE("a pixel's history has the fragments of that pixel, and passes end in the picture") {
+TEST_CASE("a pixel's history has the fragments of that pixel and the last of its passes is the picture") {
     const Scene scene = far_white_near_black();
     const auto history = explain(scene, 5, 4, algorithm("dual"), profile("ideal"), small);
     REQUIRE(history.fragments.size() == 2);
@@ -56,7 +57,7 @@ TEST_CASE("a pixel's history has the fragments of that pixel, and passes end in 
     CHECK(shown.back().kind == oracle::PassKind::published);
 }
 
-TEST_CASE("every algorithm on every device gives a picture or cannot be mistaken for one") {
+TEST_CASE("every algorithm on every device gives a picture or a result that throws Refused when it is read") {
     const Scene scene = far_white_near_black();
     const RenderOptions options{.width = 6, .height = 5};
     int drawn = 0, refused = 0;
@@ -84,7 +85,7 @@ TEST_CASE("every algorithm on every device gives a picture or cannot be mistaken
     CHECK(refused > 10);
 }
 
-TEST_CASE("options and pixels that cannot be are named") {
+TEST_CASE("invalid options and pixels are rejected by name") {
     const Scene scene = far_white_near_black();
     const auto with = [&](const RenderOptions& options) {
         return render(scene, algorithm("dual"), profile("ideal"), options).digest();
@@ -99,13 +100,13 @@ TEST_CASE("options and pixels that cannot be are named") {
     CHECK_THROWS_WITH(render(Scene{}.add({}), algorithm("dual"), profile("ideal"), small), Contains("positions.count"));
 }
 
-TEST_CASE("a scene without triangles is its background") {
+TEST_CASE("a scene without triangles is drawn as its background") {
     RenderOptions red = small;
     red.background = {1, 0, 0, 1};
     CHECK(render(Scene{}, algorithm("dual"), profile("ideal"), red).color().codes[0] == 0x3f800000u);
 }
 
-TEST_CASE("calls on several threads do not disturb each other") {
+TEST_CASE("concurrent calls on several threads give the same result as a single call") {
     const Scene scene{"teapot"};
     const RenderOptions options{.width = 24, .height = 18, .threads = 2};
     const std::string alone = render(scene, algorithm("dual"), profile("geforce8"), options).digest();

@@ -1,4 +1,4 @@
-// Model: vertices typed by hand; pictures of the same triangles given in another way.
+// Tests scenes of the library: vertices written by hand, and pictures of the same triangles in other layouts.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -22,7 +22,7 @@ std::string digest_of(const Scene& scene) {
 
 Triangles both() { return {.name = "both", .positions = {two_triangles, 6}, .colors = {six_colors, 6}}; }
 
-// What add() says of triangles that are changed.
+// The error message of add() for triangles that are changed.
 std::string said_of(const std::function<void(Triangles&)>& change) {
     Triangles triangles = both();
     change(triangles);
@@ -38,10 +38,10 @@ std::string said_of(const std::function<void(Triangles&)>& change) {
 
 }  // namespace
 
-TEST_CASE("interleaved, indexed and plain vertices that say the same are the same scene") {
+TEST_CASE("interleaved and indexed and plain vertices of equal content make the same scene") {
     Scene plain;
     plain.add(both());
-    // Seven floats a vertex, from an odd address.
+    // Seven floats per vertex, at an odd address.
     std::vector<std::byte> memory(1 + 6 * 28);
     for (std::size_t v = 0; v < 6; ++v) {
         std::memcpy(memory.data() + 1 + 28 * v, two_triangles + 3 * v, 12);
@@ -59,7 +59,7 @@ TEST_CASE("interleaved, indexed and plain vertices that say the same are the sam
     CHECK(digest_of(interleaved) == digest_of(plain));
 }
 
-TEST_CASE("without a camera positions are clip space, and a model matrix moves them") {
+TEST_CASE("without a camera positions are clip coordinates and a model matrix transforms them") {
     Scene moved;
     Triangles shifted = both();
     shifted.model = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5, 0, 0, 1};
@@ -75,11 +75,11 @@ TEST_CASE("without a camera positions are clip space, and a model matrix moves t
     CHECK(digest_of(moved) != digest_of(still));
 }
 
-TEST_CASE("triangles may join a scene that was loaded, and opaque ones hide") {
+TEST_CASE("triangles can be added to a loaded scene and opaque ones hide others") {
     Scene teapot{"teapot"};
     const std::string alone = digest_of(teapot);
     teapot.orbit(30, 20);
-    CHECK(digest_of(teapot) == alone);  // the view that it has by itself
+    CHECK(digest_of(teapot) == alone);  // its default view
     Scene hidden;
     hidden.add({.name = "wall", .positions = {two_triangles + 9, 3}, .color = {0, 0, 1, 1}, .is_transparent = false});
     const std::string wall = digest_of(hidden);
@@ -92,7 +92,7 @@ TEST_CASE("triangles may join a scene that was loaded, and opaque ones hide") {
     CHECK(digest_of(hidden) == digest_of(behind_first));
 }
 
-TEST_CASE("a field of triangles that cannot be is named, and nothing is added") {
+TEST_CASE("an invalid field of triangles is rejected by name and nothing is added") {
     const std::uint32_t wrong[] = {0, 1, 6};
     const std::uint32_t two[] = {0, 1};
     CHECK_THAT(said_of([](Triangles& t) {
@@ -120,7 +120,7 @@ TEST_CASE("a field of triangles that cannot be is named, and nothing is added") 
     CHECK(said_of([](Triangles&) {}) == "accepted");
 }
 
-TEST_CASE("a camera that sees nothing is refused by its field") {
+TEST_CASE("a camera with an empty view volume is rejected by its field") {
     const auto said_of_camera = [](const std::function<void(LookAt&)>& change) -> std::string {
         LookAt camera;
         change(camera);
@@ -139,14 +139,14 @@ TEST_CASE("a camera that sees nothing is refused by its field") {
     CHECK_THAT(said_of_camera([](LookAt& c) { c.far = c.near; }), Contains("far: expected a finite number above near"));
 }
 
-TEST_CASE("names stand in the namespace of their minor version") {
+TEST_CASE("names are in the namespace of their minor version") {
     STATIC_REQUIRE(std::is_same_v<strata::Scene, strata::v0_1::Scene>);
     STATIC_REQUIRE(std::is_same_v<strata::Rendering, strata::v0_1::Rendering>);
     CHECK(version_major == 0);
     CHECK(version_minor == 1);
 }
 
-TEST_CASE("a wrong name gets the nearest one, a wrong angle its limits") {
+TEST_CASE("a wrong name is rejected with the nearest valid one and a wrong angle with its limits") {
     CHECK_THROWS_WITH(profile("geforc8"), Contains("profile: name: ") && Contains("did you mean 'geforce8'?"));
     CHECK_THROWS_WITH(algorithm("duel"), Contains("did you mean 'dual'?") && Contains("front_to_back"));
     CHECK_THROWS_WITH(Scene{"teapott"}, Contains("teapot"));
