@@ -1,5 +1,5 @@
-// Model: a pack that is not as it was is read, or refused by one of our own exceptions that names a place; any other
-// exception is a fault.
+// Tests packs that were changed: each is either read or rejected with one of the project's own exceptions that names
+// the file and the position. Any other exception is a fault.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -36,7 +36,7 @@ struct Pack {
         std::ifstream stream{file, std::ios::binary};
         manifest.assign(std::istreambuf_iterator<char>{stream}, {});
     }
-    // What is wrong with the answers of every reader to that text; empty if nothing.
+    // The first reader that fails with another exception on this text, with its message; empty if there is none.
     [[nodiscard]] std::string fault_of(const std::string& text) const {
         std::ofstream{file, std::ios::binary} << text;
         const auto tried = [](const auto& read) -> std::string {
@@ -59,7 +59,7 @@ struct Pack {
 
 }  // namespace
 
-TEST_CASE("a manifest with one byte changed is read or refused in a sentence") {
+TEST_CASE("a manifest with one byte changed is read or rejected with an error message") {
     const Pack pack;
     REQUIRE(pack.fault_of(pack.manifest) == "");
     testing::Random random{41};
@@ -67,7 +67,7 @@ TEST_CASE("a manifest with one byte changed is read or refused in a sentence") {
     for (int trial = 0; trial < 150 && first.empty(); ++trial) {
         std::string text = pack.manifest;
         const auto at = static_cast<std::size_t>(testing::random_int(random, 0, static_cast<int>(text.size()) - 1));
-        // Signs that JSON reads come more often than others.
+        // Characters of JSON's syntax are more frequent than others.
         constexpr std::string_view signs = "[]{}\",:-.e019tn \\/";
         text[at] = trial % 3 == 0 ? static_cast<char>(testing::random_int(random, 0, 255))
                                   : signs[static_cast<std::size_t>(testing::random_int(random, 0, 17))];
@@ -76,7 +76,7 @@ TEST_CASE("a manifest with one byte changed is read or refused in a sentence") {
     CHECK(first == "");
 }
 
-TEST_CASE("a manifest in which any value has another type is read or refused in a sentence") {
+TEST_CASE("a manifest with a value of another type is read or rejected with an error message") {
     const Pack pack;
     const json right = json::parse(pack.manifest), flat = right.flatten();
     const json others[] = {nullptr,
@@ -88,14 +88,14 @@ TEST_CASE("a manifest in which any value has another type is read or refused in 
                            json::object(),
                            json::array({json::array()}),
                            18446744073709551615u};
-    std::set<std::string> places;  // of values and of all that holds them
+    std::set<std::string> places;  // JSON pointers of all values and of the objects and arrays around them
     for (const auto& [place, value] : flat.items())
         for (std::string rest = place; !rest.empty(); rest = rest.substr(0, rest.rfind('/'))) places.insert(rest);
     testing::Random random{42};
     std::string first;
     std::size_t number = 0;
     for (const std::string& place : places) {
-        // All of the upper ones, a choice of the many below.
+        // All pointers near the root, and a random choice of the many below.
         if (std::count(place.begin(), place.end(), '/') > 4 && random() % 48 != 0) continue;
         json changed = right;
         changed[json::json_pointer{place}] = others[number++ % std::size(others)];

@@ -1,4 +1,4 @@
-// Model: stacks of layers changed on purpose, one mistake a pixel.
+// Tests the comparison of layers on stacks with one deliberate mistake per pixel.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/oracle/pictures.h"
@@ -9,9 +9,9 @@ using namespace strata::test;
 
 namespace {
 
-using Column = std::vector<Texel>;  // the layers of the one pixel, near to far
+using Column = std::vector<Texel>;  // the layers of one pixel, near to far
 
-// A file of layers of one pixel each.
+// A file with layers of one pixel each.
 Picture layered(const Column& column, std::size_t parts, const std::vector<std::uint32_t>& depths = {}) {
     std::vector<Target> targets;
     for (std::size_t i = 0; i < parts; ++i) {
@@ -34,7 +34,7 @@ const Texel layer_a{10, 200, 30, 100}, layer_b{90, 20, 60, 50}, layer_c{7, 8, 9,
 
 }  // namespace
 
-TEST_CASE("layers of a pixel are equal, missing, doubled, swapped or merged, whatever parts hold them") {
+TEST_CASE("layers of a pixel are classified as equal missing doubled swapped or merged in any parts") {
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_a, layer_b, layer_c}) == Kind::none);
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_b, layer_c}) == Kind::layer_missing);
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_a, layer_c}) == Kind::layer_missing);
@@ -44,13 +44,15 @@ TEST_CASE("layers of a pixel are equal, missing, doubled, swapped or merged, wha
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_a, layer_a, layer_c}) == Kind::layer_doubled);
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_b, layer_a, layer_c}) == Kind::layer_swapped);
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_c, layer_b, layer_a}) == Kind::layer_swapped);
-    CHECK(kind_of({layer_a, layer_b, layer_c}, {{90, 200, 60, 100}, layer_c}) == Kind::layer_merged);  // MAX of a and b
+    // component-wise MAX of a and b
+    CHECK(kind_of({layer_a, layer_b, layer_c}, {{90, 200, 60, 100}, layer_c}) == Kind::layer_merged);
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_a, layer_b, layer_x}) == Kind::color);
     CHECK(kind_of({layer_a, layer_b, layer_c}, {layer_a, layer_x}) == Kind::layer_other);
     CHECK(kind_of({layer_a}, {layer_a, layer_x, layer_b}) == Kind::layer_other);
 }
 
-TEST_CASE("two layers of one depth that became one are merged whatever its colour, and one that is left is no merger") {
+TEST_CASE(
+    "two layers of one depth that became one are merged whatever its colour and one that is left unchanged is not") {
     const std::vector<std::uint32_t> depths{5, 5, 9}, fewer{5, 9};
     CHECK(compare(layered({layer_a, layer_b, layer_c}, 3, depths), layered({layer_x, layer_c}, 3, fewer)).kind_of[0] ==
           Kind::layer_merged);
@@ -60,12 +62,12 @@ TEST_CASE("two layers of one depth that became one are merged whatever its colou
           Kind::layer_missing);
 }
 
-TEST_CASE("as many layers with another depth differ in depth") {
+TEST_CASE("the same number of layers with another depth differ in depth") {
     CHECK(compare(layered({layer_a, layer_b}, 3, {5, 6}), layered({layer_a, layer_b}, 3, {5, 7})).kind_of[0] ==
           Kind::depth);
 }
 
-TEST_CASE("a file with fewer parts than the reference is compared as far as it goes, and misses layers") {
+TEST_CASE("a file with fewer parts than the reference is compared as far as it goes and reports missing layers") {
     const Comparison found = compare(layered({layer_a, layer_b, layer_c}, 3), layered({layer_a, layer_b}, 2));
     CHECK(found.kind_of[0] == Kind::layer_missing);
     CHECK_FALSE(found.equal);

@@ -1,4 +1,5 @@
-// Model: a picture changed on purpose; how many pixels and how far is counted while they are changed.
+// Tests the comparison of pictures that are changed on purpose. The expected numbers of pixels and codes are counted as
+// the pixels are changed.
 #include "tools/oracle/compare.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::size_t inside_pixel() { return 15 * 40 + 19; }
 
 }  // namespace
 
-TEST_CASE("a picture equals itself, whatever bits it has, and then there is nothing to explain") {
+TEST_CASE("a picture is equal to itself for any bits and then has no explanation") {
     const Picture picture = ellipse();
     const Comparison found = compare(picture, picture);
     CHECK(found.equal);
@@ -35,7 +36,7 @@ TEST_CASE("a picture equals itself, whatever bits it has, and then there is noth
     CHECK(to_text(found) == "equal\n");
 }
 
-TEST_CASE("colours that are a code off are found at their pixel, and forgiven only by a tolerance of as many codes") {
+TEST_CASE("colours one code off are found at their pixel and accepted by a tolerance of that many codes") {
     const Picture reference = ellipse();
     Picture candidate = reference;
     candidate.targets[0].codes[inside_pixel() * 4 + 1] += 2;
@@ -52,7 +53,7 @@ TEST_CASE("colours that are a code off are found at their pixel, and forgiven on
     CHECK_FALSE(compare(reference, candidate, {.depth_codes = 2, .coverage = {.pixels = 5}}).accepted);
 }
 
-TEST_CASE("the first pixel of a kind is the first that its tolerance does not forgive") {
+TEST_CASE("the first pixel of a kind is the first that the tolerance does not accept") {
     const Picture reference = ellipse();
     Picture candidate = reference;
     candidate.targets[0].codes[inside_pixel() * 4] += 1;
@@ -64,7 +65,7 @@ TEST_CASE("the first pixel of a kind is the first that its tolerance does not fo
     CHECK(find_kind(found, Kind::color)->beyond == 1);
 }
 
-TEST_CASE("another colour behind everything is the background, and drawn pixels that are not are coverage") {
+TEST_CASE("a colour where nothing is drawn is a background difference and a missing pixel one of coverage") {
     const Picture reference = ellipse();
     std::uint64_t empty = 0;
     Picture candidate = make_picture({make_target("", Code::unorm8, 40, 30, 4, [&](int x, int y) {
@@ -86,7 +87,7 @@ TEST_CASE("another colour behind everything is the background, and drawn pixels 
     CHECK_FALSE(compare(reference, holed, {.color_codes = 255}).accepted);
 }
 
-TEST_CASE("depths are told apart by codes, with a histogram, and decide what is drawn") {
+TEST_CASE("depths are compared by codes with a histogram and decide which pixels are drawn") {
     const auto depth = [](int off) {
         return make_target("", Code::unorm24, 40, 30, 1, [=](int x, int y) -> Texel {
             if (!is_in_ellipse(x, y)) return {0xffffff, 0, 0, 0};
@@ -104,7 +105,7 @@ TEST_CASE("depths are told apart by codes, with a histogram, and decide what is 
     CHECK(compare(make_picture({depth(0)}), make_picture({depth(2)}), {.depth_codes = 2}).accepted);
 }
 
-TEST_CASE("pictures of unequal size, or without a common target, are no input, and a missing alpha is told") {
+TEST_CASE("pictures of unequal size or without a common target are rejected and a missing alpha is reported") {
     const Picture reference = ellipse();
     CHECK_THROWS_AS(compare(reference, make_picture({make_target("", Code::unorm8, 39, 30, 4, ellipse_texel)})),
                     strata::InputError);
@@ -116,7 +117,7 @@ TEST_CASE("pictures of unequal size, or without a common target, are no input, a
     CHECK(rgb.notes == std::vector<std::string>{"color: the candidate has no alpha, which counts as 1"});
 }
 
-TEST_CASE("reports name every kind, and JUnit fails those alone that are beyond the tolerance") {
+TEST_CASE("reports name every kind and JUnit fails only those beyond the tolerance") {
     const Picture reference = ellipse();
     Picture candidate = reference;
     candidate.targets[0].codes[inside_pixel() * 4] += 1;
@@ -146,14 +147,15 @@ TEST_CASE("JUnit skips the kinds that the compared targets cannot show") {
                                           "layer_other"};
     std::vector<std::string> flat = layers;
     flat.push_back("depth");
-    CHECK(skipped(ellipse()) == flat);  // a colour alone, with a background to read
+    CHECK(skipped(ellipse()) == flat);  // colour only, with a known background
     Target depth = make_target("", Code::unorm24, 40, 30, 1, ellipse_texel);
     depth.name = "depth";
     depth.meaning = Meaning::depth;
     CHECK(skipped(make_picture({make_target("", Code::unorm8, 40, 30, 4, ellipse_texel), depth})) == layers);
 }
 
-TEST_CASE("a heat map is black exactly where the pictures are equal, and has the colour of so many codes elsewhere") {
+TEST_CASE(
+    "a heat map is black exactly where the pictures are equal and elsewhere has the colour of the distance in codes") {
     const Picture reference = ellipse();
     Picture candidate = reference;
     candidate.targets[0].codes[inside_pixel() * 4] += 44;
@@ -191,8 +193,8 @@ TEST_CASE("a heat map is black exactly where the pictures are equal, and has the
     CHECK(wrong == 0);
 }
 
-// 18 of 30,000 pixels are far off, as a dropped fragment leaves them; all others are a code away at most.
-TEST_CASE("a budget of pixels accepts as many as it says, whatever they differ in, and tells how many were spent") {
+// 18 of 30,000 pixels are far off, as after a dropped fragment; all others are at most one code off.
+TEST_CASE("a budget accepts its number of pixels for any difference and reports how many were used") {
     const Target right = make_target("", Code::unorm8, 200, 150, 4, [](int x, int y) {
         return Texel{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 30, 255};
     });
@@ -213,7 +215,7 @@ TEST_CASE("a budget of pixels accepts as many as it says, whatever they differ i
         CHECK(found.spent[0].pixels == 18);
         CHECK(found.spent[0].allowed == 18);
     }
-    // What one budget pays the other need not; what it cannot pay, it does not.
+    // A pixel that one budget covers does not count against the other; a pixel that neither covers is a difference.
     const Comparison both =
         compare(reference, candidate, {.color_codes = 2, .color = {.pixels = 10}, .pixels = {.pixels = 18}});
     CHECK(both.accepted);
@@ -221,13 +223,13 @@ TEST_CASE("a budget of pixels accepts as many as it says, whatever they differ i
     CHECK_FALSE(compare(reference, candidate, {.color_codes = 2, .depth = {.pixels = 99}}).accepted);
 }
 
-TEST_CASE("RMSE and PSNR are those of all channels in 1/255") {
+TEST_CASE("RMSE and PSNR are those of all channels in units of 1/255") {
     const auto flat = [](std::uint32_t red) {
         return make_picture({make_target("", Code::unorm8, 2, 2, 3, [red](int x, int) {
             return Texel{x == 0 ? red : 100, 20, 30, 0};
         })});
     };
-    // 2 of 12 codes are 6 away: a mean square of 72 / 12 = 6.
+    // 2 of 12 codes are 6 off: the mean square is 72 / 12 = 6.
     const Comparison found = compare(flat(100), flat(106));
     REQUIRE(found.targets.at(0).rmse);
     CHECK(*found.targets[0].rmse == Approx(std::sqrt(6.0)).epsilon(1e-12));

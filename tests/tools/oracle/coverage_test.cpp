@@ -1,4 +1,5 @@
-// Model: shapes sampled at pixel centres by an inequality; the mistake is a change of that inequality.
+// Tests the diagnosis of coverage. Shapes are sampled at pixel centres by an inequality; the deliberate mistake is a
+// change of that inequality.
 #include "tools/oracle/coverage.h"
 
 #include <catch2/catch.hpp>
@@ -22,7 +23,7 @@ Mask sampled(const std::function<bool(double x, double y)>& is_in) {
 
 bool is_in_disc(double x, double y) { return (x - 31.2) * (x - 31.2) + (y - 24.7) * (y - 24.7) < 18.3 * 18.3; }
 
-// Edges through pixel centres: ties on all four sides.
+// The edges pass through pixel centres, so there are ties on all four sides.
 enum class Owns { left_and_top, right_and_bottom, all, none };
 Mask rectangle(Owns owns) {
     return sampled([=](double x, double y) {
@@ -37,7 +38,7 @@ Mask rectangle(Owns owns) {
 
 }  // namespace
 
-TEST_CASE("a shape moved by half a pixel is told as moved, with the way that it went") {
+TEST_CASE("a shape moved by half a pixel is reported as moved with its direction") {
     const Masks right{sampled(is_in_disc), sampled([](double x, double y) { return is_in_disc(x - 0.5, y); })};
     const CoverageReport found = compare_coverage(right, shape_width, shape_height);
     CHECK(found.mistake == CoverageMistake::moved);
@@ -48,7 +49,7 @@ TEST_CASE("a shape moved by half a pixel is told as moved, with the way that it 
     CHECK(compare_coverage(up, shape_width, shape_height).mistake == CoverageMistake::moved);
 }
 
-TEST_CASE("edges that count on all sides, or on none, are a fill rule") {
+TEST_CASE("edges that include their ties on all sides or on none are reported as a fill rule") {
     const CoverageReport all =
         compare_coverage({rectangle(Owns::left_and_top), rectangle(Owns::all)}, shape_width, shape_height);
     CHECK(all.mistake == CoverageMistake::edge_rule);
@@ -63,8 +64,8 @@ TEST_CASE("edges that count on all sides, or on none, are a fill rule") {
     CHECK(grown.lost == 0);
 }
 
-TEST_CASE("ties that go to the other edge gain on one side what they lose on the other") {
-    // Six of its 33 rows end at pixel centres; the others do not, and nothing ties above and below.
+TEST_CASE("ties assigned to the opposite edge gain pixels on one side and lose them on the other") {
+    // Six of its 33 rows have ties at the left and right ends; there are no ties at the top and bottom.
     const auto shape = [](Owns owns) {
         return sampled([=](double x, double y) {
             if (y < 8.2 || y > 41.2) return false;
@@ -79,7 +80,7 @@ TEST_CASE("ties that go to the other edge gain on one side what they lose on the
     CHECK(found.lost > 0);
 }
 
-TEST_CASE("a border that trembles is snapping, and a hole far from it a lost surface") {
+TEST_CASE("a border with random offsets is reported as snapping and a hole far from it as a lost surface") {
     std::uint32_t state = 1;
     const Masks trembling{sampled(is_in_disc), sampled([&](double x, double y) {
                               state = state * 1664525u + 1013904223u;
@@ -95,7 +96,7 @@ TEST_CASE("a border that trembles is snapping, and a hole far from it a lost sur
     CHECK(hole.gained == 0);
 }
 
-TEST_CASE("drawn is what a depth, an alpha or a colour other than the background's says") {
+TEST_CASE("a pixel is drawn if its depth or its alpha or its colour differs from the background") {
     const Picture reference = ellipse();
     const Pair same{&reference.targets[0], &reference.targets[0]};
     const auto by_color = drawn(std::span{&same, 1});

@@ -1,6 +1,6 @@
-// Model: a machine of one pixel that does the lines of `explain` again, from their JSON alone: clears, copies, tests
-// and blends in integers over 255 and in binary32, written from fragment-stages.md 5 to 9. It must arrive at the
-// picture of the usual run.
+// Tests that the lines of `explain` are complete: a model of one pixel repeats them from their JSON alone. It clears,
+// copies, tests and blends in integers over 255 and in binary32, written from fragment-stages.md 5 to 9, and must
+// produce the picture of the ordinary run.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -36,7 +36,7 @@ float float_of(const json& bits) {
 
 int byte_of(float v) { return !(v > 0) ? 0 : static_cast<int>(std::floor(std::min(double{v}, 1.0) * 255 + 0.5)); }
 
-// A factor as a number of 255ths, for codes s and d of r g b a.
+// A blend factor in units of 1/255; sa and da are the codes of the alphas.
 int factor_255(const std::string& name, int sa, int da) {
     if (name == "one") return 255;
     if (name == "src_alpha") return sa;
@@ -57,7 +57,7 @@ float factor_float(const std::string& name, float sa, float da) {
     return 0;
 }
 
-std::uint32_t half_of(float v) {  // finite, not negative, to the nearest, ties to even
+std::uint32_t half_of(float v) {  // v is finite and not negative; rounded to nearest, ties to even
     const int exponent = v == 0.0f ? -14 : std::max(std::ilogb(v), -14);
     const auto units = static_cast<std::uint32_t>(std::nearbyint(std::ldexp(double{v}, 10 - exponent)));
     return units + (static_cast<std::uint32_t>(exponent + 14) << 10);
@@ -153,7 +153,7 @@ Replayed replay(const json& history) {
         for (const json& held : line["held"]) {
             const std::string name = held["target"];
             formats[name] = held["format"];
-            // The opaque scene is there before the first line; a target that was never cleared holds zeros.
+            // The opaque scene is drawn before the first line; a target that was never cleared contains zeros.
             if (!targets.contains(name)) targets[name] = PixelCodes(held["before"].size(), 0u);
         }
         if (kind == "published") {
@@ -191,7 +191,7 @@ Replayed replay(const json& history) {
 
 }  // namespace
 
-TEST_CASE("the lines of explain, done again, give the picture's bits at every pixel of three scenes", "[slow]") {
+TEST_CASE("the lines of explain reproduce the bits of the picture at every pixel of three scenes", "[slow]") {
     int pixels = 0, lines = 0;
     for (const std::string scene : {"random", "teapot", "volume-beam:slices=6"})
         for (const std::string name :
@@ -214,7 +214,7 @@ TEST_CASE("the lines of explain, done again, give the picture's bits at every pi
                 for (const Line& line : histories[p].lines) {
                     const bool is_quad = line.kind == LineKind::quad;
                     if (line.kind != LineKind::fragment && !is_quad) continue;
-                    // Of quads, what a program discards is not counted.
+                    // For quads, fragments that the shader discards are not counted.
                     if (!is_quad || line.fate != Fate::discarded) ++fates[line.fate];
                 }
                 ++pixels;

@@ -1,4 +1,4 @@
-// Model: frames that are drawn by the paths and orders that a history names.
+// Tests the history of a pixel against frames that are drawn with the depth paths and orders that the history names.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <map>
@@ -11,13 +11,13 @@ using namespace strata;
 using namespace strata::oracle;
 using namespace strata::testing;
 
-TEST_CASE("a dual peel says which pass took which fragment at which end, and merges what ties") {
+TEST_CASE("the history of a dual peel has the pass and the end at which each fragment is peeled and merges ties") {
     const ExplainedScene column = explained_scene("random", 20, 14);
     const auto histories = explain(column.input("geforce8"), *peeling::find_algorithm("dual"), {0, 0, 20, 14});
     int deep = 0, wrong = 0;
     for (const History& history : histories) {
         std::map<float, std::vector<int>> by_depth;
-        std::uint32_t opaque_bits = 0x3f800000;  // the scene has nothing opaque
+        std::uint32_t opaque_bits = 0x3f800000;  // bits of 1.0: the scene has no opaque surface
         for (std::size_t f = 0; f < history.fragments.size(); ++f)
             if (history.fragments[f].shader_z < std::bit_cast<float>(opaque_bits))
                 by_depth[history.fragments[f].shader_z].push_back(static_cast<int>(f));
@@ -26,7 +26,7 @@ TEST_CASE("a dual peel says which pass took which fragment at which end, and mer
         wrong += composited(history) != wanted ? 1 : 0;
         if (wanted.size() < 4) continue;
         ++deep;
-        // Pass 1 takes both ends, pass 2 the next two, from each side one.
+        // Pass 1 peels both ends, pass 2 the next one from each side.
         std::vector<int> iterations;
         for (const Line& line : history.lines)
             if (line.kind == LineKind::taken) iterations.push_back(line.side == pipeline::Side::back ? -1 : 1);
@@ -36,8 +36,7 @@ TEST_CASE("a dual peel says which pass took which fragment at which end, and mer
     CHECK(wrong == 0);
 }
 
-TEST_CASE(
-    "a fragment's depth by every path is what a frame with that path stores there, and its triangle holds the pixel") {
+TEST_CASE("a fragment's depth by each path is the code that a frame with that path stores") {
     const ExplainedScene column = explained_scene("planes:gap=4", 20, 14);
     RunInput input = column.input("geforce3");
     input.options.depth = pipeline::DepthFormat::d24;
@@ -75,11 +74,10 @@ TEST_CASE(
     CHECK(compared > 500);
     CHECK(wrong == 0);
     CHECK(shares == 0);
-    CHECK(apart > 0);  // the hazard of close planes: the chip's interpolator and the exact plane store other codes
+    CHECK(apart > 0);  // on nearly equal planes, the chip's interpolator and the exact plane give different codes
 }
 
-TEST_CASE(
-    "of a peel that compares another depth than it stores, both are shown, and which fragments lie behind themselves") {
+TEST_CASE("the history of a peel that compares another depth than it stores has both depths") {
     const ExplainedScene column = explained_scene("planes:gap=4", 20, 14);
     RunInput input = column.input("geforce3");
     input.options.depth = pipeline::DepthFormat::d24;
@@ -99,19 +97,19 @@ TEST_CASE(
     CHECK(apart > 0);
 }
 
-// Model: the nearest code of the opaque fragments that are not cut, one by one in the order of their list, with LESS.
-TEST_CASE("opaque and masked fragments have a history, which leaves the depth and colour that the first pass finds") {
+// Expected: the nearest code of the opaque fragments that pass the alpha test, one by one in list order with LESS.
+TEST_CASE("opaque and masked fragments have a history that ends with the depth and colour seen by the first pass") {
     ExplainedScene room = explained_scene("showroom", 64, 64);
     REQUIRE(room.scene.own_view);
     room.view = *room.scene.own_view;
     auto& instances = room.scene.list.instances;
-    const auto once = instances;  // and once more at the same depths, which LESS hides
+    const auto once = instances;  // drawn again at the same depths, which LESS rejects
     instances.insert(instances.end(), once.begin(), once.end());
     const RunInput input = room.input("geforce8");
     int told = 0, cut = 0, wrong = 0, behind = 0;
     for (const History& history : explain(input, *peeling::find_algorithm("front_to_back"), {0, 0, 64, 64})) {
         std::optional<std::uint32_t> depth;
-        bool is_over = false;  // no opaque line after those of the passes
+        bool is_over = false;  // opaque lines must come before those of the passes
         for (const Line& line : history.lines) {
             wrong += line.kind == LineKind::opaque && is_over ? 1 : 0;
             is_over |= line.kind != LineKind::opaque;
@@ -143,7 +141,7 @@ TEST_CASE("opaque and masked fragments have a history, which leaves the depth an
     CHECK(text.find("  before: fragment opaque.0 ") != std::string::npos);
 }
 
-TEST_CASE("where algorithms part ways is told in a sentence, and drawn") {
+TEST_CASE("the point where algorithms differ is described in a sentence and drawn") {
     const ExplainedScene column = explained_scene("random", 20, 14);
     const rasterizer::Rect centre{10, 7, 11, 8};
     std::vector<History> histories;

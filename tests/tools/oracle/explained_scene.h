@@ -1,4 +1,4 @@
-// tests/tools/oracle/explained_scene.h - a scene by its name, seen from its orbit, as `explain` takes it.
+// tests/tools/oracle/explained_scene.h - loads a scene by name with its default orbit, as the input of `explain`.
 #pragma once
 #include <string>
 

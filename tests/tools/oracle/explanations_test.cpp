@@ -1,4 +1,5 @@
-// Model: the mistake made on purpose, in integers and in the formulas of IEC 61966-2-1 by the C library.
+// Tests the explanations of whole-picture mistakes. Each mistake is made here in integers or by the formulas of IEC
+// 61966-2-1 with the C library.
 #include "tools/oracle/explanations.h"
 
 #include <bit>
@@ -12,7 +13,7 @@ using namespace strata::test;
 
 namespace {
 
-// Colours with all alphas, none of them symmetric.
+// Colours with all alphas, without symmetries.
 Texel spread(int x, int y) {
     const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
     return {(i * 11 + j * 3) % 256, (i * 5 + j * 17 + 40) % 256, (i * 2 + j * 29 + 90) % 256, (i * 13 + j * 7) % 256};
@@ -44,7 +45,7 @@ std::function<Texel(int, int)> each_color(double (*change)(double v, double alph
 
 }  // namespace
 
-TEST_CASE("each mistake that changes a whole picture is named first, and explains all of it") {
+TEST_CASE("each mistake that changes a whole picture is the first explanation and explains all of it") {
     CHECK(best([](int x, int y) { return spread(x, 29 - y); }) == "flipped_rows");
     CHECK(best([](int x, int y) { return spread(39 - x, y); }) == "flipped_columns");
     CHECK(best([](int x, int y) { return spread(39 - x, 29 - y); }) == "turned");
@@ -70,7 +71,7 @@ TEST_CASE("each mistake that changes a whole picture is named first, and explain
           }) == "alpha_inverted");
 }
 
-TEST_CASE("a mistake that is none of these has no explanation") {
+TEST_CASE("an unknown mistake has no explanation") {
     CHECK(best([](int x, int y) {
               Texel t = spread(x, y);
               t[1] = (t[1] + 77) % 256;
@@ -78,16 +79,16 @@ TEST_CASE("a mistake that is none of these has no explanation") {
           }).empty());
 }
 
-TEST_CASE("a flip of a part of the picture explains that part and says what speaks against it") {
+TEST_CASE("a flip of a part of the picture explains that part and reports the pixels that contradict it") {
     const Picture mine = make_picture({make_target("", Code::unorm8, 40, 30, 4, spread)});
     const Picture theirs = make_picture({make_target(
         "", Code::unorm8, 40, 30, 4, [](int x, int y) { return x < 10 ? spread(x, 29 - y) : spread(x, y); })});
     const Pair pair{&mine.targets[0], &theirs.targets[0]};
-    // 300 pixels are explained and 900 equal ones contradict: not worth a word.
+    // 300 pixels are explained and 900 equal ones contradict: not reported.
     CHECK(explanations(std::span{&pair, 1}).empty());
 }
 
-TEST_CASE("depths that are reversed or have 16 bits are named") {
+TEST_CASE("reversed depths and 16-bit depths are explained") {
     const auto depth = [](auto change) {
         return make_picture({make_target("", Code::unorm24, 40, 30, 1, [=](int x, int y) -> Texel {
             return {change(static_cast<std::uint32_t>(x * 400009 + y * 1237)), 0, 0, 0};

@@ -1,4 +1,4 @@
-// Model: the arrays of the pack, read by another reader than that of the copies.
+// Tests the EXR copies in a pack against the pack's arrays, which are read with a different library.
 #include "tools/oracle/pack/exr_copies.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using namespace strata::oracle;
 
 namespace {
 
-// A multisampled algorithm, one with layers of both ends, and one with D24 and stencils.
+// A multisampled algorithm, one with layers from both ends, and one with D24 and stencils.
 std::string pack_with_copies(const std::string& folder) {
     Golden golden{.scene = scenes::load_scene("random:triangles=10,seed=5", {}),
                   .profile = *pipeline::find_profile("geforce8_dx101")};
@@ -31,7 +31,7 @@ std::string pack_with_copies(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("EXR copies hold the codes of the arrays, and a copy of something else is named") {
+TEST_CASE("EXR copies have the codes of the arrays and a copy that differs is reported") {
     const test::OwnFolder folder;
     const std::string pack = pack_with_copies(folder.path()), expected = pack + "/expected/";
     CHECK(check_pack(pack).empty());
@@ -48,7 +48,7 @@ TEST_CASE("EXR copies hold the codes of the arrays, and a copy of something else
     std::filesystem::copy_file(expected + "dual/pass.002.exr", expected + "dual/pass.001.exr",
                                std::filesystem::copy_options::overwrite_existing);
     std::filesystem::copy_file(expected + "dual/pass.002.exr", expected + "dual/pass.777.exr");
-    std::filesystem::remove(expected + "dual/picture.exr");  // a copy that is not there is not missed
+    std::filesystem::remove(expected + "dual/picture.exr");  // a missing copy is not an error
     const auto faults = check_pack(pack);
     REQUIRE(faults.size() == 2);
     CHECK(faults[0].file == "expected/dual/pass.001.exr");

@@ -1,4 +1,4 @@
-// Model: the pack's own bytes, one of them changed; the usual run's picture; options as they went in.
+// Tests golden packs: an intact one, ones with a changed byte, and the pictures and options of an ordinary run.
 #include "tools/oracle/pack/golden.h"
 
 #include <catch2/catch.hpp>
@@ -57,7 +57,7 @@ std::vector<files::path> files_below(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("a pack is what it is derived from, and a changed byte is named with its file, its place and both values") {
+TEST_CASE("an intact pack passes its check and a changed byte is reported with its file and offset and values") {
     const test::OwnFolder folder;
     const std::string pack = folder.path() + "/pack";
     write_pack(small_golden("planes:count=2,cells=1", {"front_to_back", "dual", "stencil_routed_k_buffer"}), pack);
@@ -88,7 +88,7 @@ TEST_CASE("a pack is what it is derived from, and a changed byte is named with i
     CHECK(check_pack(pack).empty());
 }
 
-TEST_CASE("a pack whose profile lacks the fields that came later is read and checked as before them") {
+TEST_CASE("a pack whose profile lacks later fields is read and checked with their defaults") {
     const test::OwnFolder folder;
     const std::string pack = folder.path() + "/pack";
     Golden golden = small_golden("planes:count=2", {"dual"}, "geforce8");
@@ -107,7 +107,7 @@ TEST_CASE("a pack whose profile lacks the fields that came later is read and che
     put(profile);
     CHECK(read_pack(pack).profile == golden.profile);
     CHECK(check_pack(pack).empty());
-    // One with another value gives other files, and one that was always there is missed.
+    // Another value gives other files, and a field of the first version is required.
     profile["raster"]["subpixel_bits"] = 4;
     put(profile);
     CHECK_FALSE(check_pack(pack).empty());
@@ -116,7 +116,7 @@ TEST_CASE("a pack whose profile lacks the fields that came later is read and che
     CHECK_THROWS_WITH(read_pack(pack), Contains("/blend_rounding: expected one of"));
 }
 
-TEST_CASE("a check finds files that are missing or too many, a changed manifest, and two changed bytes of an input") {
+TEST_CASE("a check finds missing or extra files or a changed manifest or two changed bytes of an input") {
     const test::OwnFolder folder;
     const std::string pack = folder.path() + "/pack";
     write_pack(small_golden("planes:count=1,cells=1", {"front_to_back"}), pack);
@@ -137,7 +137,7 @@ TEST_CASE("a check finds files that are missing or too many, a changed manifest,
     put_bytes(positions, other);
     CHECK(check_pack(pack).at(0).file == "scene/mesh.000.positions.npy");
     put_bytes(positions, corners);
-    // A digest, a count and a word of the manifest.
+    // Changes a digest, a count and a name of the manifest.
     const std::string manifest = pack + "/manifest.json", text = bytes_of_file(manifest);
     for (const auto& [what, by] : {std::pair{"\"kind\": \"geometry\"", "\"kind\": \"geometries\""},
                                    std::pair{"\"goes_on\": true", "\"goes_on\": false"},
@@ -154,13 +154,13 @@ TEST_CASE("a check finds files that are missing or too many, a changed manifest,
     CHECK_THROWS_WITH(write_pack(small_golden("planes:count=1,cells=1", {"dual"}), pack),
                       Contains("is not empty; it has to be a new folder or an empty one"));
     CHECK(check_pack(pack).empty());
-    // A refused algorithm leaves no folder.
+    // A rejected algorithm leaves no folder.
     CHECK_THROWS_AS(write_pack(small_golden("planes:count=1", {"dual"}, "geforce3"), folder.path() + "/none"),
                     pipeline::Refused);
     CHECK_FALSE(files::exists(folder.path() + "/none"));
 }
 
-TEST_CASE("a pack's picture, layers and passes are the usual run's, for every algorithm and under every state") {
+TEST_CASE("a pack has the results of an ordinary run for every algorithm and every state") {
     struct State {
         const char* profile;
         void (*set)(peeling::RenderOptions& options);
@@ -223,7 +223,7 @@ TEST_CASE("a pack's picture, layers and passes are the usual run's, for every al
     CHECK(ran > 40);
 }
 
-TEST_CASE("digests of a target's channels and tiles are those of the channels and tiles") {
+TEST_CASE("digests of a target's channels and tiles are those of their codes") {
     pipeline::Image image{pipeline::Format::rgba8, 18, 17};
     for (std::size_t i = 0; i < image.codes.size(); ++i) image.codes[i] = static_cast<std::uint32_t>(i * 7 % 256);
     scenes::PackFiles files{[](const std::string&, const std::string&) {}};

@@ -1,4 +1,5 @@
-// Model: lightness as CIE 1976 has it (L* of sRGB, D65), computed here in double; the logarithm of the C library.
+// Tests the colour scale of heat maps. The expected lightness is L* of CIE 1976 (of sRGB, D65), computed here in
+// double; logarithms are those of the C library.
 #include "tools/oracle/heat_scale.h"
 
 #include <algorithm>
@@ -24,14 +25,14 @@ double lightness(const std::array<std::uint8_t, 3>& rgb) {
 
 }  // namespace
 
-TEST_CASE("twice as many codes are a step lighter, and every step is as large, to a fourteenth of the whole range") {
+TEST_CASE("each doubling of the distance is one equal step of lightness within a fourteenth of the whole range") {
     for (const std::uint32_t greatest : {1u, 255u, 256u, 65535u, 65536u, ~0u}) {
         const HeatScale scale{greatest};
         const int octaves = std::bit_width(scale.end());
         CHECK(scale.end() >= std::max(greatest, 255u));
         CHECK((scale.end() & (scale.end() + 1)) == 0);
         CHECK((scale.end() == 255 || scale.end() / 2 < greatest));
-        CHECK(lightness(scale.color(1)) > 20);  // not to be taken for black
+        CHECK(lightness(scale.color(1)) > 20);  // clearly lighter than black
         CHECK(lightness(scale.color(scale.end())) > 95);
         const double whole = lightness(scale.color(scale.end())) - lightness(scale.color(1));
         INFO("greatest " << greatest);
@@ -45,7 +46,7 @@ TEST_CASE("twice as many codes are a step lighter, and every step is as large, t
     }
 }
 
-TEST_CASE("0 codes are black, more codes are never darker, and beyond the end nothing changes") {
+TEST_CASE("a distance of 0 is black and larger distances are never darker and constant beyond the end") {
     const HeatScale scale{200};
     CHECK(scale.color(0) == std::array<std::uint8_t, 3>{0, 0, 0});
     double before = 0;
@@ -55,11 +56,11 @@ TEST_CASE("0 codes are black, more codes are never darker, and beyond the end no
         before = now;
     }
     CHECK(scale.color(1'000'000) == scale.color(255));
-    // What people ask of a map: one code and forty-four do not look alike.
+    // In a useful map one code and forty-four codes are clearly different.
     CHECK(lightness(scale.color(44)) - lightness(scale.color(1)) > 40);
 }
 
-TEST_CASE("the legend's bar has the scale's colours from end to end, and its numbers stand below their colours") {
+TEST_CASE("the bar of the legend has the scale's colours from end to end with numbers below their colours") {
     const HeatScale scale{255};
     strata::pipeline::Image image{strata::pipeline::Format::rgba8, 300, legend_height_px};
     draw_legend(image, 0, 0, 300, scale);
@@ -74,7 +75,7 @@ TEST_CASE("the legend's bar has the scale's colours from end to end, and its num
         const auto x = static_cast<int>(std::lround(std::log2(distance) / std::log2(255.0) * 299));
         CHECK(std::fabs(lightness(at(x, 5)) - lightness(scale.color(distance))) < 1);
     }
-    // "16" is drawn where the legend has it: the same pixels in a row of letters.
+    // "16" is drawn at its position: the same pixels are lit when it is drawn alone.
     strata::pipeline::Image word{strata::pipeline::Format::rgba8, 300, legend_height_px};
     const auto x = static_cast<int>(std::log2(16.0) / std::log2(255.0) * 299);
     draw_text(word, x - 8, 14, "16", 2);
@@ -83,7 +84,7 @@ TEST_CASE("the legend's bar has the scale's colours from end to end, and its num
         for (int column = x - 8; column < x + 8; ++column)
             missing += word.codes[word.index(column, y, 0)] > image.codes[image.index(column, y, 0)] ? 1 : 0;
     CHECK(missing == 0);
-    // The end's number is whole in the narrowest legend.
+    // The last number is complete in the narrowest legend.
     for (const std::uint32_t greatest : {255u, 65535u, 16'777'215u, 4'294'967'295u}) {
         const HeatScale other{greatest};
         strata::pipeline::Image least{strata::pipeline::Format::rgba8, least_legend_width_px, legend_height_px},
@@ -97,13 +98,13 @@ TEST_CASE("the legend's bar has the scale's colours from end to end, and its num
                 missing += end.codes[end.index(column, y, 0)] > least.codes[least.index(column, y, 0)] ? 1 : 0;
     }
     CHECK(missing == 0);
-    // A narrow one keeps its ends.
+    // A narrow legend keeps its end colours.
     strata::pipeline::Image narrow{strata::pipeline::Format::rgba8, 20, legend_height_px};
     draw_legend(narrow, 0, 0, 20, scale);
     CHECK(narrow.codes[narrow.index(0, 5, 0)] == scale.color(1)[0]);
 }
 
-TEST_CASE("a legend's numbers rise from 1 code to the end, each where its logarithm has it, three to five of them") {
+TEST_CASE("a legend has three to five numbers from 1 code to the end at the positions of their logarithms") {
     for (int bits = 1; bits <= 32; ++bits) {
         const HeatScale scale{~std::uint32_t{0} >> (32 - bits)};
         const auto marks = scale.marks();
@@ -119,7 +120,7 @@ TEST_CASE("a legend's numbers rise from 1 code to the end, each where its logari
     }
 }
 
-TEST_CASE("a legend's stops are the scale's colours in even steps") {
+TEST_CASE("the stops of a legend are the scale's colours in even steps") {
     const HeatScale scale{255};
     const auto stops = HeatScale::stops();
     CHECK(stops.front() == scale.color(1));
@@ -127,6 +128,7 @@ TEST_CASE("a legend's stops are the scale's colours in even steps") {
     for (std::size_t i = 0; i < stops.size(); ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
         const auto distance = static_cast<std::uint32_t>(std::lround(std::exp2(share * std::log2(255.0))));
-        CHECK(std::fabs(lightness(stops[i]) - lightness(scale.color(distance))) < 6);  // distances are whole
+        // distances are rounded to integers
+        CHECK(std::fabs(lightness(stops[i]) - lightness(scale.color(distance))) < 6);
     }
 }

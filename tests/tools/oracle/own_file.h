@@ -1,4 +1,4 @@
-// tests/tools/oracle/own_file.h - a file with a unique name, for one test.
+// tests/tools/oracle/own_file.h - a file with a unique name for one test.
 #pragma once
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 
 namespace strata::test {
 
-// A file of its own that goes when the test does.
+// A file with a unique name, deleted when the test ends.
 class OwnFile {
   public:
     OwnFile(const std::string& ending, const std::string& bytes) : path_{unique(ending)} {

@@ -1,4 +1,5 @@
-// Model: matrices times positions in long double, the viewport's formula, areas in integers.
+// Tests the vertices of a pack: clip coordinates against matrix products in long double, window positions against the
+// viewport's formula, facing against areas in integers.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -28,7 +29,8 @@ std::int32_t signed_at(const scenes::NumberArray& array, std::size_t i) {
 
 }  // namespace
 
-TEST_CASE("a pack's vertices are the scene's in clip space, and its corners theirs in the window to half a step") {
+TEST_CASE(
+    "the vertices of a pack are the scene's in clip space and its corners those in the window within half a step") {
     for (const char* name : {"teapot:tessellation=2", "shadow-demo", "volume-beam:slices=2"}) {
         INFO(name);
         const scenes::Scene scene = scenes::load_scene(name, {});
@@ -47,7 +49,7 @@ TEST_CASE("a pack's vertices are the scene's in clip space, and its corners thei
             const auto& clip = array("clip");
             const auto& corners = array("corners");
             const auto& triangles = array("triangles");
-            // Every corner of every triangle comes from the instance's own mesh, in order.
+            // Every corner of every triangle is from the instance's own mesh, in order.
             std::size_t triangle = 0;
             for (std::size_t o = 0; o < scene.list.instances.size(); ++o) {
                 const pipeline::Instance& instance = scene.list.instances[o];
@@ -102,7 +104,7 @@ TEST_CASE("a pack's vertices are the scene's in clip space, and its corners thei
     }
 }
 
-TEST_CASE("an order lists every triangle once, where an algorithm paints") {
+TEST_CASE("an order lists every triangle once where an algorithm sorts") {
     const scenes::Scene scene = scenes::load_scene("planes:count=4,cells=1", {});
     peeling::RenderOptions options;
     const pipeline::View view = scenes::orbit_view(scene.bounds, 0, 0, 1);

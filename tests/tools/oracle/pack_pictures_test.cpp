@@ -1,4 +1,4 @@
-// Model: a candidate is a copy of the expected tree with one number changed on purpose.
+// Tests the comparison of a pack with a candidate: a copy of the expected files with one number changed on purpose.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -43,7 +43,7 @@ void change_last_byte(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("the expected tree is its own right candidate, and so is the pack") {
+TEST_CASE("the expected files and the pack itself are accepted as candidates") {
     for (const pipeline::DepthFormat depth : {pipeline::DepthFormat::d24, pipeline::DepthFormat::d32f}) {
         const test::OwnFolder folder;
         const std::string pack = pack_and_copy(
@@ -63,14 +63,14 @@ TEST_CASE("the expected tree is its own right candidate, and so is the pack") {
     }
 }
 
-TEST_CASE("the first pass that went another way is named, with its targets, and what is not there is told") {
+TEST_CASE("the first pass that differs is reported with its targets and missing files are reported") {
     const test::OwnFolder folder;
     const std::string pack = pack_and_copy(folder.path(), {"dual", "weighted_average"}, pipeline::DepthFormat::d32f);
     const auto expected = expected_pictures(pack);
     const std::string candidate = folder.path() + "/candidate";
     std::filesystem::remove_all(candidate + "/weighted_average");
     const nlohmann::json manifest = scenes::read_manifest(pack);
-    // The second pass that writes a file of its own.
+    // Changes the second pass that writes a file of its own.
     std::string target;
     std::string changed_file;
     int number = -1;
@@ -100,7 +100,7 @@ TEST_CASE("the first pass that went another way is named, with its targets, and 
                                    Contains("the first pass that differs is " + std::to_string(number) + ",") &&
                                    Contains(target + " at 1 pixels") &&
                                    Contains("weighted_average: not compared: the candidate has nothing of it"));
-    // Every target of every pass is told: those whose file was changed differ.
+    // Every target of every pass is reported; only the changed file differs.
     std::size_t told = 0, wrong = 0;
     std::set<std::string> equal, unequal;
     for (const auto& pass : manifest["results"][0]["passes"]) {
@@ -109,7 +109,7 @@ TEST_CASE("the first pass that went another way is named, with its targets, and 
         const auto targets = compared != found[0].passes.end() ? compared->targets : std::vector<TargetReport>{};
         for (const auto& described : pass["targets"]) {
             const auto report = std::ranges::find(targets, described["name"].get<std::string>(), &TargetReport::name);
-            // The candidate's folder has the file where it was written first, and is not held to it again.
+            // A file that a later pass leaves unchanged is compared once, with the pass that wrote it.
             const auto file = described["file"].get<std::string>();
             const bool is_own = file.find(fmt::format("/pass.{:03}/", pass_number)) != std::string::npos;
             REQUIRE((report != targets.end()) == is_own);
@@ -133,7 +133,7 @@ TEST_CASE("the first pass that went another way is named, with its targets, and 
     CHECK(document[0]["passes"].size() == found[0].passes.size());
     CHECK(document[0]["first_pass"]["number"] == number);
     CHECK(document[0]["picture"]["equal"] == false);
-    // A tolerance of that target alone forgives the passes, and one of another target does not.
+    // A tolerance for that target accepts the passes, and one for another target does not.
     Tolerances tolerances;
     tolerances.color_codes = ~0u;
     tolerances.target_codes = {{target, 0}};

@@ -1,4 +1,5 @@
-// Model: the channels written out by hand; codes that were multiplied by alpha, by integers, and divided again.
+// Tests the pairing of channels between formats. The expected channels are written by hand; premultiplied codes are
+// multiplied by alpha in integers and divided again.
 #include "tools/oracle/pairs.h"
 
 #include <catch2/catch.hpp>
@@ -26,7 +27,7 @@ Picture one(int channels, const ChannelCodes& codes, bool is_grey = false, Alpha
 
 }  // namespace
 
-TEST_CASE("grey beside colour is red, green and blue alike") {
+TEST_CASE("grey is compared with colour as equal red and green and blue") {
     const Picture color = one(3, {10, 20, 30, 7, 7, 7}), grey = one(1, {10, 7}, true);
     for (const auto& [a, b] : {std::pair{&color, &grey}, std::pair{&grey, &color}}) {
         const Comparison found = compare(*a, *b);
@@ -41,7 +42,7 @@ TEST_CASE("grey beside colour is red, green and blue alike") {
     CHECK_FALSE(compare(one(2, {10, 254}, true), one(1, {10}, true)).equal);
 }
 
-TEST_CASE("a picture without alpha is opaque: it equals one whose alpha is 1 and no other, and both are told") {
+TEST_CASE("a picture without alpha equals only one whose alpha is 1 and the missing channel is reported") {
     const Picture rgb = one(3, {1, 2, 3}), opaque = one(4, {1, 2, 3, 255}), clear = one(4, {1, 2, 3, 0});
     CHECK(compare(rgb, opaque).equal);
     CHECK(compare(opaque, rgb).notes ==
@@ -55,7 +56,7 @@ TEST_CASE("a picture without alpha is opaque: it equals one whose alpha is 1 and
     CHECK_FALSE(compare(clear, one(4, {1, 2, 4, 0}), {.channels = ColorChannels::rgb}).equal);
 }
 
-TEST_CASE("channels that no rule makes alike are an error, not a comparison of a part") {
+TEST_CASE("channels that no rule makes comparable are an error and not compared in part") {
     Picture two = one(2, {1, 2});
     CHECK_THROWS_WITH(compare(one(4, {1, 2, 3, 4}), two),
                       "picture: color: expected 4 channels as the reference has, found 2");
@@ -63,13 +64,14 @@ TEST_CASE("channels that no rule makes alike are an error, not a comparison of a
                       "picture: color: expected 3 channels as the reference has, found 1");
 }
 
-// Of all 255 alphas above 0 and all colours that are not above them.
-TEST_CASE("straight colours that were divided from premultiplied ones are those again, code by code") {
+// For all 255 alphas above 0 and all colours up to alpha.
+TEST_CASE("premultiplied colours that are divided by alpha equal the original straight colours in every code") {
     ChannelCodes premultiplied, straight;
     for (std::uint32_t a = 1; a < 256; ++a)
         for (std::uint32_t p = 0; p <= a; ++p) {
             premultiplied.insert(premultiplied.end(), {p, 0, a, a});
-            const auto divided = [&](std::uint32_t c) { return (2 * 255 * c + a) / (2 * a); };  // rounded, a half up
+            // rounded to nearest, ties up
+            const auto divided = [&](std::uint32_t c) { return (2 * 255 * c + a) / (2 * a); };
             straight.insert(straight.end(), {divided(p), 0, 255, a});
         }
     const Picture a = one(4, premultiplied, false, AlphaForm::premultiplied);
@@ -79,7 +81,7 @@ TEST_CASE("straight colours that were divided from premultiplied ones are those 
     CHECK(compare(a, b).notes ==
           std::vector<std::string>{
               "color: straight colours of the candidate are multiplied by their alpha, as those of the reference are"});
-    // Of unknown form, of the same form, and opaque everywhere: as they are.
+    // Colours of unknown form, of the same form, or opaque everywhere are compared unchanged.
     CHECK_FALSE(compare(a, one(4, straight)).equal);
     CHECK_FALSE(compare(one(4, premultiplied, false, AlphaForm::straight), b).equal);
     CHECK(compare(one(4, {9, 8, 7, 255}, false, AlphaForm::premultiplied),

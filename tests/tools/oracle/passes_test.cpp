@@ -1,4 +1,5 @@
-// Model: the fragments of each pixel by depth; counts of passes as the run without an observer reports them.
+// Tests the passes of algorithms: depths against each pixel's fragments sorted by depth, and numbers of passes against
+// a run without an observer.
 #include "tools/oracle/passes.h"
 
 #include <bit>
@@ -50,7 +51,7 @@ const pipeline::Image& image_of(const PassShown& pass, const std::string& name) 
 
 }  // namespace
 
-TEST_CASE("every algorithm shows the passes that it counts, with every target, and at last its picture") {
+TEST_CASE("every algorithm reports as many passes as it counts with every target and its picture last") {
     const Loaded l = small_scene("teapot");
     int ran = 0;
     for (const peeling::Algorithm& algorithm : peeling::algorithms()) {
@@ -109,7 +110,7 @@ TEST_CASE("after pass k of a dual peel the min-max depths are the k-th nearest a
     CHECK(peeled == static_cast<std::size_t>(peeling::find_algorithm("dual")->geometry_passes(static_cast<int>(most))));
 }
 
-TEST_CASE("a query is told with the pass that it follows, and the last one stops") {
+TEST_CASE("a query is reported with the pass that it follows and the last query ends the loop") {
     const auto all = passes_of(small_scene("teapot"), "geforce8", "front_to_back");
     std::vector<Query> queries;
     for (const PassShown& pass : all) queries.insert(queries.end(), pass.queries.begin(), pass.queries.end());
@@ -122,7 +123,7 @@ TEST_CASE("a query is told with the pass that it follows, and the last one stops
           std::vector<std::string>{"clear accumulated", "clear layer", "copy opaque_depth to nearest.1"});
 }
 
-TEST_CASE("targets of every format come back from their file code by code") {
+TEST_CASE("targets of every format are read back from their file code by code") {
     using pipeline::Format;
     std::vector<NamedImage> targets;
     for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f, Format::r16f, Format::r32f,
@@ -150,7 +151,7 @@ TEST_CASE("targets of every format come back from their file code by code") {
     }
 }
 
-TEST_CASE("a contact sheet has a place for every target after every pass") {
+TEST_CASE("a contact sheet has every target after every pass") {
     const Loaded l = small_scene("teapot");
     ContactSheet sheet;
     std::size_t rows = 0;
@@ -161,7 +162,7 @@ TEST_CASE("a contact sheet has a place for every target after every pass") {
         for (const NamedImage& target : pass.targets) columns.insert(target.name);
     }
     const pipeline::Image image = sheet.image();
-    // Pixels of a frame of 24 x 16 are shown as squares of 4 x 4.
+    // Pixels of a frame of 24 x 16 are enlarged to squares of 4 x 4.
     CHECK(image.width == 128 + (4 * 24 + 4) * static_cast<int>(columns.size()));
     CHECK(image.height == 16 + (4 * 16 + 4) * static_cast<int>(rows));
 }

@@ -1,4 +1,4 @@
-// tests/tools/oracle/pictures.h - small pictures made by hand, and pixels changed on purpose.
+// tests/tools/oracle/pictures.h - small pictures made by hand, and functions that change pixels.
 #pragma once
 #include <array>
 #include <functional>
@@ -10,7 +10,7 @@ namespace strata::test {
 // The codes of a pixel, red first.
 using Texel = std::array<std::uint32_t, 4>;
 
-// One target, each pixel as `texel(x, y)` says.
+// One target; the codes of pixel (x, y) are texel(x, y).
 [[nodiscard]] oracle::Target make_target(const std::string& part, oracle::Code code, int width, int height,
                                          int channels, const std::function<Texel(int x, int y)>& texel);
 [[nodiscard]] oracle::Picture make_picture(std::vector<oracle::Target> targets);

@@ -1,4 +1,4 @@
-// Model: samples laid out by hand, and a plain search for the k-th smallest depth.
+// Tests the reader of deep EXR parts on samples written by hand, against a plain search for the k-th smallest depth.
 #include "tools/oracle/read_deep.h"
 
 #include <bit>
@@ -20,7 +20,7 @@ struct Sample {
     float r = 0, a = 0, z = 0;
 };
 
-// Channels A, R and Z in the order in which files have them.
+// Channels A, R and Z, in the order of files.
 StoredPart part_of(int width, int height, const std::vector<std::vector<Sample>>& pixels) {
     StoredPart part{.header = {.width = width, .height = height, .is_deep = true}, .is_whole = true};
     for (const char* name : {"A", "R", "Z"}) part.header.channels.push_back({name, StoredType::single});
@@ -37,7 +37,7 @@ StoredPart part_of(int width, int height, const std::vector<std::vector<Sample>>
 
 }  // namespace
 
-TEST_CASE("a deep part becomes layers from near to far, and pixels with fewer samples have zeros") {
+TEST_CASE("a deep part becomes layers from near to far and pixels with fewer samples have zeros") {
     constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
     const std::vector<std::vector<Sample>> pixels{{{0.1f, 1, 0.9f}, {0.2f, 1, 0.5f}, {0.3f, 1, 0.7f}},
                                                   {},
@@ -64,7 +64,7 @@ TEST_CASE("a deep part becomes layers from near to far, and pixels with fewer sa
     CHECK(none.size() == 2);
 }
 
-TEST_CASE("deep parts without colours, with mixed channels or with too many layers are refused by name") {
+TEST_CASE("deep parts without colours or with mixed channels or with too many layers are rejected by name") {
     StoredPart part = part_of(1, 1, {{{1, 1, 1}}});
     part.header.channels[0].type = StoredType::word;
     CHECK_THROWS_WITH(layers_of_deep(part, "d.exr"),

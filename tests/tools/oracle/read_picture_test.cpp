@@ -1,4 +1,5 @@
-// Model: files laid out here byte by byte, from the formats' own pages, and files that the project writes.
+// Tests the readers of picture files on files that are written here byte by byte from the formats' specifications, and
+// on files that the project writes.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/input_error.h"
@@ -27,7 +28,7 @@ std::string chunk(const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(~crc);
 }
 
-// Rows without a filter in one stored block of deflate: fewer than 65,536 bytes.
+// Unfiltered rows in one stored deflate block of fewer than 65,536 bytes.
 std::string png(std::uint32_t width, std::uint32_t height, char bits, char type, const std::string& rows) {
     std::uint32_t low = 1, high = 0;
     for (const char c : rows) {
@@ -55,7 +56,7 @@ std::string npy(const std::string& header, const std::string& data) {
 
 }  // namespace
 
-TEST_CASE("a PNG of 16 bits keeps all of them, and its number of channels") {
+TEST_CASE("a 16-bit PNG keeps all bits and its number of channels") {
     using namespace std::string_literals;
     const OwnFile rgb{".png", png(2, 1, 16, 2, "\0\x12\x34\x00\x01\xff\xff\x80\x00\x7f\xff\x00\x00"s)};
     const Picture picture = read_picture(rgb.path());
@@ -71,7 +72,7 @@ TEST_CASE("a PNG of 16 bits keeps all of them, and its number of channels") {
     CHECK(read_picture(straight.path()).targets[0].codes == std::vector<std::uint32_t>{200, 100, 50, 128});
 }
 
-TEST_CASE("an array of NumPy's is read in its own type and shape") {
+TEST_CASE("a NumPy array is read in its own type and shape") {
     using namespace std::string_literals;
     const OwnFile words{".npy", npy("{'descr': '<u4', 'fortran_order': False, 'shape': (1, 2), }\n",
                                     "\x01\x02\x03\x04\xff\xff\xff\xff"s)};
@@ -88,7 +89,7 @@ TEST_CASE("an array of NumPy's is read in its own type and shape") {
     CHECK(color.codes == std::vector<std::uint32_t>{0x3c00, 0x3800, 0x0000, 0x8000});
 }
 
-TEST_CASE("an array of another type, order or size is refused by the name of what is wrong") {
+TEST_CASE("an array of another type or order or size is rejected with a message that names the fault") {
     const auto says = [](const std::string& header, const std::string& data, const std::string& words) {
         const OwnFile file{".npy", npy(header, data)};
         try {
@@ -111,7 +112,7 @@ TEST_CASE("an array of another type, order or size is refused by the name of wha
     says("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 5), }", "12345678123456781234", "shape: ");
 }
 
-TEST_CASE("bare numbers are read by their layout, from the top or from the bottom") {
+TEST_CASE("raw numbers are read by their layout from the top or from the bottom") {
     const OwnFile file{".raw", "abcdef"};
     const auto layout = [](const char* text) {
         const auto found = raw_layout(text);
@@ -134,30 +135,30 @@ TEST_CASE("bare numbers are read by their layout, from the top or from the botto
         CHECK_FALSE(raw_layout(text));
 }
 
-TEST_CASE("bare numbers may stand blue first, in packed words, behind a header and in rows with padding") {
+TEST_CASE("raw numbers may be in the order blue first or in packed values or after a header or in padded rows") {
     const auto codes = [](const char* text, const std::string& bytes) {
         return raw_target(bytes, "memory", raw_layout(text).value()).codes;
     };
     using Codes = std::vector<std::uint32_t>;
     CHECK(codes("1x1:bgra8", {1, 2, 3, 4}) == Codes{3, 2, 1, 4});
     CHECK(codes("2x1:bgr8", {1, 2, 3, 4, 5, 6}) == Codes{3, 2, 1, 6, 5, 4});
-    // From the lowest bit on: 1023, 1, 512 and 2, which is 2 / 3 = 682 / 1023.
+    // From the lowest bit up: 1023, 1, 512 and 2; the 2-bit value is 2 / 3 = 682 / 1023.
     const std::uint32_t word = 1023u | 1u << 10 | 512u << 20 | 2u << 30;
     std::string packed;
     for (int shift = 0; shift < 32; shift += 8) packed += static_cast<char>(word >> shift & 0xff);
     CHECK(codes("1x1:rgb10a2", packed) == Codes{1023, 1, 512, 682});
     CHECK(codes("1x1:bgr10a2", packed) == Codes{512, 1, 1023, 682});
     CHECK(raw_target(packed, "memory", raw_layout("1x1:rgb10a2").value()).code == Code::unorm10);
-    // Two bytes of header, rows of 3 bytes of which the last is padding.
+    // Two bytes of header; rows of 3 bytes whose last byte is padding.
     const std::string rows{9, 9, 1, 2, 0, 3, 4, 0};
     CHECK(codes("2x2:r8:offset=2:stride=3", rows) == Codes{1, 2, 3, 4});
     CHECK(codes("2x2:r8:stride=3:bottom-up:offset=2", rows) == Codes{3, 4, 1, 2});
-    CHECK(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 7)) == Codes{1, 2, 3, 4});  // the last row may lack it
+    CHECK(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 7)) == Codes{1, 2, 3, 4});  // the last row may be unpadded
     CHECK_THROWS_WITH(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 6)),
                       "memory: size: expected 8 bytes for 2x2 pixels, 3 bytes a row behind 2, found 6");
 }
 
-TEST_CASE("PPM, PGM, TGA and BMP have the codes of their bytes, the upper row first") {
+TEST_CASE("PPM PGM TGA and BMP files have the codes of their bytes with the top row first") {
     using namespace std::string_literals;
     using Codes = std::vector<std::uint32_t>;
     const auto read = [](const char* ending, const std::string& bytes) {
@@ -180,8 +181,8 @@ TEST_CASE("PPM, PGM, TGA and BMP have the codes of their bytes, the upper row fi
     const Target pgm = read(".pgm", "P5 2 1 255\n\x05\xff"s);
     CHECK(pgm.is_grey);
     CHECK(pgm.codes == Codes{5, 255});
-    // 18 bytes of header: uncompressed (2) or in runs (10), 2 x 2 of 24 bits, the upper row first (0x20); blue, green,
-    // red.
+    // 18 bytes of header: uncompressed (2) or run-length coded (10), 2 x 2 pixels of 24 bits, top row first (0x20);
+    // blue, green, red.
     const auto tga = [](char type, char bits, char order) {
         return "\0\0"s + type + "\0\0\0\0\0\0\0\0\0\2\0\2\0"s + bits + order;
     };
@@ -191,21 +192,23 @@ TEST_CASE("PPM, PGM, TGA and BMP have the codes of their bytes, the upper row fi
     CHECK(read(".tga", tga(10, 24, 0x20) + "\x81\x03\x02\x01\x01\x09\x08\x07\x78\x6e\x64"s).codes ==
           Codes{1, 2, 3, 1, 2, 3, 7, 8, 9, 100, 110, 120});
     CHECK(read(".tga", tga(2, 32, 0x28) + "\x01\x02\x03\x80\1\1\1\1\2\2\2\2\3\3\3\3"s).codes[3] == 0x80);
-    CHECK(read(".tga", tga(2, 32, 0x28) + "\x01\x02\x03\x80\1\1\1\1\2\2\2\2\3\3\3\3"s).codes[0] == 3);  // straight
-    // 14 + 40 bytes of header; rows of 8 bytes, the lowest first.
+    // not premultiplied
+    CHECK(read(".tga", tga(2, 32, 0x28) + "\x01\x02\x03\x80\1\1\1\1\2\2\2\2\3\3\3\3"s).codes[0] == 3);
+    // 14 + 40 bytes of header; rows of 8 bytes, the bottom row first.
     const auto bmp = [](char bits, const std::string& rows) {
         return "BM"s + "\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0"s + bits + std::string(25, '\0') +
                rows;
     };
     CHECK(read(".bmp", bmp(24, "\x09\x08\x07\x78\x6e\x64\0\0\x03\x02\x01\x3c\x32\x28\0\0"s)).codes == expected);
     const Target unused = read(".bmp", bmp(32, "\x09\x08\x07\0\x78\x6e\x64\0\x03\x02\x01\0\x3c\x32\x28\0"s));
-    CHECK(unused.channels == 3);  // a fourth byte that is 0 everywhere is no alpha
+    CHECK(unused.channels == 3);  // a fourth byte that is 0 in every pixel is not alpha
     CHECK(unused.codes == expected);
 }
 
-TEST_CASE("Radiance HDR has binary32 of its shared exponents") {
+TEST_CASE("Radiance HDR is read as binary32 from its shared exponents") {
     using namespace std::string_literals;
-    // (r, g, b, e): r / 256 2^(e - 128); the reader takes the middle of a step or its lower end, within 2^-8 of it.
+    // (r, g, b, e) is r / 256 2^(e - 128); the library returns the middle of a step or its lower end, within 2^-8 of
+    // it.
     const OwnFile file{".hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x82\x00\x00\x00\x00"s};
     const Target target = read_picture(file.path()).targets.at(0);
     CHECK(target.code == Code::single);
@@ -215,7 +218,8 @@ TEST_CASE("Radiance HDR has binary32 of its shared exponents") {
     CHECK(target.value_at(1, 2) == 0);
 }
 
-TEST_CASE("a picture that is cut, is another kind or claims more pixels than its bytes hold is refused by name") {
+TEST_CASE(
+    "a picture that is truncated or of another kind or claims more pixels than its bytes hold is rejected by name") {
     using namespace std::string_literals;
     const auto refused = [](const char* ending, const std::string& bytes) {
         const OwnFile file{ending, bytes};
@@ -236,7 +240,7 @@ TEST_CASE("a picture that is cut, is another kind or claims more pixels than its
     CHECK_THROWS_WITH(read_picture(exr.path()), Catch::EndsWith("found a Git LFS pointer, run git lfs pull"));
 }
 
-TEST_CASE("a file of this project's comes back with its codes, its parts and the meaning of each target") {
+TEST_CASE("a file written by this project is read with its codes and parts and the meaning of each target") {
     using strata::pipeline::Format;
     strata::pipeline::Image color{Format::rgba8, 3, 2}, depth{Format::d24, 3, 2};
     for (std::size_t i = 0; i < color.codes.size(); ++i) color.codes[i] = static_cast<std::uint32_t>(i * 9);

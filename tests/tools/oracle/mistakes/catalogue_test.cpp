@@ -1,4 +1,5 @@
-// Model: the picture of each mistake is a candidate like any other, so the diagnosis has to name who made it.
+// Tests the catalogue of mistakes: the picture of each mistake is diagnosed like any candidate, and the diagnosis must
+// name that mistake.
 #include "tools/oracle/mistakes/catalogue.h"
 
 #include <catch2/catch.hpp>
@@ -10,7 +11,7 @@
 using namespace strata;
 using namespace strata::oracle;
 
-TEST_CASE("mistakes have names of their own and sentences, and are found by them") {
+TEST_CASE("mistakes have unique names and sentences and are found by name") {
     std::set<std::string_view> names, sentences;
     for (const Mistake& mistake : catalogue()) {
         names.insert(mistake.name);
@@ -25,7 +26,7 @@ TEST_CASE("mistakes have names of their own and sentences, and are found by them
 
 namespace {
 
-// Mistakes that are taken for another, or that are accused of a right picture.
+// Number of mistakes that are diagnosed as another one or reported for a correct picture.
 int wrong_cells(const TableColumn& column) {
     int wrong = 0;
     for (const Cell cell : column.cells) wrong += cell == Cell::wrong || cell == Cell::accused ? 1 : 0;
@@ -34,14 +35,15 @@ int wrong_cells(const TableColumn& column) {
 
 }  // namespace
 
-TEST_CASE("in every fifth scene of the suite no mistake is taken for another, nor a right picture for a mistake") {
+TEST_CASE(
+    "in every fifth scene of the suite no mistake is diagnosed as another one and no correct picture has a mistake") {
     for (std::size_t i = 0; i < suite().size(); i += 5) {
         INFO(suite()[i].name);
         CHECK(wrong_cells(table_column(suite()[i])) == 0);
     }
 }
 
-TEST_CASE("every mistake is named first in a scene of the suite, none where it does not show, and no two are alike",
+TEST_CASE("every mistake is identified in a scene of the suite and never where it does not show and no two look alike",
           "[exhaustive]") {
     std::vector<TableColumn> columns(suite().size());
     parallel_for(columns.size(), 0, [&](std::size_t i) { columns[i] = table_column(suite()[i]); });

@@ -1,4 +1,5 @@
-// Model: the mistake that was put into a picture, and counts of pixels by a loop over both pictures.
+// Tests the diagnosis on pictures with a known mistake. The expected numbers of pixels are counted by a loop over both
+// pictures.
 #include "tools/oracle/mistakes/diagnosis.h"
 
 #include <catch2/catch.hpp>
@@ -32,7 +33,7 @@ std::vector<std::string_view> names_of(const Finding& finding) {
 
 }  // namespace
 
-TEST_CASE("the right picture is called right, and no mistake stands before the right machine") {
+TEST_CASE("the correct picture is diagnosed as correct and no mistake is listed before that") {
     const Bench bench{"showroom.front_to_back"};
     const Lineup lineup{bench.laboratory};
     const Diagnosis found = lineup.diagnose(bench.laboratory.right());
@@ -44,7 +45,7 @@ TEST_CASE("the right picture is called right, and no mistake stands before the r
     CHECK(found.tried + found.hidden + found.impossible == static_cast<int>(catalogue().size()));
 }
 
-TEST_CASE("one mistake is named, with the pixels that it explains") {
+TEST_CASE("one mistake is identified with the number of pixels that it explains") {
     const Bench bench{"showroom.front_to_back"};
     const Lineup lineup{bench.laboratory};
     for (const char* name : {"one_pass_too_few", "last_of_equals", "depth_16", "srgb_twice", "half_pixel_up"}) {
@@ -62,7 +63,7 @@ TEST_CASE("one mistake is named, with the pixels that it explains") {
     }
 }
 
-TEST_CASE("two mistakes at once are named") {
+TEST_CASE("two simultaneous mistakes are identified") {
     const Bench bench{"showroom.dual"};
     const Lineup lineup{bench.laboratory};
     for (const auto& [first, second] :
@@ -78,7 +79,8 @@ TEST_CASE("two mistakes at once are named") {
     }
 }
 
-TEST_CASE("a picture that no known mistake makes is none that is known, and the best finding says how far it goes") {
+TEST_CASE(
+    "a picture of no known mistake has that verdict and the best finding has the number of pixels that it explains") {
     const Bench bench{"showroom.weighted_sum"};
     const Lineup lineup{bench.laboratory};
     Picture spoiled = bench.with("flipped_rows");
@@ -100,7 +102,7 @@ TEST_CASE("a picture that no known mistake makes is none that is known, and the 
     CHECK(document["comparison"]["equal"] == false);
 }
 
-TEST_CASE("a picture in which nothing is drawn is no evidence of two mistakes") {
+TEST_CASE("a picture in which nothing is drawn is not evidence of two mistakes") {
     const Bench bench{"showroom.dual"};
     const Lineup lineup{bench.laboratory};
     Picture blank = bench.laboratory.right();
@@ -121,7 +123,7 @@ TEST_CASE("a picture in which nothing is drawn is no evidence of two mistakes") 
     CHECK_FALSE(lineup.diagnose(blank).is_blank);
 }
 
-TEST_CASE("colours that are forgiven count as equal, and nothing is forgiven by itself") {
+TEST_CASE("colours within the tolerance count as equal and the default tolerance is zero") {
     const Bench bench{"showroom.weighted_sum"};
     const Lineup lineup{bench.laboratory};
     Picture rounded = bench.with("red_for_blue");

@@ -1,5 +1,5 @@
-// Model: options that mean the same as a mistake; a slow loop over the pixels for what happens to a finished picture; a
-// loop over a stack of planes for blending.
+// Tests that mistakes are made as described: against options with the same effect, a plain loop over the pixels for
+// mistakes in the finished picture, and a loop over a stack of planes for blending.
 #include "tools/oracle/mistakes/laboratory.h"
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ bool is_equal(const Picture& a, const Picture& b) { return a.targets[0].codes ==
 
 }  // namespace
 
-TEST_CASE("the right machine's picture is that of an ordinary run") {
+TEST_CASE("the picture without a mistake is that of an ordinary run") {
     for (const char* name : {"showroom.dual", "showroom.weighted_average", "two_layers.front_to_back"}) {
         const Bench bench{name};
         CHECK(is_equal(bench.laboratory.right(), rendered(bench.opened)));
@@ -104,21 +104,21 @@ TEST_CASE("layers blended without transmittance add up") {
     for (int c = 0; c < 3; ++c) CHECK(colors.value_at(centre, c) == double{sum[c]});
 }
 
-TEST_CASE("a mistake that a scene has no room for is no picture") {
+TEST_CASE("a mistake that a scene cannot have makes no picture") {
     const Bench average{"showroom.weighted_average"}, random{"random.dual"};
     CHECK_FALSE(average.laboratory.with(*find_mistake("one_pass_too_few")));
     CHECK_FALSE(random.laboratory.with(*find_mistake("texture_upside_down")));
     CHECK_FALSE(random.laboratory.with(*find_mistake("one_pass_too_many")));
 }
 
-TEST_CASE("two mistakes are both made, and a finished picture's mistake comes last") {
+TEST_CASE("of two mistakes both are made and that of the finished picture is made last") {
     const Bench bench{"showroom.dual"};
     const Picture both = bench.with("premultiplied_twice", "flipped_rows");
     CHECK(is_equal(both, changed(bench.with("premultiplied_twice"), *find_mistake("flipped_rows"))));
     CHECK_FALSE(is_equal(both, bench.with("flipped_rows")));
 }
 
-TEST_CASE("a machine that never ends is stopped") {
+TEST_CASE("a peel that never ends is stopped") {
     const Bench bench{"showroom.front_to_back"};
     CHECK(bench.with("peels_again").targets[0].pixels() == 64 * 64);
 }

@@ -1,4 +1,4 @@
-// Model: the option that was put into a picture.
+// Tests that the diagnosis finds the option with which a picture was made.
 #include "tools/oracle/mistakes/machine_options.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,8 @@ bool names(const Finding& finding, const char* name) {
 
 }  // namespace
 
-TEST_CASE("options have names of their own, which no mistake has, and limits end below what the picture takes") {
+TEST_CASE(
+    "options have unique names that no mistake has and limits of passes end below the number that the picture takes") {
     const peeling::Algorithm& front_to_back = *peeling::find_algorithm("front_to_back");
     const std::vector<Mistake> all = machine_options(front_to_back, {.passes = 5, .enough_passes = 4});
     std::set<std::string> names, sentences;
@@ -46,7 +47,7 @@ TEST_CASE("options have names of their own, which no mistake has, and limits end
     CHECK(option_of(of_dual, "passes_3").sentence == "only the first 3 passes of 4 (--max-passes 3)");
 }
 
-TEST_CASE("options stand before mistakes: what a right port may do is right, a limit of passes is named as one") {
+TEST_CASE("options are listed before mistakes and allowed ones are accepted and a limit of passes is a mistake") {
     const Bench bench{"showroom.dual"};
     const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.laboratory.right_run());
     const Lineup lineup{bench.laboratory, {}, all};
@@ -72,7 +73,7 @@ TEST_CASE("options stand before mistakes: what a right port may do is right, a l
     CHECK(lineup.diagnose(bench.with("culls_front")).findings.front().mistakes[0]->name == "culls_front");
 }
 
-TEST_CASE("two options together are found, and are right if both are") {
+TEST_CASE("two simultaneous options are found and accepted if both are allowed") {
     const Bench bench{"showroom.dual"};
     const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.laboratory.right_run());
     const Lineup lineup{bench.laboratory, {}, all};
@@ -84,7 +85,7 @@ TEST_CASE("two options together are found, and are right if both are") {
     CHECK(lineup.diagnose(bench.laboratory.with(both).value()).verdict == Verdict::other_options);
 }
 
-TEST_CASE("where every triangle has one colour, no mistake that needs slopes is made") {
+TEST_CASE("where every triangle has one colour no mistake that needs colour slopes is made") {
     const Bench flat{"planes.front_to_back"}, sloped{"showroom.front_to_back"};
     for (const char* name : {"colors_affine", "colors_unnormalised"}) {
         CHECK_FALSE(flat.laboratory.with(*find_mistake(name)));

@@ -1,4 +1,5 @@
-// Model: the candidate's passes are those of a machine whose mistake is known, and targets changed by hand.
+// Tests the diagnosis from passes. The candidate's passes are those of a run with a known mistake, or targets changed
+// by hand.
 #include "tools/oracle/mistakes/pass_evidence.h"
 
 #include <catch2/catch.hpp>
@@ -12,9 +13,9 @@ using strata::test::Bench;
 
 namespace {
 
-constexpr int limit = 60;  // passes after which an endless machine gives up
+constexpr int limit = 60;  // passes after which an endless peel gives up
 
-// The passes that a port with this mistake would write; of the right machine for nullptr.
+// The passes that a port with this mistake would write; those of a correct run for nullptr.
 std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistake) {
     Experiment e{.list = &opened.scene.list, .view = opened.view, .profile = opened.profile, .options = opened.options};
     e.algorithm = opened.algorithm;
@@ -43,7 +44,7 @@ const Finding& first_of(const Diagnosis& diagnosis) { return diagnosis.findings.
 
 }  // namespace
 
-TEST_CASE("passes that are alike are counted, and the first that is not is named") {
+TEST_CASE("equal passes are counted and the first different one is reported") {
     const Bench bench{"random.dual"};
     std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
     const auto whole = bench.laboratory.compare_passes({}, passes);
@@ -52,7 +53,7 @@ TEST_CASE("passes that are alike are counted, and the first that is not is named
     CHECK(whole->alike == whole->targets);
     CHECK(whole->targets > static_cast<int>(passes.size()));
     passes[3].targets.targets.back().codes[5] ^= 1;
-    passes.erase(passes.begin() + 1);  // what the candidate has not is not compared
+    passes.erase(passes.begin() + 1);  // a pass that the candidate lacks is not compared
     const auto one_less = bench.laboratory.compare_passes({}, passes);
     REQUIRE(one_less);
     CHECK(one_less->first_unlike == 3);
@@ -60,11 +61,11 @@ TEST_CASE("passes that are alike are counted, and the first that is not is named
     CHECK(one_less->targets < whole->targets);
 }
 
-TEST_CASE("of mistakes that leave one picture the passes name the one that was made") {
+TEST_CASE("of mistakes with equal pictures the passes identify the one that was made") {
     const Bench bench{"random.dual"};
     const Laboratory laboratory{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
     const Lineup lineup{laboratory};
-    // One picture: nothing is ever peeled.
+    // Both have the same picture because nothing is ever peeled.
     for (const char* name : {"min_for_max", "add_for_max"}) {
         const Picture picture = laboratory.with(*find_mistake(name)).value();
         INFO(name);
@@ -76,7 +77,7 @@ TEST_CASE("of mistakes that leave one picture the passes name the one that was m
     }
 }
 
-TEST_CASE("of two mistakes the passes name the one among those that leave one picture") {
+TEST_CASE("of two simultaneous mistakes the passes identify the one whose picture equals that of another") {
     const Bench bench{"random.dual"};
     const Laboratory laboratory{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
     const Lineup lineup{laboratory};
@@ -89,7 +90,7 @@ TEST_CASE("of two mistakes the passes name the one among those that leave one pi
     CHECK(first_of(found).mistakes.size() == 2);
 }
 
-TEST_CASE("a picture that hides a mistake is right, but passes that show it are not") {
+TEST_CASE("a picture that hides a mistake is accepted and passes that show it are not") {
     const Bench bench{"random.front_to_back"};
     const Lineup lineup{bench.laboratory};
     const Mistake& hidden = *find_mistake("depth_24");
@@ -102,8 +103,7 @@ TEST_CASE("a picture that hides a mistake is right, but passes that show it are 
     CHECK(first_of(found).mistakes[0]->name == "depth_24");
 }
 
-TEST_CASE(
-    "a machine whose picture is the candidate's, but whose passes go wrong as early as the right one's, is not named") {
+TEST_CASE("a mistake that explains the picture but whose passes differ as early as without it is not identified") {
     const Bench bench{"random.front_to_back"};
     const Lineup lineup{bench.laboratory};
     std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
@@ -116,7 +116,7 @@ TEST_CASE(
     CHECK(first_of(found).agreeing == found.pixels);
 }
 
-TEST_CASE("a few pixels of the first wrong pass do not contradict who explains the others, many do") {
+TEST_CASE("a few pixels of the first wrong pass do not contradict the mistake that explains the others but many do") {
     const Bench bench{"random.front_to_back"};
     const Lineup lineup{bench.laboratory};
     for (const bool are_many : {false, true}) {
@@ -130,7 +130,7 @@ TEST_CASE("a few pixels of the first wrong pass do not contradict who explains t
     }
 }
 
-TEST_CASE("a mistake that explains half of the pixels to the last code and all within one is named as nearly") {
+TEST_CASE("a mistake that explains half of the pixels exactly and all within one code is identified as nearly exact") {
     const Bench bench{"showroom.weighted_sum"};
     const Lineup lineup{bench.laboratory};
     Picture rounded = bench.with("red_for_blue");
@@ -142,7 +142,7 @@ TEST_CASE("a mistake that explains half of the pixels to the last code and all w
     CHECK(first_of(found).mistakes[0]->name == "red_for_blue");
     CHECK(first_of(found).nearly == found.pixels);
     CHECK(first_of(found).agreeing < found.pixels);
-    // Colours one code from the right ones are no mistake.
+    // A picture that is one code off but otherwise correct has no mistake.
     Picture off = bench.laboratory.right();
     for (std::size_t i = 0; i < off.targets[0].codes.size(); i += 40)
         off.targets[0].codes[i] = off.targets[0].codes[i] < 255 ? off.targets[0].codes[i] + 1 : 254;

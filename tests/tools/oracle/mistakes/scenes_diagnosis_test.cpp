@@ -1,4 +1,4 @@
-// Model: the mistake that was put into the pictures of all scenes, or another one into each.
+// Tests the diagnosis over several scenes, with one mistake in the pictures of all scenes or a different one in each.
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using strata::test::Bench;
 
 namespace {
 
-// A scene of the suite with all machines, once for all tests.
+// A scene of the suite with the pictures of all mistakes, made once for all tests.
 struct SceneBench {
     explicit SceneBench(const char* name) : bench{name}, lineup{bench.laboratory} {}
     Bench bench;
@@ -48,7 +48,7 @@ using FirstNames = std::vector<std::string_view>;
 
 }  // namespace
 
-TEST_CASE("a port that is right in every scene is right") {
+TEST_CASE("a port whose pictures are correct in every scene is correct") {
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.laboratory.right(), planes_peel(),
                                             planes_peel().bench.laboratory.right());
     CHECK(found.verdict == Verdict::right);
@@ -56,7 +56,7 @@ TEST_CASE("a port that is right in every scene is right") {
     CHECK(found.findings.front().mistakes.empty());
 }
 
-TEST_CASE("of two mistakes that leave one picture of a scene another scene names the one that was made") {
+TEST_CASE("of two mistakes with equal pictures in one scene another scene identifies the one that was made") {
     const Picture peeled = random_peel().bench.with("order_reversed");
     const Diagnosis alone = random_peel().lineup.diagnose(peeled);
     CHECK(alone.findings.front().mistakes[0]->name == "last_of_equals");
@@ -67,7 +67,7 @@ TEST_CASE("of two mistakes that leave one picture of a scene another scene names
     CHECK(both.findings.front().fits == std::vector<bool>{true, true});
 }
 
-TEST_CASE("a mistake that hides in one scene is named by the other") {
+TEST_CASE("a mistake that one scene hides is identified by the other") {
     REQUIRE_FALSE(random_peel().lineup.shows(*find_mistake("depth_stepwise")));
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("depth_stepwise"), planes_peel(),
                                             planes_peel().bench.with("depth_stepwise"));
@@ -76,14 +76,14 @@ TEST_CASE("a mistake that hides in one scene is named by the other") {
     CHECK(found.scenes[0].verdict == Verdict::right);
 }
 
-TEST_CASE("two mistakes at once are named over several scenes") {
+TEST_CASE("two simultaneous mistakes are identified over several scenes") {
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("culls_all_backs", "red_for_blue"),
                                             planes_peel(), planes_peel().bench.with("culls_all_backs", "red_for_blue"));
     CHECK(found.verdict == Verdict::two_mistakes);
     CHECK(first_names(found) == FirstNames{"culls_all_backs", "red_for_blue"});
 }
 
-TEST_CASE("a scene whose colours are off by one code everywhere is explained by what explains the others") {
+TEST_CASE("a scene whose colours are all one code off gets the mistake that explains the others") {
     const Picture peeled = random_peel().bench.with("red_for_blue");
     const auto off_by_one = [](Picture picture) {
         for (std::uint32_t& code : picture.targets[0].codes) code = code < 255 ? code + 1 : 254;
@@ -94,11 +94,11 @@ TEST_CASE("a scene whose colours are off by one code everywhere is explained by 
     const ScenesDiagnosis found = diagnosed(random_peel(), peeled, planes_peel(), planes);
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(first_names(found) == FirstNames{"red_for_blue"});
-    // Off by one in both, no machine explains most pixels to the last code.
+    // If both scenes are one code off, no mistake explains most pixels exactly.
     CHECK(diagnosed(random_peel(), off_by_one(peeled), planes_peel(), planes).verdict == Verdict::none_of_mine);
 }
 
-TEST_CASE("a port that goes wrong in each scene by another mistake is none that is known") {
+TEST_CASE("a port with a different mistake in each scene has no known mistake") {
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("not_premultiplied"), planes_peel(),
                                             planes_peel().bench.with("upside_down"));
     CHECK(found.verdict == Verdict::none_of_mine);

@@ -6,7 +6,7 @@
 
 namespace strata::test {
 
-// Owns what the laboratory refers to; stays where it was made.
+// Owns what the laboratory refers to, so it can be neither copied nor moved.
 struct Bench {
     explicit Bench(const char* suite_scene)
         : opened{oracle::open(*oracle::find_suite_scene(suite_scene))}, laboratory{opened.input(), *opened.algorithm} {}

@@ -1,4 +1,4 @@
-// Model: pictures of the machines themselves on the scene that is named.
+// Tests the choice of a scene that distinguishes mistakes, against the mistakes' own pictures on that scene.
 #include "tools/oracle/mistakes/telling.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 using namespace strata;
 using namespace strata::oracle;
 
-TEST_CASE("the scene that tells mistakes apart has a picture of its own for each") {
+TEST_CASE("the scene that distinguishes mistakes has a different picture for each") {
     const Mistake* const both[] = {find_mistake("red_for_blue"), find_mistake("depth_24")};
     REQUIRE((both[0] != nullptr && both[1] != nullptr));
     const SuiteScene* scene = telling_scene(both);
@@ -22,7 +22,7 @@ TEST_CASE("the scene that tells mistakes apart has a picture of its own for each
     CHECK(second->targets[0].codes != laboratory.right().targets[0].codes);
 }
 
-TEST_CASE("one mistake needs no scene, and one twice has none") {
+TEST_CASE("one mistake needs no scene and a repeated mistake has none") {
     const Mistake* const one[] = {find_mistake("red_for_blue")};
     CHECK(telling_scene(one) == nullptr);
     const Mistake* const twice[] = {one[0], one[0]};

@@ -1,5 +1,5 @@
-// Model: colours of one triangle in binary64, linear over its window positions; the last corner's own bits; window
-// positions of another viewport.
+// Tests the mistakes of vertices. The expected colours of one triangle are computed in binary64, linear over its window
+// positions, or are the bits of its last corner; the expected positions are those of another viewport.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int side_px = 32;
 
-// One opaque-coloured transparent triangle whose corners lie at w = 1, 2 and 4, seen without a background.
+// One triangle with a transparent material and alpha 1, with corners at w = 1, 2 and 4, drawn without a background.
 struct OneTriangle {
     pipeline::DrawList list;
     pipeline::View view;
@@ -29,7 +29,7 @@ struct OneTriangle {
         const std::array<std::array<float, 2>, 3> ndc{{{-0.75f, -0.625f}, {0.875f, -0.5f}, {-0.125f, 0.8125f}}};
         pipeline::Mesh mesh;
         for (std::size_t i = 0; i < 3; ++i) {
-            mesh.positions.push_back({ndc[i][0] * w[i], ndc[i][1] * w[i], -w[i]});  // exact products
+            mesh.positions.push_back({ndc[i][0] * w[i], ndc[i][1] * w[i], -w[i]});  // the products are exact
             window[i] = {(ndc[i][0] + 1) * side_px / 2, (1 - ndc[i][1]) * side_px / 2};
         }
         mesh.colors = {{0.1f, 0.7f, 0.2f, 1}, {0.6f, 0.1f, 0.9f, 1}, {0.3f, 0.5f, 0.45f, 1}};
@@ -39,7 +39,7 @@ struct OneTriangle {
         list.materials[0].alpha_mode = pipeline::AlphaMode::blend;
         list.materials[0].double_sided = list.materials[0].unlit = true;
         list.instances.resize(1);
-        view.projection = {};  // clip w is -z of the eye, clip z half of it
+        view.projection = {};  // clip w is -z of the eye, clip z half of that
         view.projection[0][0] = view.projection[1][1] = 1;
         view.projection[2][2] = -0.5;
         view.projection[2][3] = -1;
@@ -52,7 +52,7 @@ struct OneTriangle {
         const Laboratory laboratory{{list, view, profile, options}, *peeling::find_algorithm("front_to_back")};
         return mistake == nullptr ? laboratory.right() : laboratory.with(*find_mistake(mistake)).value();
     }
-    // The colour at a pixel's centre, linear over the window.
+    // Expected colour at a pixel's centre, linear over the window.
     [[nodiscard]] double linear(std::size_t channel, int x, int y) const {
         const auto& [a, b, c] = window;
         const double px = x + 0.5, py = y + 0.5;
@@ -70,7 +70,7 @@ float channel_of(const Picture& picture, int x, int y, std::size_t channel) {
     return std::bit_cast<float>(picture.targets[0].at(static_cast<std::size_t>(y * side_px + x), int(channel)).word);
 }
 
-// The pixels that the triangle covers with an alpha of 1 in black.
+// Calls body for each pixel that the triangle covers, which is not black; returns their number.
 template <class Body>
 int for_covered(const Picture& picture, Body body) {
     int covered = 0;
@@ -86,7 +86,7 @@ int for_covered(const Picture& picture, Body body) {
 
 }  // namespace
 
-TEST_CASE("a flat colour is that of the last corner to the last bit, in perspective, too") {
+TEST_CASE("a flat colour has the exact bits of the last corner in perspective as well") {
     for (const char* profile : {"geforce8", "llvmpipe", "ideal"}) {
         const OneTriangle scene{profile};
         const Picture flat = scene.with("colors_flat");
@@ -101,7 +101,7 @@ TEST_CASE("a flat colour is that of the last corner to the last bit, in perspect
     }
 }
 
-TEST_CASE("colours without perspective run linearly over the window, and depths stay as they were") {
+TEST_CASE("colours without perspective are linear over the window and depths are unchanged") {
     for (const char* profile : {"geforce8", "llvmpipe", "ideal"}) {
         const OneTriangle scene{profile};
         const Picture affine = scene.with("colors_affine"), right = scene.with(nullptr);
@@ -114,12 +114,12 @@ TEST_CASE("colours without perspective run linearly over the window, and depths 
         });
         INFO(profile);
         CHECK(covered == for_covered(right, [](int, int) {}));
-        CHECK(worst < 0x1p-18);  // corners lie on the grid of every profile, so that only binary32 rounds
+        CHECK(worst < 0x1p-18);  // corners are exact on the grid of every profile, so only binary32 rounds
         CHECK(right_worst > 0.05);
     }
 }
 
-TEST_CASE("half a pixel twice is a pixel: the picture moves as a whole") {
+TEST_CASE("two half-pixel offsets move the picture by one pixel") {
     const OneTriangle scene{"geforce8"};
     const Laboratory laboratory{{scene.list, scene.view, scene.profile, scene.options},
                                 *peeling::find_algorithm("front_to_back")};

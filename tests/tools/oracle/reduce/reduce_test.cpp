@@ -1,4 +1,4 @@
-// Model: a renderer with a mistake that is known; a scene is as small as it gets if it fails, and no longer fails
+// Tests reduction with renderers whose mistake is known. A reduced scene is minimal if it fails and no longer fails
 // without any one of its triangles.
 #include "tools/oracle/reduce/reduce.h"
 
@@ -27,7 +27,7 @@ Golden golden_of(OpenScene&& opened) {
 
 Golden golden_of(const char* suite_scene) { return oracle::golden_of(*find_suite_scene(suite_scene)); }
 
-// Draws like a machine with that mistake; where the scene has no room for it, right.
+// Draws with that mistake, or correctly where the scene cannot have it.
 std::optional<Picture> mistaken(const Golden& scene, const char* mistake) {
     const Laboratory laboratory{{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options},
                                 *scene.algorithms[0]};
@@ -44,7 +44,7 @@ bool differs_in(Kind kind, const Golden& scene, const Candidate& candidate) {
     return std::ranges::find(found.kind_of, kind) != found.kind_of.end();
 }
 
-// How many of its triangles can be left out, and it fails in this kind all the same.
+// Number of its triangles without which the scene still fails in this kind.
 int needless(const Golden& scene, const Candidate& candidate, Kind kind) {
     const auto all = triangles_of(scene.scene.list);
     int count = 0;
@@ -72,7 +72,7 @@ void check_reduction(const Golden& scene, const char* mistake) {
 
 }  // namespace
 
-TEST_CASE("a failing scene becomes at most three triangles and four pixels, and none of them can be spared") {
+TEST_CASE("a failing scene is reduced to at most three triangles and four pixels and each of them is necessary") {
     check_reduction(golden_of("random.front_to_back"), "last_of_equals");
     check_reduction(golden_of("random.front_to_back"), "one_pass_too_few");
     check_reduction(golden_of("showroom.dual"), "culls_front");
@@ -80,7 +80,7 @@ TEST_CASE("a failing scene becomes at most three triangles and four pixels, and 
     check_reduction(golden_of("showroom.weighted_average"), "average_without_power");
 }
 
-TEST_CASE("what a failure does not need goes back to its default, and what it needs stays") {
+TEST_CASE("settings that the failure does not need are reset to their defaults and the others are kept") {
     const Candidate black = [](const Golden& scene) { return mistaken(scene, "background_lost"); };
     const auto found = reduce(golden_of("showroom.dual"), black);
     REQUIRE(found);
@@ -94,8 +94,7 @@ TEST_CASE("what a failure does not need goes back to its default, and what it ne
     CHECK_THAT(other->sentence(), Catch::Contains("1 triangle in a frame of 1x1"));
 }
 
-TEST_CASE(
-    "a candidate that is right leaves nothing to reduce, and one that draws nothing or another size is an error") {
+TEST_CASE("a correct candidate leaves nothing to reduce and one that draws nothing or another size is an error") {
     const Golden scene = golden_of("random.dual");
     CHECK_FALSE(reduce(scene, [](const Golden& s) { return std::optional{right_picture(s)}; }));
     CHECK_THROWS_AS(reduce(scene, [](const Golden&) { return std::optional<Picture>{}; }), InputError);
@@ -108,7 +107,7 @@ TEST_CASE(
                     InputError);
 }
 
-TEST_CASE("scenes that the candidate cannot draw are not taken, and are counted") {
+TEST_CASE("scenes that the candidate cannot draw are not kept and are counted") {
     const Golden scene = golden_of("random.front_to_back");
     const auto found = reduce(scene, [&](const Golden& tried) {
         const bool is_too_small = triangles_of(tried.scene.list).size() < 10;
@@ -120,14 +119,14 @@ TEST_CASE("scenes that the candidate cannot draw are not taken, and are counted"
     CHECK_THAT(found->sentence(), Catch::Contains(" drew nothing"));
 }
 
-TEST_CASE("a reduction keeps the kind of the failure, though another kind would make it smaller") {
+TEST_CASE("a reduction keeps the kind of the failure even if another kind would be smaller") {
     const Golden scene = golden_of("showroom.front_to_back");
-    // Most pixels that differ lie in the background; where something is drawn, red and blue are exchanged.
+    // Most differing pixels are background; where something is drawn, red and blue are swapped.
     const Candidate both = [](const Golden& tried) {
         const auto lost = mistaken(tried, "background_lost"), swapped = mistaken(tried, "red_for_blue");
         const Picture right = right_picture(tried);
         Picture picture = *swapped;
-        const int blue = 128;  // 0.5: what the suite's background has
+        const int blue = 128;  // 0.5, the blue of the suite's background
         for (std::size_t i = 0; i < picture.targets[0].pixels(); ++i) {
             const auto first = static_cast<std::ptrdiff_t>(4 * i);
             if (right.targets[0].codes[4 * i] == 51 && right.targets[0].codes[4 * i + 2] == blue)
@@ -143,9 +142,7 @@ TEST_CASE("a reduction keeps the kind of the failure, though another kind would 
     CHECK(differs_in(most->kind, found->scene, both));
 }
 
-TEST_CASE(
-    "what a tolerance of codes forgives is no failure at any step, and a budget of pixels counts in the whole scene "
-    "alone") {
+TEST_CASE("differences within a tolerance are no failure and a budget of pixels applies to the whole scene only") {
     const Golden scene = golden_of("random.front_to_back");
     const auto with_noise = [](std::optional<Picture> picture) {
         for (std::size_t i = 0; i < picture->targets[0].codes.size(); i += 4) picture->targets[0].codes[i] ^= 1;
@@ -172,10 +169,10 @@ TEST_CASE(
     CHECK(paid->scene.options.width * paid->scene.options.height <= 4);
 }
 
-TEST_CASE("a failure of whole frames is cut by a scissor, and pixels outside of it do not count") {
+TEST_CASE("a failure that needs whole frames is reduced by a scissor and pixels outside of it do not count") {
     const Golden scene = golden_of("random.front_to_back");
     const int width = scene.options.width, height = scene.options.height;
-    // Wrong in frames of that width alone, and it clears to another colour outside of the scissor.
+    // Wrong only in frames of that width, and clears to another colour outside of the scissor.
     const Candidate candidate = [&](const Golden& tried) {
         auto picture = tried.options.width == width ? mistaken(tried, "one_pass_too_few") : right_picture(tried);
         const rasterizer::Rect kept = tried.options.raster.scissor.value_or(rasterizer::Rect{0, 0, width, height});
@@ -204,7 +201,7 @@ TEST_CASE("a failure of whole frames is cut by a scissor, and pixels outside of 
                                                   "," + std::to_string(found->window.y0 + first->first_y)));
 }
 
-TEST_CASE("a window's view shows the pixels that the whole one has there") {
+TEST_CASE("the view of a cropped window shows the same pixels as the whole window") {
     Golden scene = golden_of("showroom.front_to_back");
     const Picture whole = right_picture(scene);
     const rasterizer::Rect part{16, 32, 48, 64};
@@ -218,10 +215,10 @@ TEST_CASE("a window's view shows the pixels that the whole one has there") {
             for (int c = 0; c < 4; ++c)
                 wrong += whole.targets[0].codes[static_cast<std::size_t>((y * 64 + x) * 4 + c)] !=
                          seen.targets[0].codes[static_cast<std::size_t>(((y - part.y0) * 32 + x - part.x0) * 4 + c)];
-    CHECK(wrong == 0);  // powers of two: no product rounds
+    CHECK(wrong == 0);  // powers of two, so no product rounds
 }
 
-TEST_CASE("a cut keeps the named triangles with their vertices, materials and textures, and nothing else") {
+TEST_CASE("a reduced scene keeps only the named triangles with what they refer to") {
     const pipeline::DrawList list = scenes::load_scene("showroom", {}).list;
     const auto all = triangles_of(list);
     const auto glass = std::ranges::find_if(all, [&](const TriangleName& t) {
@@ -240,7 +237,8 @@ TEST_CASE("a cut keeps the named triangles with their vertices, materials and te
     CHECK(cut(list, all).instances.size() == list.instances.size());
 }
 
-TEST_CASE("three failures of a model of 200,000 triangles become at most three triangles and four pixels", "[slow]") {
+TEST_CASE("three failures of a model of 200000 triangles are reduced to at most three triangles and four pixels",
+          "[slow]") {
     const std::string model = std::string(STRATA_MODELS_DIR) + "/dragon.glb";
     if (!std::filesystem::exists(model)) {
         WARN("SKIPPED: " << model << " is not there");
