@@ -1,4 +1,4 @@
-// Model: points and places counted by hand from the codes.
+// Tests the scores of compared answers. The expected points and pixels are counted by hand from the codes.
 #include "tools/probe/comparison.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace strata::probe;
 
 namespace {
 
-// Two pixels of rgba8, and their depths.
+// Two pixels of rgba8 and their depths.
 Answer two_pixels(const std::vector<std::uint32_t>& colors, const std::vector<std::uint32_t>& depths) {
     Answer answer{.color = pipeline::Image{pipeline::Format::rgba8, 2, 1}};
     answer.color.codes.assign(colors.begin(), colors.end());
@@ -23,14 +23,14 @@ Answer two_pixels(const std::vector<std::uint32_t>& colors, const std::vector<st
     return answer;
 }
 
-constexpr std::uint32_t far_away = 0xffffff;  // the cleared depth
+constexpr std::uint32_t far_away = 0xffffff;  // the clear value
 const std::vector<std::uint32_t> plain{10, 20, 30, 255, 0, 0, 0, 0};
 
 }  // namespace
 
-TEST_CASE("a place that agrees has all points, another one fewer for every bit that its worst channel is off") {
+TEST_CASE("an equal pixel has all points and another one loses a point per bit of its largest channel difference") {
     const Answer own = two_pixels(plain, {5000, far_away});
-    // Off by 1 and by 4 in one pixel: 3 bits. A depth off by 1,000: 10 bits.
+    // One pixel is off by 1 and by 4: 3 bits. A depth is off by 1,000: 10 bits.
     const Answer other = two_pixels({11, 16, 30, 255, 0, 0, 0, 0}, {6000, far_away});
     const Nearness near = nearness(own, other);
     CHECK(near.color == most_points + 32 - 3);
@@ -41,7 +41,7 @@ TEST_CASE("a place that agrees has all points, another one fewer for every bit t
     CHECK(most_points > 31);
 }
 
-TEST_CASE("a pixel is covered by its depth where there is a depth buffer, else by its colour") {
+TEST_CASE("a pixel is covered by its depth where there is a depth buffer and otherwise by its colour") {
     const Answer own = two_pixels(plain, {5000, far_away});
     const Difference with_depth = difference(own, two_pixels(plain, {far_away, 7}));
     CHECK(with_depth.coverage == 2);
@@ -58,15 +58,15 @@ TEST_CASE("NaNs of a float target agree with each other and with no number") {
     Answer own{.color = pipeline::Image{pipeline::Format::rgba32f, 2, 1}};
     Answer other = own;
     own.color.codes[0] = 0x7fc00000u;
-    other.color.codes[0] = 0xff800001u;  // another NaN
+    other.color.codes[0] = 0xff800001u;  // a NaN with other bits
     own.color.codes[4] = 0x7f800000u;    // infinity
     other.color.codes[4] = 0x7f800001u;
     CHECK(equal_places(own, other) == std::vector<bool>{true, false});
 }
 
-TEST_CASE("a value that explains fewer pixels, but more of which are covered, is said to do so") {
-    // Cut at the view volume, with the planes of triangles that are not: what geforce8_dx101 draws, but where nothing
-    // is drawn by a device that cuts.
+TEST_CASE("a value that explains fewer pixels but more covered ones is reported") {
+    // Clipped at the view volume, with the planes of unclipped triangles: what geforce8_dx101 draws, except that
+    // nothing is drawn where a device that clips draws nothing.
     DeviceProfile drawn = *pipeline::find_profile("geforce8_dx101");
     drawn.raster.subpixel_bits = 4;
     DeviceProfile covers = drawn;
@@ -91,7 +91,7 @@ TEST_CASE("a value that explains fewer pixels, but more of which are covered, is
     const auto clip = std::ranges::find(found.fields, "raster.clip", &FieldFinding::key);
     REQUIRE(clip != found.fields.end());
     INFO(clip->value << ": " << clip->reason << ", moved " << moved);
-    CHECK(clip->value.starts_with("view_volume"));  // whichever comes first: both cover alike
+    CHECK(clip->value.starts_with("view_volume"));  // the first of several: both cover the same pixels
     CHECK(clip->state == FieldState::broken);
     CHECK(clip->reason.starts_with("guard_band explains more pixels, but which are covered in "));
 }

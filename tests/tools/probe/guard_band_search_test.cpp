@@ -1,4 +1,4 @@
-// Model: the device's own guard band, and a count of the scenes that were drawn.
+// Tests the search for a guard band against the device's own value, with a count of the scenes that are drawn.
 #include "tools/probe/guard_band_search.h"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ std::vector<Item> guard_band_scenes() {
     return items;
 }
 
-// Depths that no profile draws: in all rows of triangles that reach farther out than so many pixels.
+// Changes the depths in all rows of triangles that reach farther out than `pixels`, so that no profile explains them.
 void spoil_beyond(ProbePack& pack, int pixels) {
     const std::vector<int> reaches = guard_reaches();
     for (auto& [name, reply] : pack.answers[YDirection::down])
@@ -33,7 +33,7 @@ void spoil_beyond(ProbePack& pack, int pixels) {
 
 }  // namespace
 
-TEST_CASE("a guard band is found to the pixel from the triangles that it cuts") {
+TEST_CASE("a guard band is found exactly from the triangles that it clips") {
     const std::vector<Item> items = guard_band_scenes();
     for (const int band : {300, 811, 200'001}) {
         const ProbePack pack = answer(with_band(band), items, {YDirection::down});
@@ -42,7 +42,7 @@ TEST_CASE("a guard band is found to the pixel from the triangles that it cuts") 
         BandSearch search{scores};
         CHECK(search.best(with_band(16384), device.items_of({""}), Part::both) == band);
         CHECK(search.scenes_left ==
-              most_band_scenes - scores.drawn() + items.size());  // those of the start are not the search's
+              most_band_scenes - scores.drawn() + items.size());  // excludes the scenes drawn before the search
     }
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("the search for a guard band that nothing explains ends when its scene
     const int found = search.best(with_band(16384), all, Part::both);
     CHECK(search.scenes_left == 0);
     CHECK(scores.drawn() >= 100);
-    CHECK(scores.drawn() <= 100 + 2 * items.size());  // the start's and the last value's
+    CHECK(scores.drawn() <= 100 + 2 * items.size());  // the scenes of the start and of the last value
     const std::size_t drawn = scores.drawn();
     CHECK(search.best(with_band(found), all, Part::both) == found);
     CHECK(scores.drawn() <= drawn + items.size());

@@ -1,4 +1,4 @@
-// Model: the profile that answered, which the search never sees; a pixel that was changed.
+// Tests inference against the profile that gave the answers, which the search does not see, and with one pixel changed.
 #include "tools/probe/infer.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const FieldFinding& finding(const Inference& found, std::string_view key) {
 
 }  // namespace
 
-TEST_CASE("every built-in device is found, and no scene is left unexplained") {
+TEST_CASE("every built-in device is found and no scene is unexplained") {
     for (const DeviceProfile& device : pipeline::builtin_profiles()) {
         const Inference found = infer(answer(device, kit(), {YDirection::up}), kit(), YDirection::up);
         INFO(device.name);
@@ -34,10 +34,10 @@ TEST_CASE("every built-in device is found, and no scene is left unexplained") {
     }
 }
 
-TEST_CASE("one changed pixel breaks the evidence of the field that it decides, by name and place") {
+TEST_CASE("one changed pixel contradicts the field that it decides and is reported with its scene and position") {
     const DeviceProfile& device = *pipeline::find_profile("llvmpipe");
     ProbePack pack = answer(device, kit(), {YDirection::up});
-    // A pixel whose centre lies on an edge: the side of ties decides it.
+    // A pixel whose centre is on an edge, which the tie rule decides.
     DeviceProfile other = device;
     other.raster.tie_rule = rasterizer::TieRule::top_right;
     const Item& ties = *std::ranges::find(kit(), "coverage.ties", &Item::name);
@@ -61,7 +61,7 @@ TEST_CASE("one changed pixel breaks the evidence of the field that it decides, b
     CHECK(finding(found, "blend_rounding").broken == std::nullopt);
 }
 
-TEST_CASE("a field stays open where the device drew none of its scenes") {
+TEST_CASE("a field is open if the device drew none of its scenes") {
     ProbePack pack = answer(*pipeline::find_profile("llvmpipe"), kit(), {YDirection::up});
     for (auto& [name, reply] : pack.answers[YDirection::up])
         if (name.starts_with("blend.")) reply = {.answer = std::nullopt, .refusal = "no blending here"};

@@ -1,4 +1,4 @@
-// Model: bits of hexadecimal digits; rules of a kit by their words.
+// Tests the scenes of the kit: bits written as hexadecimal digits, and requirements on every scene.
 #include "tools/probe/kit.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 using namespace strata;
 using namespace strata::probe;
 
-TEST_CASE("every field that the kit probes is decided by a scene of the kit, and by fields' own keys") {
+TEST_CASE("every probed field is decided by a scene of the kit and every decided key is a field") {
     std::set<std::string> decided;
     for (const Item& item : kit())
         for (const std::string& key : item.decides) {
@@ -31,7 +31,7 @@ TEST_CASE("every field that the kit probes is decided by a scene of the kit, and
     }
 }
 
-TEST_CASE("every field that the kit probes stands in a group, or is the guard band, which has a search of its own") {
+TEST_CASE("every probed field belongs to a group except the guard band which has its own search") {
     std::set<std::string_view> grouped{"raster.guard_band_px"};
     for (const FieldGroup& group : field_groups()) {
         grouped.insert(group.joint.begin(), group.joint.end());
@@ -43,7 +43,7 @@ TEST_CASE("every field that the kit probes stands in a group, or is the guard ba
     }
 }
 
-TEST_CASE("scenes of the kit have names of their own, whole triangles, and sides of 8 to 256 pixels") {
+TEST_CASE("scenes of the kit have unique names and whole triangles and sides of 8 to 256 pixels") {
     std::set<std::string> names;
     for (const Item& item : kit()) {
         INFO(item.name);
@@ -57,7 +57,7 @@ TEST_CASE("scenes of the kit have names of their own, whole triangles, and sides
     }
 }
 
-TEST_CASE("the JSON of a kit holds the bits of every corner in the order of a vertex's attributes") {
+TEST_CASE("the JSON of a kit has the bits of every corner in the order of the vertex attributes") {
     const nlohmann::json document = nlohmann::json::parse(to_json(kit()));
     REQUIRE(document["items"].size() == kit().size());
     int wrong = 0;
@@ -78,7 +78,7 @@ TEST_CASE("the JSON of a kit holds the bits of every corner in the order of a ve
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a scene that is turned over is the same scene with its rows in the other order, but for ties") {
+TEST_CASE("a scene that is turned upside down has the same rows in reverse order except for ties") {
     const DeviceProfile& device = *pipeline::find_profile("ideal");
     Item item{.name = "box", .width = 16, .height = 8};
     Draw draw;
@@ -88,14 +88,14 @@ TEST_CASE("a scene that is turned over is the same scene with its rows in the ot
     const pipeline::Image up = draw_item(device, item, YDirection::up).answer->color;
     for (int y = 0; y < item.height; ++y)
         for (int x = 0; x < item.width; ++x) {
-            // Rows 1 to 5 and columns 2 to 9 have their centres within.
+            // The centres of rows 1 to 5 and columns 2 to 9 are inside.
             const bool inside = x >= 2 && x <= 9 && y >= 1 && y <= 5;
             CHECK((down.codes[down.index(x, y)] == 255) == inside);
             CHECK(up.codes[up.index(x, item.height - 1 - y)] == down.codes[down.index(x, y)]);
         }
 }
 
-TEST_CASE("a device refuses what it lacks with a sentence") {
+TEST_CASE("a device rejects what it lacks with an error message") {
     const DeviceProfile& device = *pipeline::find_profile("geforce3");
     Item item{.name = "float", .color = pipeline::Format::rgba32f};
     CHECK(draw_item(device, item, YDirection::up).refusal.starts_with("profile geforce3 has no float render targets"));
@@ -104,15 +104,15 @@ TEST_CASE("a device refuses what it lacks with a sentence") {
     CHECK(draw_item(device, item, YDirection::up).refusal.starts_with("profile geforce3 has no float depth buffers"));
 }
 
-TEST_CASE("a triangle that parts two reciprocals has a weight within 2^-22 of itself of a whole number of 256ths") {
+TEST_CASE("a triangle that distinguishes two reciprocals has a weight within a relative 2^-22 of a multiple of 1/256") {
     Dice dice{1};
     int found = 0, wrong = 0;
     for (int i = 0; i < 200; ++i) {
         const std::optional<SplitTriangle> t = split_triangle(dice);
         if (!t) continue;
         ++found;
-        // Twice the areas of the three triangles with the centre of pixel 3, 3 over w, in binary64: 2^-50 of a share at
-        // most is lost.
+        // Twice the areas of the three triangles with the centre of pixel (3, 3), divided by w, in binary64: the
+        // relative error is at most 2^-50.
         double part[3], sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
@@ -130,7 +130,7 @@ TEST_CASE("a triangle that parts two reciprocals has a weight within 2^-22 of it
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the kit tells a reciprocal of 24 to 27 bits from one that has a bit more") {
+TEST_CASE("the kit distinguishes a reciprocal of 24 to 27 bits from one with a bit more") {
     const Item& item = *std::ranges::find(kit(), "color.split-weights", &Item::name);
     for (const YDirection y : {YDirection::up, YDirection::down})
         for (int bits = 24; bits < 28; ++bits) {
@@ -142,7 +142,7 @@ TEST_CASE("the kit tells a reciprocal of 24 to 27 bits from one that has a bit m
         }
 }
 
-TEST_CASE("the kit tells a reciprocal of 24 to 30 bits from one whose deficit is a unit of 2^-32 more, by depths") {
+TEST_CASE("the kit distinguishes a reciprocal of 24 to 30 bits from one with a deficit greater by 2^-32 by depths") {
     const Item& item = *std::ranges::find(kit(), "depth.split-reciprocals", &Item::name);
     for (const YDirection y : {YDirection::up, YDirection::down})
         for (const TwoReciprocals& two : neighbouring_reciprocals()) {

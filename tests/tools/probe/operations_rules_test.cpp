@@ -1,5 +1,5 @@
-// Model: sRGB's formula by libm's pow and Mesa's least squares again; rationals of Boost.Multiprecision for
-// comparisons, codes and roundings.
+// Tests the hypotheses for operations: sRGB against the formula with libm's pow and against Mesa's least-squares fit,
+// computed here; comparisons, codes and roundings against rationals of Boost.Multiprecision.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -29,7 +29,7 @@ struct Rule {
                 if (o.name == operation && h.name == hypothesis) answer = h.answer;
         REQUIRE(answer);
     }
-    // In how many texels `is_right(inputs, result)` does not hold.
+    // The number of texels for which `is_right(inputs, result)` is false.
     template <class Test>
     [[nodiscard]] int wrong(Test is_right) const {
         return static_cast<int>(
@@ -44,7 +44,8 @@ double encoded(double linear) {
 }
 double decoded(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 
-// Code + 1/2 over the 2^20 numbers of an eighth of an octave as a line of their 256 parts, by least squares.
+// Least-squares line for code + 1/2 over the 2^20 binary32 values of an eighth of an octave, as a function of the index
+// of their 256 parts.
 std::uint32_t fitted_piece(std::uint32_t first) {
     double sum_1 = 0, sum_j = 0, sum_jj = 0, sum_v = 0, sum_jv = 0;
     for (std::uint32_t i = 0; i < 1u << 20; i += 32) {
@@ -61,14 +62,14 @@ std::uint32_t fitted_piece(std::uint32_t first) {
     return static_cast<std::uint32_t>(start * 128 + 0.5) << 16 | static_cast<std::uint32_t>(slope * 65536 + 0.5);
 }
 
-// Codes between 0 and 1 are those of the formula with at most `most` codes beside the half of a rounding.
+// The code differs from 255 times the formula's value, clamped to [0, 1], by at most 1/2 + `most`.
 bool is_near(const Texel& t, std::uint32_t code, double most) {
     return std::abs(code - 255.0 * std::clamp(encoded(double{float_of_word(t[0])}), 0.0, 1.0)) <= 0.5 + most;
 }
 
 }  // namespace
 
-TEST_CASE("the 104 lines that encode sRGB are least squares of the formula, in all of their 256 parts") {
+TEST_CASE("the 104 line segments that encode sRGB are least-squares fits of the formula in all of their 256 parts") {
     constexpr std::uint32_t least = 0x39000000u;  // 2^-13
     const Rule rule("target.srgb-encode", "8 lines an octave");
     int wrong = 0;
@@ -84,7 +85,7 @@ TEST_CASE("the 104 lines that encode sRGB are least squares of the formula, in a
     CHECK(rule.answer({0x40000000u, 0, 0, 0})[0] == 255);
 }
 
-TEST_CASE("roots encode sRGB within 0.17 codes of the formula, SwiftShader's power within 0.03") {
+TEST_CASE("square and eighth roots encode sRGB within 0.17 codes of the formula and SwiftShader's power within 0.03") {
     CHECK(Rule("target.srgb-encode", "square and eighth roots").wrong([](const Texel& t, std::uint32_t code) {
         return is_near(t, code, 0.17);
     }) == 0);
@@ -96,7 +97,7 @@ TEST_CASE("roots encode sRGB within 0.17 codes of the formula, SwiftShader's pow
 }
 
 TEST_CASE(
-    "a decoded sRGB code is the formula's value, in 8 decimal digits, in steps of 1 / 65,280, or within half a code") {
+    "a decoded sRGB code is the formula's value to 8 decimal digits or in steps of 1/65280 or within half a code") {
     const std::string operation = "texture.srgb-decode";
     CHECK(Rule(operation, "the formula in 8 decimal digits").wrong([](const Texel& t, std::uint32_t word) {
         char digits[32];
@@ -117,7 +118,7 @@ TEST_CASE(
         }) == 0);
 }
 
-TEST_CASE("a discard keeps what is not below the threshold, as exact numbers, as codes, or without denormals") {
+TEST_CASE("a discard keeps values not below the threshold as exact numbers or as codes or without denormals") {
     const auto is_nan = [](const Texel& t) {
         return std::isnan(float_of_word(t[0])) || std::isnan(float_of_word(t[1]));
     };
@@ -148,14 +149,14 @@ TEST_CASE("a discard keeps what is not below the threshold, as exact numbers, as
 }
 
 TEST_CASE(
-    "a constant attribute comes through every w by either way within two representable numbers, and through powers of "
-    "two exactly") {
+    "a constant attribute is within two representable numbers after interpolation and exact if w is a power of two") {
     for (const char* const way : {"as it is", "a (1 / w), times the reciprocal of 1 / w", "a (1 / w) / (1 / w)",
                                   "(a / w) w", "(a / w) / (1 / w)"}) {
         INFO(way);
         const Rule rule("test.discard-attribute", way);
         CHECK(rule.wrong([](const Texel& t, std::uint32_t kept) {
-            const auto below = static_cast<std::int64_t>(t[1]) - std::int64_t{t[0]};  // the threshold's, in numbers
+            // distance from the threshold in representable numbers
+            const auto below = static_cast<std::int64_t>(t[1]) - std::int64_t{t[0]};
             const bool is_power = (t[2] & 0x7fffffu) == 0;
             if (is_power || below > 1 || below < -1) return kept == (below > 0 ? 0u : 1u);
             return true;
@@ -163,8 +164,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("planes of a / w and 1 / w are those of three corners of any places, of which the third comes first") {
-    // Corners and the centre of a pixel from the third corner on, in pixels; every step is rounded to binary32.
+TEST_CASE("planes of a / w and 1 / w are those of three arbitrary corners with the third one first") {
+    // Corners and the centre of a pixel relative to the third corner, in pixels; every step is rounded to binary32.
     const auto at_center = [](float a, float w) {
         const float x1 = -0.25f * w, y1 = -0.5f * w, x2 = 0.25f * w, y2 = -0.5f * w, inverse = 1.0f / w;
         const float part = 1.0f / (x1 * y2 - x2 * y1), own = part * inverse;
@@ -186,8 +187,8 @@ TEST_CASE("planes of a / w and 1 / w are those of three corners of any places, o
     CHECK(apart > 100);
 }
 
-TEST_CASE("integers that become floats by halves are rounded twice, those below 2^31 once") {
-    const auto nearest = [](const Rational& value) {  // of whole numbers below 2^53
+TEST_CASE("integers that are converted to float in halves are rounded twice and those below 2^31 once") {
+    const auto nearest = [](const Rational& value) {  // of integers below 2^53
         return Rational{static_cast<float>(static_cast<double>(value))};
     };
     CHECK(Rule("shader.from-uint", "31 bits, then 2^31 added").wrong([&](const Texel& t, std::uint32_t word) {
@@ -196,7 +197,7 @@ TEST_CASE("integers that become floats by halves are rounded twice, those below 
     }) == 0);
 }
 
-TEST_CASE("halves by shifts are the nearest ones from 2^-14 to below 65,520, and above there is no infinity") {
+TEST_CASE("halves by shifts are the nearest ones from 2^-14 to below 65520 and above there is no infinity") {
     const Rule shifts("shader.pack-half", "nearest even by shifts, infinity is not made"),
         plain("shader.pack-half", "nearest even");
     int within = 0, above = 0;
@@ -218,7 +219,7 @@ TEST_CASE("halves by shifts are the nearest ones from 2^-14 to below 65,520, and
     CHECK(above > 10);
 }
 
-TEST_CASE("a packed code is the nearest of the exact product, or beside it") {
+TEST_CASE("a packed code is at most half a code from the exact product") {
     for (const bool is_signed : {false, true}) {
         const Rational greatest{is_signed ? 32767 : 65535}, least{is_signed ? -1 : 0};
         const Rule rule(is_signed ? "shader.pack-snorm" : "shader.pack-unorm", "nearest of the exact product");

@@ -1,4 +1,5 @@
-// Model: exact rationals of Boost.Multiprecision for roundings; plain loops over stencil values; packs changed by hand.
+// Tests the operations of the kit: roundings against exact rationals of Boost.Multiprecision, stencil operations
+// against plain loops, and packs changed by hand.
 #include "tools/probe/operations.h"
 
 #include <bit>
@@ -36,8 +37,8 @@ const Hypothesis& hypothesis_called(const Operation& o, const std::string& name)
     throw std::runtime_error("no hypothesis " + name);
 }
 
-// No representable number is nearer than `found`, and of two as near it is the even one. `above(m)` has the sign of the
-// exact value minus m, so that a root need not be drawn.
+// No representable number is nearer than `found`, and of two equally near ones it is the even one. `above(m)` has the
+// sign of the exact value minus m, so roots need not be computed.
 template <class Position>
 bool is_nearest(float found, Position above) {
     const Rational low = (exact(found) + exact(std::nextafter(found, -INFINITY))) / 2;
@@ -61,7 +62,7 @@ Rational input(const Texel& t, std::size_t k) { return exact(as_float(t[k])); }
 
 }  // namespace
 
-TEST_CASE("fused sums, quotients, reciprocals and roots are the nearest binary32 of the exact value") {
+TEST_CASE("fused sums and divisions and roots are the nearest binary32 of the exact value") {
     check_nearest("shader.mul-add", "fused", [](const Texel& t, const Rational& m) {
         return Rational{input(t, 0) * input(t, 1) + input(t, 2) - m};
     });
@@ -77,13 +78,13 @@ TEST_CASE("fused sums, quotients, reciprocals and roots are the nearest binary32
 
 TEST_CASE("a sum of a rounded product is the nearest of the exact sum of the nearest product") {
     check_nearest("shader.mul-add", "rounded twice", [](const Texel& t, const Rational& m) {
-        // The nearest product: of the double, which holds it exactly, the only rounding.
+        // The nearest product: double holds the product exactly, so this is the only rounding.
         const float product = static_cast<float>(double{as_float(t[0])} * double{as_float(t[1])});
         return Rational{exact(product) + input(t, 2) - m};
     });
 }
 
-TEST_CASE("a comparison with the exact reference and the texel's exact value agrees where no rounding is near") {
+TEST_CASE("a comparison with the exact reference and the exact texel agrees where no rounding matters") {
     const Operation& o = operation_called("texture.shadow-d16");
     const Hypothesis& h = o.hypotheses.front();
     std::size_t compared = 0, wrong = 0;
@@ -98,7 +99,7 @@ TEST_CASE("a comparison with the exact reference and the texel's exact value agr
     CHECK(wrong == 0);
 }
 
-TEST_CASE("weights of so many bits are the nearest or the lower multiple of their last bit") {
+TEST_CASE("weights of a given number of bits are the nearest or the next lower multiple of their last bit") {
     const Operation& o = operation_called("texture.weights-r16f");
     for (const int count : {4, 8, 11}) {
         std::size_t wrong = 0;
@@ -117,7 +118,7 @@ TEST_CASE("weights of so many bits are the nearest or the lower multiple of thei
     }
 }
 
-TEST_CASE("stencil operations step by one and end at 0 and 255 unless they wrap") {
+TEST_CASE("stencil operations step by one and saturate at 0 and 255 unless they wrap") {
     const Operation& o = operation_called("test.stencil");
     for (const bool wraps : {false, true}) {
         const Hypothesis& h = o.hypotheses[wraps ? 1 : 0];
@@ -141,7 +142,7 @@ TEST_CASE("stencil operations step by one and end at 0 and 255 unless they wrap"
     }
 }
 
-TEST_CASE("every operation has its own name, whole rows, and inputs that tell any two of its hypotheses apart") {
+TEST_CASE("every operation has a unique name and whole rows and inputs that distinguish any two of its hypotheses") {
     std::set<std::string> names;
     for (const Operation& o : operations()) {
         INFO(o.name);
@@ -157,7 +158,7 @@ TEST_CASE("every operation has its own name, whole rows, and inputs that tell an
     }
 }
 
-TEST_CASE("a device that follows any one hypothesis is found to follow it") {
+TEST_CASE("a device that follows one hypothesis is found to follow it") {
     for (const Operation& o : operations())
         for (const Hypothesis& h : o.hypotheses) {
             INFO(o.name << ": " << h.name);
@@ -167,7 +168,7 @@ TEST_CASE("a device that follows any one hypothesis is found to follow it") {
         }
 }
 
-TEST_CASE("one changed word of a result names its operation, texel and inputs") {
+TEST_CASE("one changed value of a result is reported with its operation and texel and inputs") {
     OperationReplies replies = answer_operations();
     (*replies["shader.division"].texels)[77][0] ^= 1;
     for (const OperationFinding& f : judge(replies)) {
@@ -185,7 +186,7 @@ TEST_CASE("one changed word of a result names its operation, texel and inputs") 
     }
 }
 
-TEST_CASE("results in a pack are read as they were written, and a pack without any has none") {
+TEST_CASE("results in a pack are read as written and a pack without results has none") {
     const strata::test::OwnFolder folder;
     const std::vector<Item> items{kit().front()};
     ProbePack pack = answer(*pipeline::find_profile("geforce3"), items, {YDirection::up});
@@ -204,7 +205,7 @@ TEST_CASE("results in a pack are read as they were written, and a pack without a
     CHECK(judge(read.operations).size() == operations().size());
 }
 
-TEST_CASE("results of another list or of another shape are refused") {
+TEST_CASE("results of another list or of another shape are rejected") {
     const nlohmann::json other{{"operations", "0000"}};
     CHECK_THROWS_AS(read_operations(other, {}, "pack"), InputError);
     const nlohmann::json ours{{"operations", operations_digest()}};

@@ -1,4 +1,5 @@
-// Model: a tar archive written block by block from POSIX's table; files changed by hand.
+// Tests packs of answers: ustar archives are built by hand (POSIX pax, ustar header block) and the files of written
+// packs are edited.
 #include "tools/probe/pack.h"
 
 #include <bit>
@@ -18,7 +19,7 @@ using namespace strata::probe;
 
 namespace {
 
-// Some scenes of the kit: all formats, with depth and without.
+// Kit scenes for d16, d24, d32f and rgba16f; some have no depth buffer.
 std::vector<Item> some_items() {
     std::vector<Item> items;
     for (const Item& item : kit())
@@ -28,7 +29,7 @@ std::vector<Item> some_items() {
     return items;
 }
 
-// A file's header and content in blocks of 512 bytes.
+// One ustar member: a 512-byte header, then the content padded to 512 bytes.
 std::string tar_entry(const std::string& name, const std::string& content) {
     std::string header(512, '\0');
     header.replace(0, name.size(), name);
@@ -49,7 +50,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a pack that is written and read again has the same answers, refusals and features") {
+TEST_CASE("answers and rejections and device features are unchanged after writing and reading a pack") {
     const strata::test::OwnFolder folder;
     const std::vector<Item> items = some_items();
     const ProbePack written = answer(*pipeline::find_profile("geforce3"), items, {YDirection::up, YDirection::down});
@@ -67,7 +68,7 @@ TEST_CASE("a pack that is written and read again has the same answers, refusals 
         }
 }
 
-TEST_CASE("texels of a 24-bit depth buffer are codes where all lie beside one, and else binary32") {
+TEST_CASE("a 24-bit depth image read as binary32 becomes d24 if every texel is nearest to a code and else d32f") {
     const strata::test::OwnFolder folder;
     const std::vector<Item> items = some_items();
     for (const bool holds_floats : {false, true}) {
@@ -75,7 +76,7 @@ TEST_CASE("texels of a 24-bit depth buffer are codes where all lie beside one, a
         device.depth24 = holds_floats ? pipeline::Depth24::binary32 : pipeline::Depth24::codes;
         ProbePack pack = answer(device, items, {YDirection::down});
         const ProbePack drawn = pack;
-        // As a page reads a buffer back: the float that a shader finds, whatever the buffer holds.
+        // A page reads depth through a shader, which returns a float for either storage format.
         pipeline::Image& depth = *pack.answers[YDirection::down]["depth.d24"].answer->depth;
         pipeline::Image texels{pipeline::Format::d32f, depth.width, depth.height};
         for (std::size_t i = 0; i < depth.codes.size(); ++i) {
@@ -90,7 +91,8 @@ TEST_CASE("texels of a 24-bit depth buffer are codes where all lie beside one, a
             INFO(name);
             CHECK(read.answers.at(YDirection::down).at(name).answer == reply.answer);
         }
-        // A profile whose buffers hold floats explains codes where these are the nearest to its floats.
+        // Drawn by a profile with a binary32 depth buffer: if the pack holds codes, its floats are converted to the
+        // nearest codes before the comparison.
         const Comparison held{read, items, YDirection::down};
         pipeline::DeviceProfile floats = device;
         floats.depth24 = pipeline::Depth24::binary32;
@@ -103,7 +105,7 @@ TEST_CASE("texels of a 24-bit depth buffer are codes where all lie beside one, a
     }
 }
 
-TEST_CASE("an archive of a pack is read as the folder is, with its first folder and without") {
+TEST_CASE("a tar of a pack is read like the folder with or without a leading folder in the member names") {
     const strata::test::OwnFolder folder;
     for (const std::string prefix : {"", "answers/"}) {
         const std::string bytes = tar_entry(prefix + "candidate.json", "{}") +
@@ -117,7 +119,7 @@ TEST_CASE("an archive of a pack is read as the folder is, with its first folder 
     }
 }
 
-TEST_CASE("an archive that is cut or no archive is refused by its first wrong byte") {
+TEST_CASE("a truncated tar and a file that is not a tar are rejected with the offset of the error") {
     const strata::test::OwnFolder folder;
     const std::string path = folder.path() + "/pack.tar";
     write_text(path, tar_entry("a", std::string(700, 'x')).substr(0, 1024));
@@ -128,7 +130,7 @@ TEST_CASE("an archive that is cut or no archive is refused by its first wrong by
                       path + ": byte 0: expected a header of a tar archive (ustar), found another text");
 }
 
-TEST_CASE("depths that a shader read become the nearest codes") {
+TEST_CASE("depths read by a shader are converted to the nearest codes") {
     const strata::test::OwnFolder folder;
     const std::vector<Item> items = some_items();
     const ProbePack written = answer(*pipeline::find_profile("ideal"), items, {YDirection::up});
@@ -149,7 +151,7 @@ TEST_CASE("depths that a shader read become the nearest codes") {
         CHECK(read.answers.at(YDirection::up).at(name).answer == written.answers.at(YDirection::up).at(name).answer);
 }
 
-TEST_CASE("answers to another kit are refused by its digest") {
+TEST_CASE("answers to another kit are rejected because its digest differs") {
     const strata::test::OwnFolder folder;
     std::vector<Item> items = some_items();
     const std::string path = folder.path() + "/pack";

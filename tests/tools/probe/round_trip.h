@@ -1,5 +1,5 @@
-// One profile's way through the kit and back: from its answers alone another profile, held against it on scenes of
-// another generator than the kit's.
+// Infers a profile from the answers of another one, and compares both on scenes of a generator that the kit does not
+// use.
 #pragma once
 #include <fmt/format.h>
 
@@ -14,12 +14,12 @@ struct RoundTrip {
     DeviceProfile truth{};
     Inference found{};
     Difference unseen{};
-    // Unseen scenes that the two draw, and that one alone refuses.
+    // Unseen scenes that both profiles draw, and those that only one rejects.
     int drawn = 0, refused_by_one = 0;
     [[nodiscard]] bool is_equal() const { return unseen.is_none() && refused_by_one == 0; }
 };
 
-// `y` as the device's frame has it; the device draws from that corner.
+// `y` is the y direction of the device's frame; the device's origin is set to match.
 inline RoundTrip round_trip(const DeviceProfile& device, const std::vector<Item>& unseen, YDirection y) {
     RoundTrip trip{.truth = with_origin(device, origin_of(y)), .found = infer(answer(device, kit(), {y}), kit(), y)};
     for (const Item& item : unseen) {
@@ -32,8 +32,7 @@ inline RoundTrip round_trip(const DeviceProfile& device, const std::vector<Item>
     return trip;
 }
 
-// Fields that have an effect and came back otherwise: of a trip whose pictures are equal, those that stand for each
-// other.
+// Fields with an effect whose inferred value differs. If all pictures are equal, the values are equivalent.
 inline std::string other_values_of(const RoundTrip& trip) {
     std::string text;
     for (const ProfileField* f : probed_fields()) {

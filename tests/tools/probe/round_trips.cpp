@@ -1,6 +1,6 @@
-// Random profiles from their answers alone: probe_round_trips [first=0] [count=200] [unseen=100]. A line a profile with
-// the fields that came back otherwise, true and found; exit status 1 if one of them draws one of 20 unseen scenes, from
-// number `unseen`, otherwise.
+// Infers random profiles from their answers: probe_round_trips [first=0] [count=200] [unseen=100]. Prints a line per
+// profile with the fields that differ, true and found value; exits with status 1 if an inferred profile draws one of 20
+// unseen scenes, starting at number `unseen`, differently.
 #include <cstdlib>
 #include <cstring>
 

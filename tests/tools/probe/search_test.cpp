@@ -1,4 +1,4 @@
-// Model: pictures that are drawn, where a search takes them for drawn.
+// Tests the search for a profile on pictures drawn by known profiles.
 #include "tools/probe/search.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace strata::probe;
 
 namespace {
 
-// Another value of the field, if a device could have it.
+// The profile with another value of the field, if a device can have it.
 std::optional<DeviceProfile> turned(const DeviceProfile& profile, const ProfileField& f) {
     DeviceProfile other = profile;
     f.set(other, f.value(profile) == f.lowest ? f.highest : f.lowest);
@@ -37,8 +37,9 @@ TEST_CASE("three random devices are inferred from their answers alone") {
     }
 }
 
-TEST_CASE("where a device draws comes before what it draws there: the clip that covers its pixels is found") {
-    // Cut at the view volume, with the planes of triangles that are not: no profile is like this.
+TEST_CASE(
+    "where a device draws is decided before what it draws so that the clip volume that covers its pixels is found") {
+    // Clipped at the view volume, with the planes of unclipped triangles; no built-in profile does this.
     DeviceProfile device = *pipeline::find_profile("geforce8_dx101");
     device.raster.subpixel_bits = 4;
     device.origin = pipeline::Origin::lower_left;
@@ -69,16 +70,16 @@ TEST_CASE("where a device draws comes before what it draws there: the clip that 
     CHECK(sum.coverage == 0);
 }
 
-TEST_CASE("a field that matters not, or cannot change a scene, changes no bit of it") {
+TEST_CASE("a field that is irrelevant or cannot change a scene changes no bit of it") {
     for (int number = 0; number < 8; ++number) {
         const DeviceProfile profile = random_profile(number);
         for (const Item& item : kit()) {
-            if (item.width > 128 || item.name == "color.slivers") continue;  // the others are small
+            if (item.width > 128 || item.name == "color.slivers") continue;  // only small scenes, for speed
             const Reply drawn = draw_item(profile, item, YDirection::down);
             for (const ProfileField* f : probed_fields()) {
                 const std::optional<DeviceProfile> other = turned(profile, *f);
                 if (!other) continue;
-                // The field matters under neither value, for one that turns on others it does under one.
+                // Skips a field that matters under either value: a value can enable other fields.
                 if (can_change(f->key, item) && (matters(f->key, profile) || matters(f->key, *other))) continue;
                 INFO("profile " << number << ", " << item.name << ", " << f->key);
                 const Reply again = draw_item(*other, item, YDirection::down);
