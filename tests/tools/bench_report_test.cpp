@@ -1,4 +1,5 @@
-// Model: made-up times whose medians, quotients and rows are worked out by hand.
+// Tests the tables and JSON of `strata bench` on invented times. The medians, ratios and rows that are expected are
+// worked out by hand.
 #include "tools/lab/bench/bench_report.h"
 
 #include <catch2/catch.hpp>
@@ -54,7 +55,7 @@ BenchResult refused(const char* algorithm, const std::string& reason) {
     return result;
 }
 
-// The words of a line, for tables whose widths do not matter.
+// The words of a line, for comparing table rows regardless of column widths.
 std::vector<std::string> words_in(const std::string& line) {
     std::vector<std::string> words;
     std::istringstream stream{line};
@@ -77,7 +78,7 @@ const std::string replayed_name = "planes:count=2 dual replay scalar needed 64x4
 
 }  // namespace
 
-TEST_CASE("the median of an odd number of times is the middle one, of an even number the mean of the middle two") {
+TEST_CASE("the median of an odd number of times is the middle one and of an even number the mean of the middle two") {
     const auto is = [](std::vector<double> times, double median, double least, double greatest) {
         const Spread spread = spread_of(std::move(times));
         return spread.median == median && spread.least == least && spread.greatest == greatest;
@@ -89,7 +90,8 @@ TEST_CASE("the median of an odd number of times is the middle one, of an even nu
     CHECK(is({5, 4, 3, 2, 1}, 3, 1, 5));
 }
 
-TEST_CASE("two timings are apart if each has four runs or more and no run of the one is as long as one of the other") {
+TEST_CASE(
+    "two timings differ if each has four runs or more and every run of one is shorter than every run of the other") {
     const Spread slow{5, 4, 6, 4}, quick{2, 1, 3.9, 4};
     CHECK(is_apart(slow, quick));
     CHECK(is_apart(quick, slow));
@@ -97,7 +99,7 @@ TEST_CASE("two timings are apart if each has four runs or more and no run of the
     CHECK_FALSE(is_apart(slow, slow));
     CHECK_FALSE(is_apart({5, 4, 6, 3}, quick));
     CHECK_FALSE(is_apart(slow, {2, 1, 3.9, 3}));
-    // Of equal distributions: every order of four and four runs is equally likely, and 2 of 70 look apart.
+    // For equal distributions every order of four and four runs is equally likely, and 2 of 70 orders look different.
     int orders = 0, apart = 0;
     for (unsigned first = 0; first < 256; ++first) {
         std::vector<double> a, b;
@@ -110,7 +112,7 @@ TEST_CASE("two timings are apart if each has four runs or more and no run of the
     CHECK(apart == 2);
 }
 
-TEST_CASE("a job in JSON tells its words, its counts, its times and what follows from them") {
+TEST_CASE("a job in JSON has its parameters and counts and times and the values derived from them") {
     const auto document = to_json(std::vector{result_of("dual", Execution::replay)}, {});
     CHECK(document.at("scene") == "planes:count=2");
     CHECK(document.at("refused").empty());
@@ -121,7 +123,7 @@ TEST_CASE("a job in JSON tells its words, its counts, its times and what follows
     CHECK(document.at("jobs").at(0).dump() == expected.dump());
 }
 
-TEST_CASE("a job without a fragment has no time and no bytes a fragment") {
+TEST_CASE("a job without a fragment has no time and no bytes per fragment") {
     BenchResult empty = result_of(nullptr, Execution::replay);
     empty.last.counters = strata::pipeline::Counters{};
     const auto job = to_json(std::vector{empty}, {}).at("jobs").at(0);
@@ -133,7 +135,7 @@ TEST_CASE("a job without a fragment has no time and no bytes a fragment") {
     CHECK((row.at(row.size() - 2) == "-" && row.back() == "-"));
 }
 
-TEST_CASE("a job that was not counted has neither fragments nor what is divided by them") {
+TEST_CASE("a job that was not counted has no fragment count and no value divided by one") {
     BenchResult uncounted = result_of("dual", Execution::replay);
     uncounted.last.counters.reset();
     const auto job = to_json(std::vector{uncounted}, {}).at("jobs").at(0);
@@ -143,7 +145,7 @@ TEST_CASE("a job that was not counted has neither fragments nor what is divided 
     CHECK(std::ranges::count(row, "-") == 4);
 }
 
-TEST_CASE("a document names each scene once, in order, files without their folder, and lists what was refused") {
+TEST_CASE("a document names each scene once in order with files without their folder and lists the rejected jobs") {
     const BenchScene dragon = scene_named("/some/folder/dragon.glb");
     const std::vector<BenchResult> results{result_of("dual", Execution::replay, dragon),
                                            result_of("dual", Execution::replay), refused("dual_independent", "because"),
@@ -158,7 +160,7 @@ TEST_CASE("a document names each scene once, in order, files without their folde
     CHECK_FALSE(document["refused"][0].contains("seconds"));
 }
 
-TEST_CASE("a ratio is the old median over the new one, of the job with the same words in all of them") {
+TEST_CASE("a ratio is the old median over the new one of the job with the same parameters") {
     const Baseline baseline{{replayed_name, {0.012, 0.011, 0.013, 5}}};
     const auto ratio = [&](auto&& change) {
         BenchScene scene = planes();
@@ -179,7 +181,7 @@ TEST_CASE("a ratio is the old median over the new one, of the job with the same 
     CHECK(ratio([](auto&, auto& scene) { scene.session.profile.name = "other"; }) == -1);
 }
 
-TEST_CASE("what --json wrote is read as a baseline, and anything else is refused in one sentence") {
+TEST_CASE("the output of --json is accepted as a baseline and any other file is rejected with one error message") {
     const Folder folder;
     BenchResult other = result_of(nullptr, Execution::literal);
     other.seconds = {0.5};
@@ -199,7 +201,7 @@ TEST_CASE("what --json wrote is read as a baseline, and anything else is refused
     CHECK_THROWS_WITH(load_baseline(folder / "missing.json"), Catch::Contains("missing.json"));
 }
 
-TEST_CASE("a row of the table has milliseconds, their spread, millions of fragments a second, and quotients") {
+TEST_CASE("a table row has milliseconds with their spread and millions of fragments per second and ratios") {
     const auto lines = lines_of(to_table({result_of("dual", Execution::replay)}));
     REQUIRE(lines.size() == 2);
     CHECK(words_in(lines[1]) == std::vector<std::string>{"planes:count=2", "dual", "replay", "scalar", "needed", "5",
@@ -207,7 +209,7 @@ TEST_CASE("a row of the table has milliseconds, their spread, millions of fragme
                                                          "4.0"});
 }
 
-TEST_CASE("with several executions one more table sets them side by side, each over the last") {
+TEST_CASE("with several executions one more table shows them in columns with the ratio of each to the last") {
     BenchResult literal = result_of("dual", Execution::literal), depth = result_of(nullptr, Execution::replay);
     BenchResult replay = result_of("dual", Execution::replay);
     literal.seconds = {0.012, 0.012, 0.011, 0.013};
@@ -218,7 +220,8 @@ TEST_CASE("with several executions one more table sets them side by side, each o
     CHECK(words_in(lines[4]) == std::vector<std::string>{"ms", "literal", "replay", "ratio"});
     CHECK(words_in(lines[5]) ==
           std::vector<std::string>{"planes:count=2", "dual", "scalar", "needed", "12.00", "4.00", "3.00", ":", "1"});
-    // A run of replay as long as one of literal execution, or fewer than four runs: the quotient says nothing.
+    // If a run of replay is as long as one of literal execution, or there are fewer than four runs, the ratio is not
+    // significant.
     replay.seconds.back() = 0.011;
     for (const bool is_short : {false, true}) {
         if (is_short) literal.seconds.pop_back(), replay.seconds = {0.004, 0.004, 0.003};
@@ -232,13 +235,14 @@ TEST_CASE("with several executions one more table sets them side by side, each o
     CHECK(lines_of(to_table({result_of("dual", Execution::replay), depth})).size() == 3);
 }
 
-TEST_CASE("refusals stand under the table, each once") {
+TEST_CASE("error messages are listed once each below the table") {
     const auto text = to_table({refused("dual", "why"), refused("dual", "why"), refused("depth_units", "else")});
     CHECK(lines_of(text).size() == 3);
     CHECK(text.find("refused: depth_units: else\nrefused: dual: why\n") != std::string::npos);
 }
 
-TEST_CASE("beside an earlier run stand old, new and old over new, then the jobs that only one of them has") {
+TEST_CASE(
+    "a comparison with an earlier run lists both times with their ratio and then the jobs without a counterpart") {
     Baseline baseline{
         {replayed_name, {0.012, 0.009, 0.013, 4}}, {"gone a b c", {1, 1, 1, 4}}, {"also gone", {1, 1, 1, 4}}};
     BenchResult dual = result_of("dual", Execution::replay);
@@ -259,7 +263,7 @@ TEST_CASE("beside an earlier run stand old, new and old over new, then the jobs 
     CHECK(noisy[3].starts_with("noise: "));
 }
 
-TEST_CASE("a picture that differs from the first one of its scene and algorithm is told, whatever the way of running") {
+TEST_CASE("a picture that differs from the first one of its scene and algorithm is reported in every execution") {
     const BenchScene other = scene_named("planes:count=3");
     std::vector<BenchResult> results{result_of("dual", Execution::literal), result_of("dual", Execution::replay),
                                      result_of(nullptr, Execution::replay),

@@ -1,4 +1,5 @@
-// Model: the promised keys, typed here a second time, and the quotients that they must satisfy among themselves.
+// Tests the JSON document of `strata bench`: the test lists the documented keys itself, and checks that the ratios
+// agree with the numbers that they are computed from.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -17,7 +18,7 @@ Ended bench(const Folder& folder, std::vector<std::string> more) {
     return run_strata(folder, more);
 }
 
-// What is wrong with the numbers of a job; empty if nothing is.
+// Description of the first inconsistent number of a job; empty if there is none.
 std::string wrong_with(const ordered_json& job) {
     for (const char* key : {"scene", "algorithm", "execution", "simd", "effects", "digest"})
         if (!job.at(key).is_string()) return key;
@@ -37,7 +38,7 @@ std::string wrong_with(const ordered_json& job) {
 
 }  // namespace
 
-TEST_CASE("strata bench --json prints one document with every promised key, and names what the profile refuses") {
+TEST_CASE("strata bench --json prints every documented key and the algorithms that the profile rejects") {
     const Folder folder;
     const Ended ended = bench(folder, {"--algorithm", "depth,dual,dual_independent", "--execution", "all", "--simd",
                                        "scalar,best", "--effects", "needed,all", "--counters", "--json"});
@@ -46,7 +47,8 @@ TEST_CASE("strata bench --json prints one document with every promised key, and 
     const auto document = ordered_json::parse(ended.out);
     CHECK(document.at("scene") == "random:seed=3,triangles=60");
     const bool has_simd = document.at("jobs").size() == 16;  // 2 algorithms, 2 executions, 2 effects, 2 sets
-    CHECK((has_simd || document["jobs"].size() == 8));       // `best` is `scalar` on a processor that has nothing else
+    // Without a faster instruction set `best` is the same as `scalar`.
+    CHECK((has_simd || document["jobs"].size() == 8));
     std::string wrong;
     for (const auto& job : document["jobs"])
         if (wrong.empty()) wrong = wrong_with(job);
@@ -56,7 +58,7 @@ TEST_CASE("strata bench --json prints one document with every promised key, and 
     CHECK(document["refused"][0].at("reason").get<std::string>().find("ARB_draw_buffers_blend") != std::string::npos);
 }
 
-TEST_CASE("a job's literal fragments and picture are the same in every execution") {
+TEST_CASE("the literal fragment count and the picture of a job are the same in every execution") {
     const Folder folder;
     const Ended ended = bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--counters", "--json"});
     const auto jobs = ordered_json::parse(ended.out).at("jobs");
@@ -66,11 +68,11 @@ TEST_CASE("a job's literal fragments and picture are the same in every execution
             CHECK(job[key] == jobs[0][key]);
 }
 
-TEST_CASE("strata bench --baseline prints old over new for equal jobs and names those without a partner") {
+TEST_CASE("strata bench --baseline prints old over new for equal jobs and names those without a counterpart") {
     const Folder folder;
     CHECK(bench(folder, {"--algorithm", "depth,dual", "-o", "old.json"}).status == 0);
     auto old = ordered_json::parse(content_of(folder / "old.json"));
-    old["jobs"][1]["seconds"]["median"] = 1e6;  // dual took so long that its ratio is recognised
+    old["jobs"][1]["seconds"]["median"] = 1e6;  // recognisable in the ratio
     CHECK(shell(folder, "cat > old.json <<'END'\n" + old.dump() + "\nEND").status == 0);
     const std::vector<std::string> words{"--algorithm", "dual,unsorted", "--baseline", "old.json"};
     const Ended table = bench(folder, words);
@@ -85,7 +87,7 @@ TEST_CASE("strata bench --baseline prints old over new for equal jobs and names 
     CHECK(jobs[1]["ratio"].is_null());
 }
 
-TEST_CASE("a baseline's execution tiled is replay without fragment memory, and one without a memory had the usual") {
+TEST_CASE("a baseline without a memory is read with the default and execution tiled as replay without memory") {
     const Folder folder;
     CHECK(bench(folder, {"--algorithm", "unsorted", "-o", "old.json"}).status == 0);
     auto old = ordered_json::parse(content_of(folder / "old.json"));

@@ -1,6 +1,6 @@
-// What people report of ports, each as a picture that is computed here from the panes of its scene, never by the
-// mistake's own entry of a list. Model: squares that are parallel to the picture, blended pixel by pixel in real
-// numbers.
+// Tests that bugs which users report of their ports are diagnosed. Each picture is computed here from the panes of its
+// scene, not by the implementation of the mistake under test. The panes are squares parallel to the image plane,
+// blended pixel by pixel in binary64.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +17,7 @@ using Catch::StartsWith;
 
 namespace {
 
-// A square with its edges on the axes, from `low` to `high` in x and y, at depth z; straight colour and alpha.
+// A square with axis-parallel edges from `low` to `high` in x and y, at depth z; colour not premultiplied, and alpha.
 struct Pane {
     double low, high, z;
     std::array<double, 4> color;
@@ -55,7 +55,7 @@ void write_picture(const Folder& folder, const std::string& name, int side,
             for (const int code : color(column, row)) out.put(static_cast<char>(code));
 }
 
-// OVER with an exact source: the target alone has codes.
+// OVER in binary64: only the stored target is rounded to codes.
 Rgb blended(const Rgb& behind, const std::array<double, 4>& over) {
     Rgb result{};
     for (std::size_t c = 0; c < 3; ++c)
@@ -65,10 +65,11 @@ Rgb blended(const Rgb& behind, const std::array<double, 4>& over) {
 
 }  // namespace
 
-TEST_CASE("blended surfaces that write depth are named: what lies behind one drawn before is lost") {
+TEST_CASE("blended surfaces that write depth are diagnosed because surfaces behind an earlier one are lost") {
     const Folder folder;
     constexpr int side = 32;
-    // The middle one, the nearest, the farthest, which fails the depth test wherever one of them is.
+    // The middle pane, the nearest, the farthest. The farthest fails the depth test wherever one of the others covers
+    // it.
     const std::vector<Pane> panes{
         {-0.5, 0.7, 0, {0, 1, 0, 0.5}}, {-0.8, 0.4, 0.5, {1, 0, 0, 0.5}}, {-0.3, 0.9, -0.5, {0, 0, 1, 0.25}}};
     write_scene(folder, "panes.json", panes);
@@ -90,7 +91,7 @@ TEST_CASE("blended surfaces that write depth are named: what lies behind one dra
     }
 }
 
-TEST_CASE("a centre on an edge that both triangles or neither draw is named, by diagnose and by compare") {
+TEST_CASE("a pixel centre on an edge that both triangles or neither draw is diagnosed by diagnose and by compare") {
     const Folder folder;
     constexpr int side = 32;
     const Pane pane{-0.75, 0.75, 0, {1, 0.5, 0, 0.5}};
@@ -113,7 +114,7 @@ TEST_CASE("a centre on an edge that both triangles or neither draw is named, by 
     }
 }
 
-TEST_CASE("a peel of too few passes is named with its number, whatever the number") {
+TEST_CASE("a peel with too few passes is diagnosed with their number") {
     const Folder folder;
     std::vector<Pane> panes;
     for (int i = 0; i < 6; ++i)
@@ -141,7 +142,7 @@ TEST_CASE("a peel of too few passes is named with its number, whatever the numbe
     CHECK_THAT(dual.out, StartsWith("100 % of the pixels are those of: only the first 2 passes of 4 (--max-passes 2)"));
 }
 
-TEST_CASE("the picture of another processor is that of its profile") {
+TEST_CASE("a picture of another processor is recognised as that of its profile") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 96x72 --algorithm dual --profile llvmpipe_sse -q -o theirs.png")
                 .status == 0);
@@ -151,7 +152,7 @@ TEST_CASE("the picture of another processor is that of its profile") {
     CHECK_THAT(found.out, StartsWith("right under other options: every pixel is that of: profile llvmpipe_sse ("));
 }
 
-TEST_CASE("blends of sources that are no codes are right under another rounding, for any algorithm") {
+TEST_CASE("blends of sources that are not codes are accepted as another rounding for every algorithm") {
     const Folder folder;
     constexpr int side = 40;
     std::vector<Pane> panes;
@@ -221,7 +222,7 @@ void write_decal(const Folder& folder, const std::string& name, const std::strin
 
 }  // namespace
 
-TEST_CASE("a square exactly on an opaque one that is blended shows LEQUAL for LESS, for every peel") {
+TEST_CASE("a blended square at the depth of an opaque one is diagnosed as LEQUAL in place of LESS for every peel") {
     const Folder folder;
     write_decal(folder, "on.gltf", "zczMvs3MzL4AAAAAzczMPs3MzL4AAAAAzczMPs3MzD4AAAAAzczMvs3MzD4AAAAA");
     write_decal(folder, "before.gltf", "zczMvs3MzL4AAIA8zczMPs3MzL4AAIA8zczMPs3MzD4AAIA8zczMvs3MzD4AAIA8");
@@ -240,7 +241,8 @@ TEST_CASE("a square exactly on an opaque one that is blended shows LEQUAL for LE
     }
 }
 
-TEST_CASE("triangles of one colour that a port keeps to the bit are that option, and no mistake of slopes") {
+TEST_CASE(
+    "triangles of one colour that a port keeps unchanged are accepted as an option and not diagnosed as wrong slopes") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "echo '{\"base\": \"llvmpipe\", \"name\": \"uniforms\", \"raster\": {\"equal_colors\": \"kept\"}}' > "

@@ -1,5 +1,5 @@
-// Model: pictures that the command renders itself, and one that is stopped too early; exit statuses of
-// tools/docs/commands.md.
+// Tests `strata compare SCENE PICTURE` with pictures that the command itself renders, one of them by a peel that is
+// stopped too early. The exit statuses are those of tools/docs/commands.md.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -7,7 +7,7 @@
 
 using namespace strata::test;
 
-TEST_CASE("compare with a scene calls a picture right whatever its format and order of blending, and ends with 0") {
+TEST_CASE("compare with a scene accepts a correct picture in any format and order of blending with exit status 0") {
     const Folder folder;
     REQUIRE(
         shell(
@@ -33,7 +33,7 @@ TEST_CASE("compare with a scene names the mistake of a peel that stops early, an
     CHECK(text.status == 1);
     CHECK(text.out.starts_with("wrong: "));
     CHECK(text.out.find("only the nearest 2 layers of up to ") != std::string::npos);
-    // A pack's state stands for the options.
+    // A pack's state replaces the options.
     const Ended json = run_strata(folder, {"compare", "pack", "a.png", "--json"});
     CHECK(json.status == 1);
     const auto document = nlohmann::json::parse(json.out);
@@ -59,7 +59,7 @@ TEST_CASE("a picture that is right by another profile's rules is right, and says
     CHECK(run_strata(folder, {"compare", scene, "b.exr"}).status == 1);
 }
 
-TEST_CASE("floats that add up codes of another profile are right by its rules, however far from the exact result") {
+TEST_CASE("floats that sum codes of another profile are correct by its rules at any distance from the exact result") {
     const Folder folder;
     const std::string draw =
         "strata render random:seed=7 --size 48x36 --profile llvmpipe_sse --algorithm coherent_stencil "
@@ -71,7 +71,7 @@ TEST_CASE("floats that add up codes of another profile are right by its rules, h
     CHECK(found.out.find("\n  by the rules of profile llvmpipe_sse; ") != std::string::npos);
 }
 
-TEST_CASE("explain --candidate tells which layers a port composited at a pixel") {
+TEST_CASE("explain --candidate reports which layers a port composited at a pixel") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 24x18 --algorithm front_to_back --max-passes 2 -q -o a.png")
                 .status == 0);
@@ -85,7 +85,7 @@ TEST_CASE("explain --candidate tells which layers a port composited at a pixel")
     const Ended right = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "0,0", "--json"});
     CHECK(right.status == 0);
     CHECK(nlohmann::json::parse(right.out)["edits"].empty());
-    // The page's legend counts what its map shows.
+    // The counts in the page's legend are those of its map.
     const std::string page = content_of(folder / "page.html");
     CHECK(page.find("What each wrong pixel composited") != std::string::npos);
     CHECK(page.find("pixels: only the nearest 2 layers of up to ") != std::string::npos);
@@ -111,7 +111,7 @@ TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit", "
     CHECK(run_strata(folder, {"compare", "pack", "a.front_to_back.png"}).status == 0);
 }
 
-TEST_CASE("options of a scene fit no picture as the reference") {
+TEST_CASE("options that describe a scene are rejected when the reference is a picture") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"compare", "a.png", "b.png", "--profile", "llvmpipe"});
     CHECK(ended.status == 2);

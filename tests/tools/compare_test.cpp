@@ -1,4 +1,5 @@
-// Model: files that the command wrote, copied or cut on purpose; exit statuses of tools/docs/commands.md.
+// Tests `strata compare` with files that the command wrote and copies of them that are changed or truncated. The exit
+// statuses are those of tools/docs/commands.md.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 using namespace strata::test;
 
-TEST_CASE("compare ends with 0 for equal pictures, with 1 for others and with 2 for what is no picture") {
+TEST_CASE("compare exits with 0 for equal pictures and 1 for different ones and 2 for a file that is not a picture") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render teapot --size 48x36 -o a.exr && strata render teapot --size 48x36 -o a.png && "
@@ -35,7 +36,7 @@ TEST_CASE("compare ends with 0 for equal pictures, with 1 for others and with 2 
     CHECK(run_strata(folder, {"compare", "a.exr", "cut.exr"}).status == 2);
 }
 
-TEST_CASE("compare knows a background that it is told, and tells lost coverage from another background") {
+TEST_CASE("compare uses the given background and distinguishes lost coverage from another background") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render planes:count=1,cells=1 --size 24x18 --background 0.2,0.4,0.6 -o a.png && "
@@ -52,13 +53,13 @@ TEST_CASE("compare knows a background that it is told, and tells lost coverage f
         return found;
     };
     CHECK(kinds({"--background", "0.2,0.4,0.6"}) == std::vector<std::string>{"background"});
-    CHECK(kinds({"--background", "0.9,0.9,0.9"}) == std::vector<std::string>{"color"});  // drawn everywhere, then
+    CHECK(kinds({"--background", "0.9,0.9,0.9"}) == std::vector<std::string>{"color"});  // every pixel counts as drawn
     CHECK(run_strata(folder, {"compare", "a.png", "b.png", "--background", "0.2"}).err ==
           "strata: --background: expected none, or three or four numbers from 0 to 1 such as 0.2,0.2,0.3 or 0,0,0,0.5, "
           "found '0.2'\n");
 }
 
-TEST_CASE("a folder's heat maps and comparisons side by side are drawn of each algorithm") {
+TEST_CASE("heat maps and side-by-side comparisons of a folder are drawn for each algorithm") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata golden teapot --size 24x18 --algorithm dual,front_to_back -o pack && "
@@ -69,7 +70,7 @@ TEST_CASE("a folder's heat maps and comparisons side by side are drawn of each a
                                                      "side.dual.png", "side.front_to_back.png"});
     REQUIRE(run_strata(folder, {"compare", "pack", "other", "--algorithm", "dual", "--heat", "one.png"}).status == 1);
     CHECK(content_of(folder / "one.png") == content_of(folder / "heat.dual.png"));
-    // The picture of the pack against that of the folder, by itself.
+    // The single files of pack and folder, compared directly.
     REQUIRE(run_strata(folder, {"compare", "pack/expected/dual/picture.npy", "other/expected/dual/picture.npy",
                                 "--heat", "alone.png"})
                 .status == 1);
@@ -98,7 +99,7 @@ TEST_CASE("deep files are compared by their layers") {
     CHECK(other.out.find("layer") != std::string::npos);
 }
 
-TEST_CASE("compare says what it wanted where it was given something else") {
+TEST_CASE("compare names what it expected when it is given something else") {
     const Folder folder;
     const auto says = [&](std::vector<std::string> words) {
         words.insert(words.begin(), {"compare", "a.raw", "b.raw"});
@@ -122,9 +123,8 @@ TEST_CASE("compare says what it wanted where it was given something else") {
           ".hdr, or --layout for one of bare numbers, found another ending\n");
 }
 
-// Four pixels, of which one differs in blue; grey, and the same bytes as blue, green, red behind a header.
-TEST_CASE(
-    "pictures of other programs are compared by what their channels mean, and some pixels may be allowed to differ") {
+// Four pixels, one of which differs in blue: as grey, and as bytes in the order blue, green, red after a header.
+TEST_CASE("pictures of other programs are compared by the meaning of their channels within a budget of pixels") {
     using namespace std::string_literals;
     const Folder folder;
     const auto put = [&](const char* name, const std::string& bytes) {
@@ -154,7 +154,7 @@ TEST_CASE(
                              Catch::Contains("the candidate is grey, which counts as equal red, green and blue"));
 }
 
-TEST_CASE("a picture that was drawn from the lower left corner is right as such") {
+TEST_CASE("a picture with the lower left corner first is correct if that origin is given") {
     const Folder folder;
     const std::vector<std::string> scene{"random:triangles=60", "--size", "40x31", "--profile", "llvmpipe"};
     const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
@@ -174,7 +174,7 @@ TEST_CASE("a picture that was drawn from the lower left corner is right as such"
     CHECK(compared({"--exact", "--algorithm", "dual"}).status == 1);
 }
 
-TEST_CASE("codes of 32 bits are compared bit by bit: the least one of them is a difference") {
+TEST_CASE("32-bit codes are compared in every bit and a difference in the lowest bit is found") {
     const Folder folder;
     std::string bytes(16, '\x7f');
     std::ofstream{folder / "a.raw"} << bytes;
@@ -187,7 +187,7 @@ TEST_CASE("codes of 32 bits are compared bit by bit: the least one of them is a 
 
 namespace {
 
-// A pack, and a port's folder "mine" that holds its picture of dual; `changes`: one byte of it is another one.
+// A pack, and a folder "mine" of a port with its picture of dual. `changes`: one byte of that picture is changed.
 void make_folders(const Folder& folder, bool changes) {
     REQUIRE(run_strata(folder, {"golden", "planes:count=2", "--size", "16x12", "--algorithm", "dual", "-o", "pack"})
                 .status == 0);
@@ -205,7 +205,7 @@ std::size_t number_of(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("compare of a pack with a port's folder leaves a page with both pictures and where they differ") {
+TEST_CASE("comparing a pack with a port's folder writes a page with both pictures and their differences") {
     const Folder folder;
     make_folders(folder, true);
     const Ended ended = run_strata(folder, {"compare", "pack", "mine/", "--report", "page.html"});
@@ -221,7 +221,7 @@ TEST_CASE("compare of a pack with a port's folder leaves a page with both pictur
     CHECK(page.find(folder / "") == std::string::npos);
 }
 
-TEST_CASE("compare of a pack with a port's folder that is alike says so on its page") {
+TEST_CASE("comparing a pack with an equal folder of a port says on its page that they are equal") {
     const Folder folder;
     make_folders(folder, false);
     REQUIRE(run_strata(folder, {"compare", "pack", "mine", "--report", "page.html"}).status == 0);
@@ -229,7 +229,7 @@ TEST_CASE("compare of a pack with a port's folder that is alike says so on its p
     CHECK(number_of(content_of(folder / "page.html"), "<li>Picture: equal in every bit.</li>") == 1);
 }
 
-TEST_CASE("an algorithm that the candidate has nothing of is not counted as right on the page") {
+TEST_CASE("an algorithm without files of the candidate is not counted as correct on the page") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata golden planes:count=2 --size 8x8 --algorithm dual,front_to_back -o pack -q && "
@@ -241,7 +241,7 @@ TEST_CASE("an algorithm that the candidate has nothing of is not counted as righ
     CHECK(number_of(content_of(folder / "page.html"), "<li>Passes: all ") == 1);
 }
 
-TEST_CASE("compare's verdict is green for equal, red for different and yellow within the tolerance, in colours alone") {
+TEST_CASE("the verdict of compare is green if equal or red if different or yellow within the tolerance") {
     const Folder folder;
     make_folders(folder, true);
     REQUIRE(shell(folder,
@@ -257,7 +257,7 @@ TEST_CASE("compare's verdict is green for equal, red for different and yellow wi
     CHECK(first_line({"a.png", "b.png", "--tolerance", "color=255,coverage=2000"})
               .starts_with("\x1b[1;33maccepted\x1b[0m: "));
     CHECK(first_line({"pack", "mine"}) == "dual: \x1b[1;31mdifferent\x1b[0m");
-    CHECK(run_strata(folder, {"compare", "a.png", "a.png"}).out == "equal\n");  // no terminal
+    CHECK(run_strata(folder, {"compare", "a.png", "a.png"}).out == "equal\n");  // standard output is not a terminal
     CHECK(run_strata(folder, {"--color", "always", "compare", "a.png", "a.png", "--json"}).out.find('\x1b') ==
           std::string::npos);
 }

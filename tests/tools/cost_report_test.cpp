@@ -1,4 +1,5 @@
-// Model: dominance by definition, a search over all pairs of points; made-up rows, whose sentences are read back.
+// Tests the report of `strata cost` on invented rows: the frontier against a search over all pairs of points by the
+// definition of dominance, and the generated sentences against their rows.
 #include "tools/lab/cost/cost_report.h"
 
 #include <catch2/catch.hpp>
@@ -10,8 +11,7 @@ using namespace strata::tools;
 
 namespace {
 
-// Another point takes no more time and has no more error, and is better in one of them; of equal points the first
-// stays.
+// Another point takes no more time, has no more error, and is better in one of them; of equal points the first is kept.
 bool is_beaten(const std::vector<CostPoint>& points, std::size_t i) {
     for (std::size_t k = 0; k < points.size(); ++k) {
         const bool no_worse = points[k].time <= points[i].time && points[k].error <= points[i].error;
@@ -42,7 +42,7 @@ nlohmann::ordered_json made_line(int cell, const std::string& knob, double model
 
 }  // namespace
 
-TEST_CASE("the frontier holds the points that no other beats, cheapest first") {
+TEST_CASE("the frontier holds the points that no other dominates and the cheapest is first") {
     strata::testing::Random random{3};
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<CostPoint> points;
@@ -62,7 +62,7 @@ TEST_CASE("the frontier holds the points that no other beats, cheapest first") {
     }
 }
 
-TEST_CASE("a sentence says what its row's knob changes, in the row's own figures") {
+TEST_CASE("a sentence says how its row's setting changes the row's figures") {
     std::vector<CostRow> rows{row_of("default", "front_to_back", 0.5, 2), row_of("depth", "d16 exact", 0.75, 3)};
     rows[1].opened = "d16";
     const auto sentences = sentences_of(rows);
@@ -72,7 +72,7 @@ TEST_CASE("a sentence says what its row's knob changes, in the row's own figures
         "made-up: depth d16 exact (with d16) instead of the default: 25.0000 % of pixels differ, RMSE 0.75 instead of "
         "0.5, 1.50 times the time (1.35 to 1.80), run literally 1.50 times the default's literal time, 1.50 times the "
         "card's.");
-    // Rounds that overlap with those of the default, or too few of them, are no finding.
+    // Rounds that overlap with those of the default, or too few rounds, give no significant ratio.
     const std::string errors = sentences[0].substr(0, sentences[0].find(", 1.50 times the time"));
     rows[1].usual->least = rows[0].usual->greatest;
     rows[1].literal->runs = 3;
@@ -82,7 +82,7 @@ TEST_CASE("a sentence says what its row's knob changes, in the row's own figures
 }
 
 TEST_CASE(
-    "the table of a page has a row a choice, and noise where the rounds of the default and of the choice overlap") {
+    "the page's table has a row per choice and shows noise where the rounds of the default and of the choice overlap") {
     std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2), row_of("depth", "d16", 0.75, 3),
                               row_of("depth", "d24", 0.5, 2.2), row_of("effects", "all", 0.5, 9)};
     rows[2].from_default = 0;
@@ -101,7 +101,7 @@ TEST_CASE(
           "noise of the rounds.");
 }
 
-TEST_CASE("a refused row and a link of the chain have sentences of their own") {
+TEST_CASE("a rejected row and a link of the chain have their own sentences") {
     std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2), row_of("algorithm", "k_buffer rgba8", 0, 1),
                               row_of("chain", "snap", 0.125, 1), row_of("alone", "snap", 0.375, 1)};
     rows[1].refusal = "the card has none";
@@ -111,7 +111,7 @@ TEST_CASE("a refused row and a link of the chain have sentences of their own") {
                                    "made-up: snap exact alone leaves RMSE 0.375."});
 }
 
-TEST_CASE("times are told as ratios to the cheapest cell of their column, and a cell's last timing counts") {
+TEST_CASE("times are given as ratios to the cheapest cell of their column and the last timing of a cell counts") {
     const Lines lines{made_line(0, "default", 0.5), made_line(1, "peels", 0.25)};
     const auto timing = [](int cell, double median) {
         return nlohmann::ordered_json{
@@ -129,7 +129,7 @@ TEST_CASE("times are told as ratios to the cheapest cell of their column, and a 
     CHECK_FALSE(rows[0].literal);
 }
 
-TEST_CASE("a cell has five rounds, up to 25 while they last under 2 s, and exactly those that are asked for") {
+TEST_CASE("a cell has five rounds or up to 25 while they last under 2 s or exactly the requested number") {
     const auto rounds_of = [](double seconds_a_round, int asked) {
         int done = 0;
         while (wants_round(done, seconds_a_round * done, asked)) ++done;
@@ -142,7 +142,7 @@ TEST_CASE("a cell has five rounds, up to 25 while they last under 2 s, and exact
     for (const int asked : {1, 3, 40}) CHECK(rounds_of(60, asked) == asked);
 }
 
-TEST_CASE("the oracle, and what the processor sorts, have no time on a card, and are in no other ratio") {
+TEST_CASE("the oracle and algorithms that sort on the processor have no modelled time on a card") {
     for (const char* name : {"a_buffer", "painter"}) {
         Lines lines{made_line(0, "default", 0.5), made_line(1, "algorithm", 0.25)};
         lines[1]["algorithm"] = name;
@@ -152,7 +152,7 @@ TEST_CASE("the oracle, and what the processor sorts, have no time on a card, and
     }
 }
 
-TEST_CASE("a choice of the default's picture whose time is the default's but for noise is no point of its own") {
+TEST_CASE("a choice with the default's picture and the default's time within noise is not a separate point") {
     const auto names = [](const std::vector<CostRow>& rows, const char* column) {
         std::vector<std::string> all;
         for (const CostPoint& point : points_of(rows, "made-up", column)) all.push_back(point.name);
@@ -164,7 +164,8 @@ TEST_CASE("a choice of the default's picture whose time is the default's but for
     const CostRow faster = row_of("audit", "off", 2, 0.5);
     CHECK(names({standard, same, other, faster}, "default") == Names{"default dual", "depth d16", "audit off"});
     CHECK(names({standard, same, other, faster}, "literal") == Names{"default dual", "depth d16", "audit off"});
-    CHECK(names({standard, same}, "modelled") == Names{"default dual", "depth d24"});  // of rates: no noise
+    // modelled from rates, hence without noise
+    CHECK(names({standard, same}, "modelled") == Names{"default dual", "depth d24"});
 }
 
 TEST_CASE("the picture of a frontier names its points and no others") {
@@ -179,7 +180,7 @@ TEST_CASE("the picture of a frontier names its points and no others") {
     CHECK(frontier_svg(points, "a<b&c", "time").find("a&lt;b&amp;c") != std::string::npos);
 }
 
-TEST_CASE("the name of a scene with a comma in it is quoted in the table") {
+TEST_CASE("a scene name with a comma is quoted in the table") {
     std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2)};
     rows[0].scene = "random:seed=1,triangles=3";
     CHECK(table_csv(rows).find("\n\"random:seed=1,triangles=3\",default,dual,done,0.5,0.25,2,1.8,2.4,8,7.2,9.6,6\n") !=

@@ -1,4 +1,5 @@
-// Model: the sweep in one go; its sentences, parsed, beside the figures of cost.csv.
+// Tests `strata cost`: a sweep in shards and a resumed sweep against an uninterrupted one, and the figures in its
+// sentences against those in cost.csv.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -12,7 +13,7 @@ using namespace strata::test;
 
 namespace {
 
-// The teapot small, with the knobs that take little time and have every kind of row.
+// A small teapot with the settings that take little time and produce every kind of row.
 Ended cost(const Folder& folder, const std::string& to, std::vector<std::string> more = {}) {
     const std::vector<std::string> words{
         "cost",      "teapot",   "--size", "48x40",  "--alpha",
@@ -22,7 +23,7 @@ Ended cost(const Folder& folder, const std::string& to, std::vector<std::string>
     return run_strata(folder, more);
 }
 
-// Rows of a table by their knob and value; fields by the names of the first row.
+// Rows of a table by setting and value; fields by the column titles in the first row.
 using TableRow = std::map<std::string, std::string>;
 std::map<std::string, TableRow> rows_of(const std::string& csv) {
     const auto lines = lines_of(csv);
@@ -45,14 +46,14 @@ std::map<std::string, TableRow> rows_of(const std::string& csv) {
 
 double number(const TableRow& row, const std::string& name) { return std::stod(row.at(name)); }
 
-// A figure that was printed with `digits` after the point.
+// True if `printed` is the figure printed with `digits` decimals.
 bool agrees(const std::string& printed, double figure, int digits) {
     return std::fabs(std::stod(printed) - figure) <= 0.6 * std::pow(10.0, -digits) + 2e-5 * std::fabs(figure);
 }
 
 }  // namespace
 
-TEST_CASE("errors and counts of a cost sweep are the same in shards, and taken up again, as in one go") {
+TEST_CASE("errors and counts of a cost sweep are the same in shards or resumed or uninterrupted") {
     const Folder folder;
     REQUIRE(cost(folder, "whole").status == 0);
     const std::string lines = content_of(folder / "whole/results.jsonl"),
@@ -61,7 +62,7 @@ TEST_CASE("errors and counts of a cost sweep are the same in shards, and taken u
     CHECK(cost(folder, "shards", {"--merge", "3"}).status == 0);
     CHECK(content_of(folder / "shards/results.jsonl") == lines);
     CHECK(content_of(folder / "shards/results.csv") == table);
-    // A second run measures nothing and reports again.
+    // A second run measures nothing and writes the report again.
     const std::string timings = content_of(folder / "whole/timings.jsonl");
     const std::string sentences = content_of(folder / "whole/sentences.txt");
     REQUIRE(cost(folder, "whole").status == 0);
@@ -69,12 +70,12 @@ TEST_CASE("errors and counts of a cost sweep are the same in shards, and taken u
     CHECK(content_of(folder / "whole/sentences.txt") == sentences);
 }
 
-TEST_CASE("every sentence agrees with its row, and the chain made exact to its end leaves 0") {
+TEST_CASE("every sentence agrees with its row and the exact end of the chain leaves an error of 0") {
     const Folder folder;
     REQUIRE(cost(folder, "out").status == 0);
     const auto rows = rows_of(content_of(folder / "out/cost.csv"));
     const auto sentences = lines_of(content_of(folder / "out/sentences.txt"));
-    CHECK(sentences.size() + 1 == rows.size());  // the default has none
+    CHECK(sentences.size() + 1 == rows.size());  // the default has no sentence
     const TableRow* standard = nullptr;
     for (const auto& [name, row] : rows)
         if (row.at("knob") == "default") standard = &row;
@@ -114,7 +115,7 @@ TEST_CASE("every sentence agrees with its row, and the chain made exact to its e
     CHECK(number(rows.at("chain machine"), "rmse") > 0);
 }
 
-TEST_CASE("a cost sweep draws a frontier for each of its three times, and says where everything is") {
+TEST_CASE("a cost sweep draws a frontier for each of its three times and reports where its files are") {
     const Folder folder;
     const Ended ended = cost(folder, "out", {"--clock", "processor"});
     REQUIRE(ended.status == 0);
@@ -127,7 +128,7 @@ TEST_CASE("a cost sweep draws a frontier for each of its three times, and says w
           "All of it: out/cost.csv, out/sentences.txt, out/results.csv and out/results.jsonl");
 }
 
-TEST_CASE("a scene without a truth, one scene twice and a command without a folder are refused in a sentence") {
+TEST_CASE("a scene without a reference and a repeated scene and a missing folder are rejected with an error message") {
     const Folder folder;
     const Ended light = run_strata(folder, {"cost", "shadow-demo", "--size", "16x16", "--knob", "peels", "-o", "out"});
     CHECK(light.status == 2);

@@ -1,4 +1,4 @@
-// Model: the mistake that --mistake put into the picture.
+// Tests `strata diagnose` on pictures that `render --mistake` made: the mistake of that option must be found.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -28,7 +28,7 @@ TEST_CASE("diagnose names the mistake that render was told to make, with status 
     CHECK(document["findings"][0]["mistakes"] == nlohmann::json({"culls_front", "red_for_blue"}));
 }
 
-TEST_CASE("diagnose's page has the verdict as its sentence and what else was tried as a table") {
+TEST_CASE("the page of diagnose states the verdict and lists the other hypotheses in a table") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render showroom --size 64x64 --mistake culls_front -q -o wrong.png;"
@@ -43,7 +43,7 @@ TEST_CASE("diagnose's page has the verdict as its sentence and what else was tri
     CHECK(page.find("<li>tried: ") != std::string::npos);
 }
 
-TEST_CASE("diagnose takes a pack for the scene with its state, and a folder for the candidate") {
+TEST_CASE("diagnose takes the state of a scene from a pack and the candidate from a folder") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata golden showroom --size 32x32 --background 0.2,0.3,0.5 --algorithm weighted_sum -o pack && "
@@ -57,7 +57,7 @@ TEST_CASE("diagnose takes a pack for the scene with its state, and a folder for 
           "strata: pack/scene: files: expected a picture of weighted_sum, weighted_sum/picture.npy, found none\n");
 }
 
-TEST_CASE("diagnose takes a folder of packs, and says who made the pictures of all of them") {
+TEST_CASE("diagnose takes a folder of packs and names the mistake that explains all of their pictures") {
     const Folder folder;
     REQUIRE(
         shell(folder,
@@ -103,7 +103,7 @@ TEST_CASE("diagnose of a picture that was made by another command says in what t
     CHECK(run_strata(folder, {"diagnose", "showroom", "right.png"}).err == "");
 }
 
-TEST_CASE("options of messages go with a folder of packs and with a suite") {
+TEST_CASE("message options are accepted with a folder of packs and with a suite") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "mkdir set made && strata golden planes:count=2 --size 8x8 --algorithm weighted_sum -o set/planes && "
@@ -118,7 +118,7 @@ TEST_CASE("options of messages go with a folder of packs and with a suite") {
     }
 }
 
-TEST_CASE("reduce leaves a small pack on which the command still fails") {
+TEST_CASE("reduce writes a small pack on which the command still fails") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"golden", "showroom", "--size", "32x32", "--algorithm", "front_to_back", "-o", "pack"})
                 .status == 0);
@@ -139,8 +139,7 @@ TEST_CASE("reduce leaves a small pack on which the command still fails") {
     CHECK_FALSE(std::filesystem::exists(folder / "none"));
 }
 
-TEST_CASE(
-    "a mistake that is none, one that a scene has no room for, and a command without a place are told in a sentence") {
+TEST_CASE("an unknown or impossible mistake and a command without output are rejected with an error message") {
     const Folder folder;
     CHECK(run_strata(folder, {"render", "planes", "--mistake", "culls_frnt", "-o", "a.png"}).err ==
           "strata: --mistake: expected names of mistakes (strata diagnose --list shows them), found 'culls_frnt' (did "
@@ -154,7 +153,7 @@ TEST_CASE(
     CHECK_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
-TEST_CASE("mistakes lists the catalogue and the suite, whose commands run") {
+TEST_CASE("mistakes lists the catalogue and the suite and the suite's commands run") {
     const Folder folder;
     const nlohmann::json list = nlohmann::json::parse(run_strata(folder, {"mistakes", "--json"}).out);
     CHECK(list.size() >= 40);

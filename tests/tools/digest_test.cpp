@@ -1,5 +1,5 @@
-// Model: PNG files written here byte by byte from codes: equal codes have equal digests, one bit changed has another,
-// whatever the file is packed like; formats and sizes are those that were written.
+// Tests `strata digest` on PNG files that the test writes byte by byte: equal codes have equal digests however the file
+// is compressed, and one changed bit changes the digest. The format and the size printed are those written.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace strata::test;
 
 namespace {
 
-// Samples are written as they are, the high byte first.
+// Samples are written unchanged, the high byte first.
 struct Samples {
     int width, height, channels, bits;  // 1, 3 or 4 channels of 8 or 16 bits
     std::vector<std::uint32_t> codes;
@@ -29,7 +29,7 @@ std::string png_chunk(const std::string& name, const std::string& data) {
     return word_bytes(static_cast<std::uint32_t>(data.size())) + both + word_bytes(static_cast<std::uint32_t>(sum));
 }
 
-// `level`: how hard zlib tries.
+// `level`: zlib's compression level.
 void write_samples(const std::string& path, const Samples& samples, int level = 6) {
     std::string rows;
     std::size_t next = 0;
@@ -61,7 +61,7 @@ Samples some_samples(int channels, int bits) {
     return samples;
 }
 
-// The line below the titles.
+// The line below the column titles.
 std::string digest_line(const Folder& folder, const std::string& file) {
     const Ended ended = run_strata(folder, {"digest", file});
     INFO(ended.err);
@@ -71,7 +71,7 @@ std::string digest_line(const Folder& folder, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("grey, RGB and 16-bit PNG files have a digest of their own codes, however they are packed") {
+TEST_CASE("the digest of a grey or RGB or 16-bit PNG file is that of its own codes at every compression level") {
     const Folder folder;
     std::set<std::string> digests;
     for (const auto& [channels, bits, format] :
@@ -95,7 +95,7 @@ TEST_CASE("grey, RGB and 16-bit PNG files have a digest of their own codes, howe
     CHECK(digests.size() == 4);
 }
 
-TEST_CASE("an 8-bit RGB PNG has the digest of the picture with alpha 1 that it stands for") {
+TEST_CASE("the digest of an 8-bit RGB PNG is that of the picture with alpha 1") {
     const Folder folder;
     Samples rgb = some_samples(3, 8), rgba{5, 3, 4, 8, {}};
     for (std::size_t pixel = 0; pixel < 15; ++pixel)

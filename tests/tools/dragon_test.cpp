@@ -1,5 +1,5 @@
-// A real model, every pixel: the picture is the model of tests/support/composite_model.h applied to the a_buffer's
-// lists.
+// Checks every pixel of a large scene: the expected picture is the model of tests/support/composite_model.h applied to
+// the per-pixel lists of a_buffer.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -32,7 +32,7 @@ const Case cases[] = {
      [](const DepthGroups& g) { return testing::dual_independent_model(bytes, g, black); }},
 };
 
-// Channels of the rendered picture that are not what the model makes of the same fragments.
+// Number of channels in which the rendered picture differs from the model's result for the same fragments.
 std::size_t wrong_channels(const scenes::Scene& scene, const Case& c, const peeling::RenderOptions& options) {
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(c.algorithm);
     const auto view = scenes::orbit_view(scene.bounds, 30, 20, 1.0);
@@ -40,7 +40,8 @@ std::size_t wrong_channels(const scenes::Scene& scene, const Case& c, const peel
     const pipeline::Image color = renderer.render(algorithm).frame.color;
     std::vector<DepthGroups> pixels(color.codes.size() / 4);
     for (const pipeline::CapturedFragment& f : renderer.fragments(algorithm).all)
-        if (f.shader_z < 1.0f) pixels[f.pixel][f.shader_z].push_back(f.color);  // D32F: the code is the shader's depth
+        // D32F: the code holds the bits of the shader's depth
+        if (f.shader_z < 1.0f) pixels[f.pixel][f.shader_z].push_back(f.color);
     std::size_t wrong = 0;
     for (std::size_t p = 0; p < pixels.size(); ++p) {
         const pipeline::Rgba expected = c.model(pixels[p]);
@@ -52,7 +53,7 @@ std::size_t wrong_channels(const scenes::Scene& scene, const Case& c, const peel
 
 }  // namespace
 
-TEST_CASE("on geforce8 the dragon equals, to the bit, its fragments composited in each algorithm's own arithmetic") {
+TEST_CASE("the picture of the dragon on geforce8 is bit-identical to the model's composite of its fragments") {
     const char* const named = std::getenv("STRATA_MODELS_DIR");
     const auto path = std::filesystem::path{named != nullptr ? named : STRATA_MODELS_DIR} / "dragon.glb";
     if (!std::filesystem::exists(path)) {

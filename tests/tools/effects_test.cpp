@@ -1,4 +1,4 @@
-// Model: scenes whose effects are known by what they hold.
+// Tests `strata effects` on scenes whose content determines the effects that are needed.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -25,7 +25,7 @@ ordered_json row(const ordered_json& plan, const std::string& effect) {
     return {{"effect", "missing: " + effect}};
 }
 
-// One triangle of a MASK material in front of one of a BLEND material.
+// One triangle with a MASK material in front of one with a BLEND material.
 const char* const two_triangles = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
 "nodes":[{"mesh":0},{"mesh":1,"translation":[0,0,1]}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]},{"primitives":[{"attributes":{"POSITION":0},"material":1}]}],
@@ -36,7 +36,7 @@ const char* const two_triangles = R"({"asset":{"version":"2.0"},"scene":0,"scene
 
 }  // namespace
 
-TEST_CASE("the plan names the material that calls for MASK, in opaque priming or with --alpha in every pass") {
+TEST_CASE("the plan names the material that requires MASK in opaque priming or with --alpha in every pass") {
     const Folder folder;
     std::ofstream(folder / "leaf.gltf") << two_triangles;
     const auto plan = plans(folder, {"leaf.gltf", "--no-light"})[0];
@@ -56,7 +56,7 @@ TEST_CASE("the plan names the material that calls for MASK, in opaque priming or
     CHECK(row(everything, "opaque priming").at("simulated") == false);
 }
 
-TEST_CASE("the plan's passes are those of the statistics, and its tiles are all there, for every algorithm") {
+TEST_CASE("the plan has the passes and all tiles of the statistics for every algorithm") {
     const Folder folder;
     const std::vector<std::string> scene{"volume-beam:slices=6", "--algorithm", "all", "--tile", "32"};
     auto words = scene;
@@ -80,7 +80,7 @@ TEST_CASE("the plan's passes are those of the statistics, and its tiles are all 
     }
 }
 
-TEST_CASE("what --effects all simulates the plan says, and where it is needed it names the pass's own reason") {
+TEST_CASE("the plan lists what --effects all simulates and otherwise names the pass's reason") {
     const Folder folder;
     const auto needed = plans(folder, {"volume-beam:slices=2", "--algorithm", "dual"})[0];
     const auto all = plans(folder, {"volume-beam:slices=2", "--algorithm", "dual", "--effects", "all"})[0];
@@ -95,7 +95,7 @@ TEST_CASE("what --effects all simulates the plan says, and where it is needed it
     }
 }
 
-TEST_CASE("no effect costs less than nothing, however short the run is") {
+TEST_CASE("no effect has a negative time however short the run is") {
     const Folder folder;
     const auto all = plans(folder, {"volume-beam:slices=2", "--algorithm", "all"});
     std::size_t timed = 0;
@@ -111,7 +111,7 @@ TEST_CASE("no effect costs less than nothing, however short the run is") {
     CHECK(below == "");
 }
 
-TEST_CASE("every effect that can be timed has its time, whether it is simulated or left out") {
+TEST_CASE("every effect that can be timed has a time whether it is simulated or skipped") {
     const Folder folder;
     const auto plan = plans(folder, {"volume-beam:slices=2", "--algorithm", "front_to_back"})[0];
     for (const char* effect :
@@ -123,7 +123,7 @@ TEST_CASE("every effect that can be timed has its time, whether it is simulated 
     CHECK(row(plan, "culling").at("seconds").is_null());
 }
 
-TEST_CASE("with fewer than four runs no time of an effect and no ratio is a finding") {
+TEST_CASE("with fewer than four runs no time of an effect and no ratio is significant") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"bench", "volume-beam:slices=2", "--per-effect", "--size", "32x24",
                                             "--repeat", "3", "--execution", "replay"});

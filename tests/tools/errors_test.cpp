@@ -1,4 +1,4 @@
-// Model: the sentences and exit statuses that people read in tools/docs/commands.md.
+// Tests error messages and exit statuses of the command against those that tools/docs/commands.md documents.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"
@@ -9,7 +9,7 @@ namespace {
 
 struct Wrong {
     std::vector<std::string> words;
-    std::string sentence;  // all of it, or where it ends in "..." its beginning
+    std::string sentence;  // the whole message, or its beginning if it ends in "..."
 };
 
 bool says(const std::string& err, const std::string& sentence) {
@@ -19,7 +19,7 @@ bool says(const std::string& err, const std::string& sentence) {
 
 }  // namespace
 
-TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
+TEST_CASE("a wrong argument gives exit status 2 and one error message with the expected and similar values") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
          "strata: strata has no command 'rendr' (did you mean 'render'?); strata --help lists them"},
@@ -174,7 +174,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
 }
 
 TEST_CASE(
-    "two outputs that are one file through a linked folder are refused, and a link to a file gives way to a file") {
+    "two outputs that are one file through a linked folder are rejected and a link to a file is replaced by a file") {
     const Folder folder;
     std::filesystem::create_directory(folder / "real");
     std::filesystem::create_directory_symlink("real", folder / "linked");
@@ -195,7 +195,8 @@ TEST_CASE(
     CHECK(run_strata(folder, {"digest", "real/y.exr"}).out.find("fragments") != std::string::npos);
 }
 
-TEST_CASE("an algorithm that the profile cannot run is exit status 2 alone, and a row of the table among others") {
+TEST_CASE(
+    "a single algorithm that the profile cannot run gives exit status 2 and one among others a row of the table") {
     const Folder folder;
     const Ended alone =
         run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual_independent", "-o", "out.png"});
@@ -209,7 +210,7 @@ TEST_CASE("an algorithm that the profile cannot run is exit status 2 alone, and 
     CHECK(folder.files() == std::vector<std::string>{"out.dual.png"});
 }
 
-TEST_CASE("a write that fails is exit status 3 and leaves no file") {
+TEST_CASE("a write error gives exit status 3 and leaves no file") {
     const auto words =
         GENERATE(values<std::vector<std::string>>({{"-o", "out.exr"}, {"-o", "out.png"}, {"--stats", "out.json"}}));
     const Folder folder;
@@ -222,7 +223,7 @@ TEST_CASE("a write that fails is exit status 3 and leaves no file") {
     CHECK(folder.files().empty());
 }
 
-TEST_CASE("standard output on a full disk is exit status 3") {
+TEST_CASE("standard output on a full disk gives exit status 3") {
     const auto verb = GENERATE(as<std::string>{}, "algorithms", "profiles", "scenes");
     const Folder folder;
     const Ended ended = run_strata(folder, {verb, "--json"}, {.out = "/dev/full"});
@@ -230,7 +231,7 @@ TEST_CASE("standard output on a full disk is exit status 3") {
     CHECK(ended.err.starts_with("strata: standard output: "));
 }
 
-TEST_CASE("a viewport that the profile lacks is refused by bench's depth pass as by render") {
+TEST_CASE("a viewport that the profile lacks is rejected by the depth pass of bench as by render") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"bench", "teapot", "--size", "16384x8", "--profile", "geforce8",
                                             "--algorithm", "depth", "--repeat", "1", "--warm-up", "0"});
@@ -238,7 +239,7 @@ TEST_CASE("a viewport that the profile lacks is refused by bench's depth pass as
     CHECK(ended.out.find("refused: depth: profile geforce8 has no viewport of 16384 x 8 pixels") != std::string::npos);
 }
 
-TEST_CASE("a camera that is a link to itself is bad input") {
+TEST_CASE("a camera file that is a link to itself is rejected as bad input") {
     const Folder folder;
     std::filesystem::create_symlink("loop", folder / "loop");
     const Ended ended = run_strata(folder, {"render", "teapot", "--camera", "loop"});

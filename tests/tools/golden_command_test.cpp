@@ -1,4 +1,5 @@
-// Model: other commands on the same scene: the pictures' bytes and digests, and what a changed file must say.
+// Tests `strata golden`: its packs against other commands on the same scene by picture bytes and digests, and the error
+// message for a changed file.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -7,7 +8,7 @@
 using namespace strata::test;
 using Catch::Contains;
 
-TEST_CASE("a pack checks, is a scene of every command, and its state stands for options that are not given") {
+TEST_CASE("a pack passes its check and replaces a scene and its options in every command") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"golden", "teapot:tessellation=3", "--size", "20x16", "--algorithm",
                                 "dual,front_to_back", "--depth-format", "d24", "--background", "0.2,0.4,0.6",
@@ -28,7 +29,7 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
                   "--color-space linear -o scene.png && strata render pack --algorithm dual -o pack.png")
                 .status == 0);
     CHECK(run_strata(folder, {"compare", "scene.png", "pack.png"}).status == 0);
-    CHECK(run_strata(folder, {"compare", "pack", "pack.png", "--algorithm", "dual"}).status == 1);  // PNG is encoded
+    CHECK(run_strata(folder, {"compare", "pack", "pack.png", "--algorithm", "dual"}).status == 1);  // encoded as PNG
     CHECK(shell(folder,
                 "strata render pack/ --algorithm dual -o pack.exr && strata compare pack pack.exr --algorithm dual")
               .status == 0);
@@ -40,7 +41,7 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
         INFO(line);
         if (line.find("scene") == std::string::npos) CHECK(shell(folder, line).status == 0);
     }
-    // The options that are given win.
+    // Options on the command line take precedence.
     CHECK(shell(folder,
                 "strata render pack --size 8x8 --color-format rgba16f -o small.exr && strata digest --json small.exr")
               .out.find("rgba16f") != std::string::npos);
@@ -49,7 +50,7 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
                 "--result-format rgba32f -q -o formats && strata render formats -o formats.exr && strata compare "
                 "formats formats.exr --exact --algorithm dual && strata compare formats formats.exr")
               .out.find("equal\n") != std::string::npos);
-    // A pack of a pack has the same pictures.
+    // A pack made from a pack has the same pictures.
     const auto digest_in = [&](const std::string& pack) {
         const auto manifest = nlohmann::json::parse(content_of(folder / (pack + "/manifest.json")));
         return manifest["results"][0]["picture"]["digest"].get<std::string>();
@@ -57,7 +58,7 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
     CHECK(digest_in("again") == digest_in("pack"));
 }
 
-TEST_CASE("golden says what it cannot do, and which byte of a pack has changed") {
+TEST_CASE("golden reports what it cannot do and which byte of a pack has changed") {
     const Folder folder;
     const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
         const Ended ended = run_strata(folder, words);
@@ -84,7 +85,7 @@ TEST_CASE("golden says what it cannot do, and which byte of a pack has changed")
     CHECK_THAT(compare.err, Contains("p/scene: folder: expected ALGORITHM/picture.npy"));
 }
 
-TEST_CASE("reversed depth and clip space from 0 to 1 are options of every picture, written and read again") {
+TEST_CASE("reversed depth and clip space from 0 to 1 are options of every picture and survive writing and reading") {
     const Folder folder;
     const std::string reversed = "--depth-order greater --clip-depth zero-to-one --size 24x18 --algorithm dual";
     REQUIRE(shell(folder, "strata render teapot " + reversed + " -o r.exr && strata golden teapot " + reversed +
@@ -95,7 +96,7 @@ TEST_CASE("reversed depth and clip space from 0 to 1 are options of every pictur
     const auto manifest = nlohmann::json::parse(content_of(folder / "pack/manifest.json"));
     CHECK(manifest["state"]["depth_order"] == "greater");
     CHECK_THAT(manifest["command"].get<std::string>(), Contains("--depth-order greater --clip-depth zero-to-one"));
-    // The pack's view turned back is the usual one: the same picture but for what depths tie.
+    // The pack's view converted back is the default view: the same picture except where depths tie.
     REQUIRE(shell(folder,
                   "strata render pack --depth-order less --clip-depth minus-one-to-one --algorithm dual -o back.exr && "
                   "strata render teapot --size 24x18 --algorithm dual -o usual.exr")
@@ -103,7 +104,7 @@ TEST_CASE("reversed depth and clip space from 0 to 1 are options of every pictur
     CHECK(run_strata(folder, {"compare", "back.exr", "usual.exr", "--tolerance", "depth=4"}).status == 0);
 }
 
-TEST_CASE("golden and probe end with a word of what they wrote, but for -q") {
+TEST_CASE("golden and probe end with a summary of what they wrote unless -q is given") {
     const Folder folder;
     const Ended pack = shell(folder, "strata golden planes:count=2 --size 8x8 --algorithm dual,unsorted -o pack");
     CHECK(pack.status == 0);

@@ -1,4 +1,5 @@
-// Captures made here: the clear of suite Clear is a uniform picture whatever was drawn before it (chip-fragment.md 5).
+// Tests `strata hardware-check` on captures made here: the Clear suite's result is a uniform picture, whatever was
+// drawn before (chip-fragment.md 5).
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// SUITE/NAME.png, grey 7F7F7F7F but for `wrong` pixels of the third row, whose red is `red`.
+// Writes SUITE/NAME.png, grey 7F7F7F7F except for `wrong` pixels of the third row, whose red is `red`.
 void write_capture(const Folder& folder, const std::string& suite, const std::string& name, int wrong = 0,
                    std::uint32_t red = 0, int width = 640) {
     std::filesystem::create_directories(folder / suite);
@@ -27,8 +28,7 @@ void write_capture(const Folder& folder, const std::string& suite, const std::st
 
 }  // namespace
 
-TEST_CASE(
-    "a capture that comes out equal is accepted, and a differing one ends with status 1, counted, sized and placed") {
+TEST_CASE("an equal capture is accepted and a differing one gives status 1 with a description of the difference") {
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     CHECK(run_strata(folder, {"hardware-check", "captures"}).status == 0);
@@ -45,7 +45,7 @@ TEST_CASE(
     CHECK(pictures[1].at("first") == ordered_json::array({0, 2}));
 }
 
-TEST_CASE("unknown suites and names, and what is not modelled, are listed and do not count") {
+TEST_CASE("unknown suites and names and those not modelled are listed and not counted") {
     const Folder folder;
     write_capture(folder, "captures/Fog", "FogExp");
     write_capture(folder, "captures/Clear", "Nonsense");
@@ -58,7 +58,7 @@ TEST_CASE("unknown suites and names, and what is not modelled, are listed and do
     CHECK(outcomes == std::vector<std::string>{"unknown", "unknown", "not modelled"});
 }
 
-TEST_CASE("the report folder holds one page, and a picture of every difference") {
+TEST_CASE("the report folder holds one page and a picture of every difference") {
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     write_capture(folder, "captures/Clear", "C01010101_Depth_n", 3, 0x7d);
@@ -70,7 +70,7 @@ TEST_CASE("the report folder holds one page, and a picture of every difference")
 }
 
 TEST_CASE(
-    "hardware-check's page counts the outcomes and shows a difference beyond its bound beside the chip's picture") {
+    "the page of hardware-check counts the outcomes and shows a difference beyond its bound next to the capture") {
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     write_capture(folder, "captures/Clear", "C01010101_Depth_n", 3, 0x7d);
@@ -91,7 +91,7 @@ TEST_CASE(
           "strata: --report excludes --hypotheses\n");
 }
 
-TEST_CASE("hardware-check says in one sentence what is wrong with its input") {
+TEST_CASE("hardware-check rejects wrong input with one error message") {
     const Folder folder;
     const auto sentence = [&](const std::vector<std::string>& words) {
         const Ended ended = run_strata(folder, words);
@@ -110,7 +110,7 @@ TEST_CASE("hardware-check says in one sentence what is wrong with its input") {
     CHECK(sentence({"hardware-check", "broken"}).find("C00000000_Depth_y.png") != std::string::npos);
 }
 
-TEST_CASE("of several broken captures the first is named, whichever is read first") {
+TEST_CASE("of several broken captures the first by name is reported in whatever order they are read") {
     const Folder folder;
     std::filesystem::create_directories(folder / "broken/Clear");
     const auto file = [&](const std::string& name) { return folder / ("broken/Clear/" + name + ".png"); };
@@ -127,7 +127,7 @@ TEST_CASE("of several broken captures the first is named, whichever is read firs
     }
 }
 
-TEST_CASE("folders named like pictures and names with control characters are listed at most") {
+TEST_CASE("folders named like pictures and names with control characters are at most listed") {
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     write_capture(folder, "captures/Clear", "two\nlines");
@@ -138,7 +138,7 @@ TEST_CASE("folders named like pictures and names with control characters are lis
     CHECK(ended.out.find("two?lines") != std::string::npos);
 }
 
-TEST_CASE("every constant that is not known has a score on the captures that it can change") {
+TEST_CASE("every unknown constant has a score on the captures that it can change") {
     const Folder folder;
     write_capture(folder, "captures/Alpha_func", "AlphaFuncNever_Enabled");
     const Ended ended = run_strata(folder, {"hardware-check", "captures", "--hypotheses"});
@@ -149,17 +149,17 @@ TEST_CASE("every constant that is not known has a score on the captures that it 
         CHECK(ended.out.find(name) != std::string::npos);
 }
 
-TEST_CASE("what the profile refuses is listed, and the rest is compared") {
+TEST_CASE("pictures that the profile rejects are listed and the others are compared") {
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     write_capture(folder, "captures/Front_face", "FrontFace_CW_CF_FaB");
     const Ended ended = run_strata(folder, {"hardware-check", "captures", "--profile", "geforce8", "--json"});
     const auto document = ordered_json::parse(ended.out);
-    CHECK(document.at("pictures").at(0).at("outcome") == "not modelled");  // it draws on 16-bit depth
+    CHECK(document.at("pictures").at(0).at("outcome") == "not modelled");  // needs a 16-bit depth buffer
     CHECK(document.at("pictures").at(1).at("outcome") != "not modelled");
 }
 
-TEST_CASE("the captures of silicon, where they are at hand, are within their bounds but four") {
+TEST_CASE("the hardware captures are within their bounds except four if they are installed") {
     const std::string captures = STRATA_CAPTURES_DIR;
     if (!std::filesystem::is_directory(captures)) {
         WARN("SKIPPED: no captures in " << captures
@@ -169,7 +169,7 @@ TEST_CASE("the captures of silicon, where they are at hand, are within their bou
     const Folder folder;
     const Ended ended = run_strata(folder, {"hardware-check", captures, "--json"});
     INFO(ended.err);
-    CHECK(ended.status == 1);  // pictures that are outside, as tools/hardware_check/RESULTS.md says
+    CHECK(ended.status == 1);  // some pictures exceed their bounds, see tools/hardware_check/RESULTS.md
     int equal = 0;
     std::vector<std::string> outside;
     const auto document = ordered_json::parse(ended.out);

@@ -1,4 +1,4 @@
-// Model: the help texts themselves: what they print as an example must run.
+// Tests the help texts: every example that they print must run.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"
@@ -25,7 +25,7 @@ std::vector<std::string> examples_of(const std::string& help) {
 
 TEST_CASE("every example of every --help runs as printed", "[long]") {
     const std::string verb = GENERATE(from_range(commands()));
-    if (verb == "hardware-check") return;  // its examples need captures
+    if (verb == "hardware-check") return;  // its examples need hardware captures
     const Folder folder;
     const Ended help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);
@@ -39,12 +39,13 @@ TEST_CASE("every example of every --help runs as printed", "[long]") {
     }
 }
 
-TEST_CASE("strata alone tells its commands, an example that runs, and where there is more") {
+TEST_CASE("strata without arguments lists its commands and an example that runs and where to find more") {
     const Folder folder;
     const Ended ended = run_strata(folder, {});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
-    CHECK(lines_of(ended.out).size() <= commands().size() + 9);  // a line a command, one a group, and little else
+    // One line per command, one per group, and a few others.
+    CHECK(lines_of(ended.out).size() <= commands().size() + 9);
     std::size_t before = 0;
     for (const std::string word : {"\nRender and look", "\n  render ", "\n  report ", "\nCheck a port", "\n  compare ",
                                    "\nExperiments", "\n  cost ", "\nDevices", "\n  probe ", "\nLists and help"}) {
@@ -59,7 +60,7 @@ TEST_CASE("strata alone tells its commands, an example that runs, and where ther
     CHECK(ended.out.find("strata COMMAND --help") != std::string::npos);
 }
 
-TEST_CASE("the options --help and --version succeed and write to standard output alone") {
+TEST_CASE("the options --help and --version succeed and write to standard output only") {
     const auto word = GENERATE(as<std::string>{}, "--help", "--version");
     const Folder folder;
     const Ended ended = run_strata(folder, {word});

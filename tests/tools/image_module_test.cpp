@@ -1,4 +1,5 @@
-// Model: folders as a build and an installation lay them out, made here from copies of the program and its module.
+// Copies the program and its image module into the layouts of a build tree and of an installation, and tests that the
+// program finds the module or reports that it is missing.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -11,7 +12,7 @@ namespace {
 constexpr const char* render = " render teapot --size 16x16 --no-audit -o out.png";
 constexpr const char* digest = " digest out.png";
 
-// Copies the program to bin/ and, if it is named, the module into that folder.
+// Copies the program to bin/ and, if a folder is given, the module into that folder.
 void install(const Folder& folder, const std::string& module_folder) {
     std::filesystem::create_directories(folder / "bin");
     std::filesystem::copy_file(STRATA_PROGRAM, folder / "bin/strata");
@@ -22,7 +23,7 @@ void install(const Folder& folder, const std::string& module_folder) {
 
 }  // namespace
 
-TEST_CASE("the image module is found beside the program, and in the library folder beside the program's own") {
+TEST_CASE("the image module is found in the program's folder and in STRATA_IMAGE_FOLDER relative to it") {
     const auto module_folder = GENERATE(as<std::string>{}, "bin", "bin/" STRATA_IMAGE_FOLDER);
     const Folder folder;
     install(folder, module_folder);
@@ -32,7 +33,7 @@ TEST_CASE("the image module is found beside the program, and in the library fold
     CHECK(ended.out.find("rgba8") != std::string::npos);
 }
 
-TEST_CASE("without the image module a run that reads a PNG ends with one sentence, and every other runs") {
+TEST_CASE("without the image module reading a PNG fails with a one-line error and other commands work") {
     const Folder folder;
     install(folder, "");
     REQUIRE(shell(folder, std::string{"bin/strata"} + render).status == 0);
@@ -43,7 +44,7 @@ TEST_CASE("without the image module a run that reads a PNG ends with one sentenc
     CHECK(lines_of(ended.err).size() == 1);
 }
 
-TEST_CASE("a file that is no image module ends in one sentence") {
+TEST_CASE("a module file that cannot be loaded gives a one-line error") {
     const Folder folder;
     install(folder, "");
     std::ofstream(folder / "bin/strata_images.so") << "not a library";

@@ -1,11 +1,11 @@
-// Model: an output exists whole or not at all, whenever the interrupt comes.
+// Tests that an output file is either complete or absent, whenever the interrupt arrives.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"
 
 using namespace strata::test;
 
-TEST_CASE("an interrupt at any moment is exit status 130 and leaves no half file") {
+TEST_CASE("an interrupt at any moment gives exit status 130 and leaves no partial file") {
     int interrupted = 0;
     std::string wrong;
     for (int delay = 5; delay <= 640; delay += delay) {

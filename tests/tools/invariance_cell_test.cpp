@@ -1,4 +1,5 @@
-// Model: the planes of an orbit's projection from its matrix; lists of hypotheses from the profile's own.
+// Tests the cells of an invariance plan: near and far planes against those of the projection matrix, and hypotheses
+// against the list of the profile.
 #include "tools/lab/invariance/invariance_cell.h"
 
 #include <catch2/catch.hpp>
@@ -32,7 +33,7 @@ CellRunner runner() {
     return {{}, resources};
 }
 
-// Near and far, as the projection has them.
+// Near and far plane of the projection matrix.
 std::pair<double, double> planes_of(const CellView& view) {
     const auto& m = view.view.projection;
     return {m[3][2] / (m[2][2] - 1), m[3][2] / (m[2][2] + 1)};
@@ -40,7 +41,7 @@ std::pair<double, double> planes_of(const CellView& view) {
 
 }  // namespace
 
-TEST_CASE("a cell's depth range is the orbit's, the orbit's far plane with a ratio, or two planes of its own") {
+TEST_CASE("the depth range of a cell is the orbit's or the orbit's far plane with a ratio or two given planes") {
     CellRunner cells = runner();
     Cell cell = small_cell();
     const CellView orbit = cells.view(cell);
@@ -55,23 +56,23 @@ TEST_CASE("a cell's depth range is the orbit's, the orbit's far plane with a rat
     for (const CellView& view : {orbit, wide, own}) {
         CHECK(planes_of(view).first == Approx(view.near).epsilon(1e-9));
         CHECK(planes_of(view).second == Approx(view.far).epsilon(1e-9));
-        CHECK(view.view.view == orbit.view.view);                                     // the eye stays
+        CHECK(view.view.view == orbit.view.view);                                     // the eye does not move
         CHECK(view.view.projection[1][1] / view.view.projection[0][0] == Approx(2));  // 16 x 8
     }
     cell.azimuth += 90;
     CHECK(cells.view(cell).view.view != orbit.view.view);
 }
 
-TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is named, and its planes cannot be moved") {
+TEST_CASE("a cell uses the scene's own view unless an orbit is named and the planes of that view cannot be changed") {
     CellRunner cells = runner();
     Cell cell = small_cell();
     cell.scene = "hard:case=planes-1-unit";
-    // The case's corners are clip coordinates: nothing moves them.
+    // The case's corners are clip coordinates, so the view is the identity.
     const CellView own = cells.view(cell);
     CHECK(own.is_own);
     CHECK(own.view.view == strata::identity);
     CHECK(own.view.projection == strata::identity);
-    // Two planes over the whole frame.
+    // Two planes cover the whole frame.
     const CellResult seen = cells.run(cell);
     CHECK(seen.measured.errors.layers == 2 * 16 * 8);
     cell.range = {.ratio = 1000};
@@ -85,7 +86,7 @@ TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is nam
     CHECK(cells.view(cell).far > 0);
 }
 
-TEST_CASE("a pack's own view is turned from the pack's clip space and depth order to those that cells are drawn in") {
+TEST_CASE("a pack's own view is converted from the pack's clip space and depth order to those of the cells") {
     using strata::test::run_strata;
     const strata::test::Folder folder;
     const auto pack = [&](const std::string& name, const std::vector<std::string>& convention) {
@@ -130,7 +131,7 @@ TEST_CASE("a pack's own view is turned from the pack's clip space and depth orde
     CHECK(layers[0] > 0);
 }
 
-TEST_CASE("a cell's grid of positions is the profile's unless it names one") {
+TEST_CASE("a cell uses the profile's subpixel grid unless it names one") {
     CellRunner cells = runner();
     for (const char* profile : {"geforce3", "ideal"})
         for (const int bits : {0, 4, 8, 12}) {
@@ -142,8 +143,7 @@ TEST_CASE("a cell's grid of positions is the profile's unless it names one") {
         }
 }
 
-TEST_CASE(
-    "the hypothesis all stands for the profile and each constant that it leaves open, once, in the list's order") {
+TEST_CASE("the hypothesis all expands to the profile and each of its open constants once in the order of the list") {
     CellRunner cells = runner();
     Cell open = small_cell(), plain = small_cell();
     open.profile = "geforce3";
@@ -165,7 +165,7 @@ TEST_CASE(
     CHECK(expanded.back() == plain);
 }
 
-TEST_CASE("a scene, a profile or a hypothesis that is not there is told before anything runs") {
+TEST_CASE("an unknown scene or profile or hypothesis is rejected before anything runs") {
     CellRunner cells = runner();
     const auto said = [&](auto&& change) {
         Cell cell = small_cell();
@@ -184,7 +184,7 @@ TEST_CASE("a scene, a profile or a hypothesis that is not there is told before a
                Catch::StartsWith("geforce3: hypothesis: expected profile, all, "));
 }
 
-TEST_CASE("paths that are one make no error, and what the device lacks is the cell's refusal") {
+TEST_CASE("equal depth paths make no error and what the device lacks is reported as the cell's rejection") {
     CellRunner cells = runner();
     const CellResult same = cells.run(small_cell());
     CHECK(same.refusal.empty());
@@ -199,7 +199,7 @@ TEST_CASE("paths that are one make no error, and what the device lacks is the ce
     CHECK_THAT(cells.run(refused).refusal, Catch::Contains("geforce3"));
 }
 
-TEST_CASE("a remedy's parts each reach the machine: every one changes what is measured where paths differ") {
+TEST_CASE("every part of a remedy changes the measurement where the depth paths differ") {
     CellRunner cells = runner();
     Cell cell = small_cell();
     cell.scene = "planes:count=3,cells=2,gap=64";
@@ -216,13 +216,13 @@ TEST_CASE("a remedy's parts each reach the machine: every one changes what is me
     Remedy ulps;
     ulps.epsilon.ulps = 1 << 20;
     CHECK(measured(ulps).errors.duplicated == 0);
-    CHECK(measured(ulps).errors.lost > none.errors.lost);  // what lies nearer than that is one layer
+    CHECK(measured(ulps).errors.lost > none.errors.lost);  // closer layers become one
     Remedy bias, slope, replaced;
     bias.bias_constant = 4096;
     slope.bias_slope = 64;
     replaced.depth_replace = true;
     CHECK(measured(replaced).paths.where != none.paths.where);
-    cell.profile = "geforce3";  // its reference has no offset
+    cell.profile = "geforce3";  // geforce3 applies no offset to the compared depth
     cell.algorithm = strata::peeling::find_algorithm("shadow_map");
     cell.write = strata::rasterizer::DepthPath::window_z;
     cell.compare = strata::rasterizer::DepthPath::perspective_rq;
@@ -231,8 +231,7 @@ TEST_CASE("a remedy's parts each reach the machine: every one changes what is me
     CHECK(measured(slope).errors.lost != unbiased.errors.lost);
 }
 
-TEST_CASE(
-    "a cell with a camera is seen as render --camera sees it, has no planes or degrees of its own, and no orbit") {
+TEST_CASE("a cell with a camera has the view of render --camera and cannot have an orbit or planes or degrees") {
     const strata::test::Folder folder;
     std::ofstream(folder / "top.json")
         << R"({"eye":[0,5,0.1],"center":[0,0,0],"up":[0,0,-1],"fovy_degrees":40,"near":1,"far":9})";

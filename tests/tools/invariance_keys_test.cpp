@@ -1,4 +1,5 @@
-// Model: each key's values from both sides of every limit, typed a second time; a remedy's name by its parts.
+// Tests the keys of an invariance plan: values on both sides of every limit, listed here independently, and the names
+// of remedies against their parts.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -18,13 +19,13 @@ const PlanKey& key_named(const std::string& name) {
     return *found;
 }
 
-// The cell that a value makes, or nothing where the key refuses it.
+// The cell that a value makes, or nothing if the key rejects the value.
 std::optional<Cell> cell_with(const std::string& key, const std::string& value) {
     Cell cell;
     return key_named(key).set(cell, value) ? std::optional(cell) : std::nullopt;
 }
 
-// Values that the key says otherwise of than `expected`.
+// The values whose acceptance by the key is not `expected`.
 std::string otherwise(const std::string& key, bool expected, const std::vector<std::string>& values) {
     std::string wrong;
     for (const std::string& value : values)
@@ -34,7 +35,7 @@ std::string otherwise(const std::string& key, bool expected, const std::vector<s
 
 }  // namespace
 
-TEST_CASE("the keys of a plan are these, nested in this order, and every default is a value of its key") {
+TEST_CASE("the keys of a plan are those listed in this nesting order and every default is a valid value of its key") {
     const std::vector<std::string> expected{
         "scene",      "profile",     "size", "orbit",        "camera",        "alpha",    "algorithm", "split",
         "hypothesis", "vertex_path", "pair", "depth_format", "subpixel_bits", "near_far", "remedy",    "max_passes"};
@@ -44,8 +45,8 @@ TEST_CASE("the keys of a plan are these, nested in this order, and every default
         CHECK(key.fallback.empty() == (key.name == "scene"));
         CHECK_FALSE(key.help.empty());
         CHECK_FALSE(key.expected.empty());
-        CHECK(key.is_list == (key.name != "scene" && key.name != "orbit" &&
-                              key.name != "camera"));  // whose text has commas of its own
+        CHECK(key.is_list ==
+              (key.name != "scene" && key.name != "orbit" && key.name != "camera"));  // their values contain commas
     }
     CHECK(names == expected);
     const std::vector<Cell> cells = cells_of({{"scene", {"s"}}});
@@ -61,7 +62,7 @@ TEST_CASE("the keys of a plan are these, nested in this order, and every default
     CHECK(cells[1] == plain);
 }
 
-TEST_CASE("numbers of a plan count up to their limits, the limits among them") {
+TEST_CASE("numbers of a plan are accepted up to their limits inclusive") {
     CHECK(otherwise("size", true, {"1x1", "16384x1", "1x16384"}) == "");
     CHECK(otherwise("size", false, {"0x1", "1x0", "16385x1", "1x16385", "8", "8x8x8", "x8", "8x", "8 x8", "-8x8"}) ==
           "");
@@ -83,7 +84,7 @@ TEST_CASE("numbers of a plan count up to their limits, the limits among them") {
     }
 }
 
-TEST_CASE("parts of a remedy count up to their limits, the limits among them") {
+TEST_CASE("parts of a remedy are accepted up to their limits inclusive") {
     CHECK(otherwise("remedy", true,
                     {"bias:1e30", "bias:-1e30", "slope:1024", "slope:-1024", "epsilon:0", "epsilon:1", "epsilon:0ulp",
                      "epsilon:16777216ulp"}) == "");
@@ -93,7 +94,7 @@ TEST_CASE("parts of a remedy count up to their limits, the limits among them") {
                      "depth_replace:", "None", "+", "none+", "+none", "bias:1,slope:1"}) == "");
 }
 
-TEST_CASE("the value of a key is found in the cell, and in no other member of it") {
+TEST_CASE("the value of a key is stored in its member of the cell and in no other") {
     const auto changes = [](const std::string& key, const std::string& value, auto&& change) {
         const auto cell = cell_with(key, value);
         Cell expected;
@@ -122,7 +123,7 @@ TEST_CASE("the value of a key is found in the cell, and in no other member of it
             [](Cell& c) { c.remedy.epsilon.absolute = 0.125, c.remedy.epsilon_text = "0.125"; });
 }
 
-TEST_CASE("a depth range or a remedy replaces the one before it, part by part nothing is left") {
+TEST_CASE("a depth range or a remedy replaces the previous one completely") {
     Cell cell;
     CHECK(key_named("near_far").set(cell, "2:9"));
     CHECK(key_named("near_far").set(cell, "ratio:50"));
@@ -136,7 +137,7 @@ TEST_CASE("a depth range or a remedy replaces the one before it, part by part no
     CHECK(cell.subpixel_bits == 0);
 }
 
-TEST_CASE("algorithms of a plan peel in order: oracles and those that only blend are refused") {
+TEST_CASE("algorithms of a plan must peel and so oracles and those that only blend are rejected") {
     std::string wrong;
     for (const auto& algorithm : strata::peeling::algorithms()) {
         const bool peels = !algorithm.is_oracle && (algorithm.exact || algorithm.makes_layers);
@@ -148,7 +149,7 @@ TEST_CASE("algorithms of a plan peel in order: oracles and those that only blend
     CHECK(otherwise("algorithm", false, {"a_buffer", "weighted_average", "", "Dual"}) == "");
 }
 
-TEST_CASE("every remedy of one value each part goes by the name that the plan would give it, and that name makes it") {
+TEST_CASE("every remedy has the name that a plan would give it and that name makes the same remedy") {
     const std::vector<std::string> parts{"bias:2", "slope:-0.5", "epsilon:4ulp", "unquantized", "depth_replace"};
     int wrong = 0;
     for (unsigned chosen = 0; chosen < 32; ++chosen) {
@@ -169,7 +170,7 @@ TEST_CASE("every remedy of one value each part goes by the name that the plan wo
     CHECK(otherwise("split", false, {"", "turned", "none+moved"}) == "");
 }
 
-TEST_CASE("one vertex path is both passes', two are the first one's and the others', three are too many") {
+TEST_CASE("one vertex path applies to all passes and of two the second to the later passes and three are rejected") {
     std::string wrong;
     for (std::size_t a = 0; a < strata::pipeline::vertex_path_names.size(); ++a) {
         const std::string first{strata::pipeline::vertex_path_names[a]};
@@ -192,7 +193,7 @@ TEST_CASE("one vertex path is both passes', two are the first one's and the othe
     CHECK(otherwise("pair", false, {"", "exact", "exact:", "exact:exact:exact", "window_z:nearest"}) == "");
 }
 
-TEST_CASE("options alone are one grid, and without a scene it says so") {
+TEST_CASE("options alone make one grid and a missing scene is reported") {
     CHECK(
         cells_of({{"scene", {"s"}}, {"depth_format", {"d24"}}, {"alpha", {"0.1", "0.2"}}, {"split", {"none", "moved"}}})
             .size() == 4);

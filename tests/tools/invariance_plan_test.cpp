@@ -1,4 +1,5 @@
-// Model: the cells of small plans, written down one by one; messages typed a second time.
+// Tests the expansion of invariance plans. The expected cells of small plans and the error messages are written by
+// hand.
 #include "tools/lab/invariance/invariance_plan.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-// What tells the cells of these tests apart.
+// The settings in which the cells of these tests differ.
 Cells names(const std::vector<Cell>& cells) {
     Cells names;
     for (const Cell& c : cells)
@@ -31,7 +32,8 @@ std::string message(const std::string& plan) {
 
 }  // namespace
 
-TEST_CASE("a grid stands for all combinations of its values, the last key fastest, whatever the order in the file") {
+TEST_CASE(
+    "a grid expands to all combinations of its values with the last key fastest in whatever order the file has them") {
     const Cells expected{"teapot 8 d0 none", "teapot 8 d0 bias:2", "teapot 8 d2 none", "teapot 8 d2 bias:2",
                          "random 8 d0 none", "random 8 d0 bias:2", "random 8 d2 none", "random 8 d2 bias:2"};
     CHECK(names(parse_plan(R"({"grids": [{"scene": ["teapot", "random"], "size": "8x4", "depth_format": ["d16", "d32f"],
@@ -42,7 +44,7 @@ TEST_CASE("a grid stands for all combinations of its values, the last key fastes
                            "p.json", {})) == expected);
 }
 
-TEST_CASE("a grid's own value comes before common, common before options, options before the default") {
+TEST_CASE("a value in a grid overrides one in common and that overrides an option and that overrides the default") {
     const KeyValues options{{"scene", {"given"}}, {"size", {"5x5"}}, {"depth_format", {"d32f"}}};
     const auto cells = parse_plan(R"({"common": {"size": "6x6", "depth_format": "d16"},
                                       "grids": [{"depth_format": "d24"}, {"scene": "own"}]})",
@@ -51,13 +53,13 @@ TEST_CASE("a grid's own value comes before common, common before options, option
     CHECK(cells[0].profile == "geforce3");
 }
 
-TEST_CASE("a cell that comes twice is kept once, at its first place") {
+TEST_CASE("a repeated cell is kept once at its first index") {
     CHECK(names(parse_plan(R"({"common": {"scene": "s", "size": "1x1", "depth_format": "d24"},
                                "grids": [{"remedy": ["bias:1", "none"]}, {"remedy": ["none", "slope:1", "bias:1"]}]})",
                            "p.json", {})) == Cells{"s 1 d1 bias:1", "s 1 d1 none", "s 1 d1 slope:1"});
 }
 
-TEST_CASE("numbers may stand for their text, and a remedy may have parts") {
+TEST_CASE("numbers may be given in place of their text and a remedy may have parts") {
     const auto cells =
         parse_plan(R"({"grids": [{"scene": "s", "alpha": 0.25, "subpixel_bits": [8], "depth_format": "d24",
                                       "remedy": "slope:0.5+bias:3+epsilon:2ulp+unquantized"}]})",
@@ -68,12 +70,12 @@ TEST_CASE("numbers may stand for their text, and a remedy may have parts") {
     CHECK(name_of(cells[0].remedy) == "bias:3+slope:0.5+epsilon:2ulp+unquantized");
 }
 
-TEST_CASE("a plan takes every value that the option of the same meaning takes, up to its limits") {
+TEST_CASE("a plan accepts every value that the corresponding option accepts up to its limits") {
     const auto cells =
         parse_plan(R"({"grids": [{"scene": "teapot", "orbit": "-400.5,120", "size": "16384x1", "alpha": 1,
                                       "remedy": "epsilon:16777216ulp", "vertex_path": "fused+double", "max_passes": 2000000}]})",
                    "p.json", {});
-    REQUIRE(cells.size() == 2);  // the two depth formats that are the default
+    REQUIRE(cells.size() == 2);  // the two default depth formats
     CHECK(cells[0].azimuth == -400.5);
     CHECK(cells[0].elevation == 120);
     CHECK(cells[0].width == 16384);
@@ -86,7 +88,7 @@ TEST_CASE("a plan takes every value that the option of the same meaning takes, u
         CHECK_FALSE(message(std::string{R"({"grids": [{"scene": "teapot", )"} + wrong + "}]}").empty());
 }
 
-TEST_CASE("every fault of a plan is one sentence with its place") {
+TEST_CASE("every fault of a plan gives one error message with its JSON pointer") {
     CHECK_THAT(message("{"), Catch::StartsWith("p.json: byte 2: expected a plan in JSON, found a syntax error"));
     CHECK(message("[]") == "p.json: /: expected an object with \"grids\", found []");
     CHECK(message(R"({"grid": []})") ==

@@ -1,4 +1,5 @@
-// Model: one made-up measurement, and the line and the row that must come of it, typed out.
+// Tests the result line and the CSV row of an invariance cell. The expected text for one invented measurement is
+// written by hand.
 #include "tools/lab/invariance/invariance_row.h"
 
 #include <catch2/catch.hpp>
@@ -57,7 +58,7 @@ CellResult some_result() {
     return result;
 }
 
-// The field of a row under a column's title; of the simple fields that need no quotes.
+// The field of a row in the column with that title, for fields that need no quotes.
 std::string field(const std::string& row, const std::string& title) {
     const auto columns = [](std::string text) {
         std::vector<std::string> parts(1);
@@ -80,7 +81,7 @@ std::string field(const std::string& row, const std::string& title) {
 
 }  // namespace
 
-TEST_CASE("a cell's description tells its number and every setting, paths without their folders") {
+TEST_CASE("the description of a cell has its number and every setting with file names without folders") {
     Cell cell = some_cell();
     ordered_json expected = ordered_json::parse(R"({"cell":3,"scene":"planes:gap=64,count=4","width":24,"height":16,
         "profile":"geforce3","algorithm":"dual","orbit":[30.0,20.0],"camera":null,"alpha":0.1,"write_path":"float32","compare_path":"exact",
@@ -103,7 +104,7 @@ TEST_CASE("a cell's description tells its number and every setting, paths withou
     CHECK(description(3, cell, some_view()).dump() == expected.dump());
 }
 
-TEST_CASE("a line is its description, then what came of it, in one order of keys") {
+TEST_CASE("a line has its description followed by its results in one order of keys") {
     const ordered_json line = to_line(3, some_cell(), some_result());
     ordered_json expected = description(3, some_cell(), some_view());
     expected.update(
@@ -116,7 +117,7 @@ TEST_CASE("a line is its description, then what came of it, in one order of keys
     CHECK(line.dump() == expected.dump());
 }
 
-TEST_CASE("an outcome is refused, compared, done, or never_ends") {
+TEST_CASE("an outcome is refused or compared or done or never_ends") {
     const auto outcome_of = [](auto&& change) {
         CellResult result = some_result();
         change(result);
@@ -131,7 +132,7 @@ TEST_CASE("an outcome is refused, compared, done, or never_ends") {
     CHECK(to_line(0, some_cell(), compared).at("digest") == "");
 }
 
-TEST_CASE("where all fragments agree no witness is named, and equal pictures have no ratio of signal to noise") {
+TEST_CASE("where all fragments agree no fragment is named and equal pictures have no signal-to-noise ratio") {
     CellResult result = some_result();
     result.measured.paths.differing = 0;
     result.measured.image.psnr.reset();
@@ -143,7 +144,7 @@ TEST_CASE("where all fragments agree no witness is named, and equal pictures hav
     CHECK(field(to_csv(to_line(0, some_cell(), result)), "psnr") == "");
 }
 
-TEST_CASE("a safe range tells its ends and who stands there") {
+TEST_CASE("a safe range has its ends and the fragments that limit it") {
     CellResult result = some_result();
     strata::peeling::SafeRange range;
     range.lowest = 3;
@@ -175,7 +176,7 @@ TEST_CASE("a safe range tells its ends and who stands there") {
     CHECK(to_line(0, some_cell(), result).at("safe_epsilon").at("lowest").is_null());
 }
 
-TEST_CASE("a row quotes a field that has commas, quotes or ends of lines, and writes numbers as the line has them") {
+TEST_CASE("a row quotes fields with commas or quotes or line ends and writes numbers as in the line") {
     ordered_json line = to_line(3, some_cell(), some_result());
     const std::string row = to_csv(line);
     CHECK(
@@ -192,15 +193,14 @@ TEST_CASE("a row quotes a field that has commas, quotes or ends of lines, and wr
     }
 }
 
-TEST_CASE(
-    "a view that the scene brings has empty planes in a row, and so has equal pictures' PSNR alone the word inf") {
+TEST_CASE("the planes of a scene's own view are empty fields of a row") {
     CellResult result = some_result();
     result.view = {.view = {}, .near = 0, .far = 0, .subpixel_bits = 4, .is_own = true};
     const std::string row = to_csv(to_line(0, some_cell(), result));
     for (const char* title : {"near", "far", "orbit", "camera"}) CHECK(field(row, title).empty());
 }
 
-TEST_CASE("rows and labels of a sweep name every knob that varies, and what does not is said once") {
+TEST_CASE("rows and labels of a sweep name every setting that varies and the others are named once") {
     struct Change {
         const char* title;
         void (*make)(Cell&);
@@ -245,7 +245,7 @@ TEST_CASE("rows and labels of a sweep name every knob that varies, and what does
     }
 }
 
-TEST_CASE("a sentence counts what came of the cells, and a row has the safe interval") {
+TEST_CASE("a sentence counts the outcomes of the cells and a row has the safe interval") {
     CellResult right = some_result(), endless = some_result();
     right.measured.errors.duplicated = right.measured.errors.lost = 0;
     strata::peeling::SafeRange range;

@@ -1,4 +1,5 @@
-// Model: the sweep run in one go by one thread; every other way must give its bytes. Columns typed here a second time.
+// Tests sweeps of `strata invariance`: threads, shards and resumed runs must write the same bytes as one run with one
+// thread. The expected column titles are listed by hand.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,7 +11,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// 12 small cells, two of them refused, most with errors.
+// 12 small cells: two of them are rejected, most have errors.
 constexpr const char* plan = R"({
     "common": {"scene": "planes:gap=64,count=4", "size": "24x16", "profile": "ideal", "algorithm": "front_to_back", "alpha": 0.5,
                "pair": "float32:exact", "depth_format": ["d24", "d32f"]},
@@ -37,18 +38,19 @@ Results results_in(const Folder& folder, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a sweep gives the same bytes for any threads, in shards, and taken up again wherever it was torn") {
+TEST_CASE(
+    "a sweep writes the same bytes with any number of threads and in shards and resumed wherever it was interrupted") {
     const Folder folder;
     const Ended whole = sweep(folder, "whole");
     CHECK(whole.status == 0);
     CHECK(whole.err.empty());
     const auto told = lines_of(whole.out);
-    REQUIRE(told.size() == 17);  // a sentence, what all share, a title, a row a cell, and where it all is
+    REQUIRE(told.size() == 17);  // a sentence, the common settings, a title, one row per cell, and where the files are
     CHECK(told[0].starts_with("Of 13 cells, "));
     CHECK(told[1].starts_with("in every cell: scene planes:gap=64,count=4, size 24x16"));
     CHECK(told[2].find("duplicated") != std::string::npos);
     CHECK(told[15].find("refused") != std::string::npos);
-    CHECK(told[15].find(" 0 ") == std::string::npos);  // nothing was counted
+    CHECK(told[15].find(" 0 ") == std::string::npos);  // the row of rejected cells has no counts
     CHECK(told[16] ==
           "All of it: whole/results.csv and whole/results.jsonl. A page with plots, whole/index.html: "
           "tools/invariance/report.py whole");
@@ -76,7 +78,7 @@ TEST_CASE("a sweep gives the same bytes for any threads, in shards, and taken up
     }
 }
 
-TEST_CASE("results.csv has the promised columns, a row a cell, and refused cells among them") {
+TEST_CASE("results.csv has the documented columns and a row per cell including rejected cells") {
     const Folder folder;
     REQUIRE(sweep(folder, "out", {"--no-images"}).status == 0);
     const auto rows = lines_of(content_of(folder / "out/results.csv"));
@@ -94,7 +96,7 @@ TEST_CASE("results.csv has the promised columns, a row a cell, and refused cells
     CHECK(folder.files().size() == 2);
 }
 
-TEST_CASE("a folder with another plan's results is refused, and so is a shard that is not whole") {
+TEST_CASE("a folder with results of another plan is rejected and so is an incomplete shard") {
     const Folder folder;
     REQUIRE(sweep(folder, "out", {"--shard", "1/2", "--no-images"}).status == 0);
     const Ended missing = sweep(folder, "out", {"--merge", "2"});
@@ -107,7 +109,7 @@ TEST_CASE("a folder with another plan's results is refused, and so is a shard th
           std::string::npos);
 }
 
-TEST_CASE("lines that were changed, emptied or taken out are measured again, and the finished bytes are the same") {
+TEST_CASE("lines that were changed or emptied or removed are measured again and the final bytes are the same") {
     const Folder folder;
     REQUIRE(sweep(folder, "whole", {"--no-images"}).status == 0);
     const Results expected = results_in(folder, "whole");
@@ -124,31 +126,31 @@ TEST_CASE("lines that were changed, emptied or taken out are measured again, and
     };
     const std::string dropped = " is not what was written; it is dropped, and its cell measured again\n";
     auto left = lines;
-    left[3].replace(left[3].find("\"passes\":") + 9, 1, "9");  // a digit of a finished line
+    left[3].replace(left[3].find("\"passes\":") + 9, 1, "9");  // one digit of a complete line is changed
     CHECK(again(left) == "strata: warning: whole/results.jsonl: line 4" + dropped);
     left = lines;
-    left[12] = std::string(500, '\0');  // a power loss
+    left[12] = std::string(500, '\0');  // as after a power loss
     CHECK(again(left) == "strata: warning: whole/results.jsonl: line 13" + dropped);
     left = lines;
-    left[5] = left[5].substr(0, left[5].find(",\"outcome\"")) + "}";  // without its findings
+    left[5] = left[5].substr(0, left[5].find(",\"outcome\"")) + "}";  // without its results
     left[6].clear();
     CHECK(lines_of(again(left)).size() == 2);
     left = lines;
-    left.erase(left.begin() + 2, left.begin() + 5);  // cells between others
+    left.erase(left.begin() + 2, left.begin() + 5);  // cells in the middle are missing
     std::swap(left[0], left[7]);
-    left.push_back(left[1]);  // a cell twice
+    left.push_back(left[1]);  // a repeated cell
     CHECK(again(left) == "strata: warning: whole/results.jsonl: line 11" + dropped);
     left = lines;
-    std::swap(left[2], left[9]);  // a killed run had measured a cell between others, and the next one the rest
+    std::swap(left[2], left[9]);  // a killed run had measured a later cell first, and the next run the rest
     CHECK(again(left) == "");
     left.erase(left.begin() + 11);
     CHECK(again(left) == "");
-    write(folder / "whole/results.jsonl", expected.lines + lines[0].substr(0, 9));  // torn behind the last cell
+    write(folder / "whole/results.jsonl", expected.lines + lines[0].substr(0, 9));  // truncated after the last cell
     CHECK(sweep(folder, "whole", {"--no-images"}).status == 0);
     CHECK(results_in(folder, "whole") == expected);
 }
 
-TEST_CASE("a scene whose name is no UTF-8 is measured and taken up again") {
+TEST_CASE("a scene whose name is not UTF-8 is measured and the sweep resumed") {
     const Folder folder;
     const std::string name = "b\xff.gltf";
     write(folder / name, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}]})");

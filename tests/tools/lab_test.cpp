@@ -1,5 +1,4 @@
-// Model: strata and strata-lab are one command in two files: what each says alone, and what strata says without the
-// other.
+// Tests that strata and strata-lab behave as one command, and what strata reports when strata-lab is missing.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -11,7 +10,7 @@ namespace {
 
 const std::filesystem::path built = std::filesystem::path{STRATA_PROGRAM}.parent_path();
 
-// A copy of strata in a folder of its own, without its lab.
+// Runs a copy of strata in a folder without strata-lab.
 Ended run_alone(const Folder& folder, const std::string& words) {
     std::filesystem::copy_file(STRATA_PROGRAM, folder / "strata", std::filesystem::copy_options::overwrite_existing);
     return shell(folder, "./strata " + words);
@@ -22,7 +21,7 @@ const std::vector<std::string> experiments{"cost",  "invariance",     "hard-case
 
 }  // namespace
 
-TEST_CASE("strata runs an experiment as strata-lab does: the same output, errors and status") {
+TEST_CASE("strata runs an experiment as strata-lab does with the same output and errors and status") {
     const Folder folder;
     const auto words = GENERATE(as<std::string>{}, "hard-cases --list", "--color never hard-cases --list", "cost",
                                 "bench nothing", "help probe", "help bench all", "man infer", "completions fish",
@@ -35,7 +34,7 @@ TEST_CASE("strata runs an experiment as strata-lab does: the same output, errors
     CHECK(here.status == there.status);
 }
 
-TEST_CASE("a command means the same in strata and in strata-lab") {
+TEST_CASE("a command gives the same result in strata and in strata-lab") {
     const Folder folder;
     const auto words =
         GENERATE(as<std::string>{}, "", "--help", "help", "man", "help render", "list profiles", "nothing");
@@ -46,7 +45,7 @@ TEST_CASE("a command means the same in strata and in strata-lab") {
     CHECK(here.status == there.status);
 }
 
-TEST_CASE("without strata-lab an experiment is refused with the command that builds it, and the rest works") {
+TEST_CASE("without strata-lab an experiment fails with the command that builds it and other commands work") {
     const Folder folder;
     for (const std::string& name : experiments) {
         for (const std::string& words : {name + " --help", "help " + name, "man " + name}) {
@@ -67,7 +66,7 @@ TEST_CASE("without strata-lab an experiment is refused with the command that bui
     CHECK(run_alone(folder, "list profiles").status == 0);
 }
 
-TEST_CASE("a strata-lab that does not run is told with the system's reason") {
+TEST_CASE("a strata-lab that cannot be executed is reported with the system's reason") {
     const Folder folder;
     CHECK(shell(folder, "echo x > strata-lab && chmod +x strata-lab").status == 0);
     const Ended ended = run_alone(folder, "cost teapot");

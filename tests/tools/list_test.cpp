@@ -1,4 +1,5 @@
-// Model: the lists' own JSON next to their text; links and letters typed out.
+// Tests the lists of algorithms, scenes and profiles against their own JSON. The expected links and letters are written
+// by hand.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ nlohmann::json listed(const Folder& folder, std::vector<std::string> words) {
 
 }  // namespace
 
-TEST_CASE("an algorithm or a scene that is named is listed alone, as it stands among all") {
+TEST_CASE("one algorithm or scene given by name is listed alone as in the full list") {
     const Folder folder;
     for (const std::string what : {"algorithms", "scenes"}) {
         const nlohmann::json all = listed(folder, {what});
@@ -27,7 +28,7 @@ TEST_CASE("an algorithm or a scene that is named is listed alone, as it stands a
     }
 }
 
-TEST_CASE("every algorithm of the three papers says where its paper is to be had") {
+TEST_CASE("every algorithm of the three papers has a link to its paper") {
     const Folder folder;
     const std::string text = run_strata(folder, {"list", "algorithms"}).out;
     std::set<std::string> links;
@@ -44,7 +45,7 @@ TEST_CASE("every algorithm of the three papers says where its paper is to be had
     CHECK(links.contains("https://doi.org/10.2312/EGGH/EGGH08/033-040"));
 }
 
-TEST_CASE("every algorithm is listed in one group, by how many passes it takes and whether it is exact") {
+TEST_CASE("every algorithm is listed in one group by its number of passes and whether it is exact") {
     const Folder folder;
     const std::string text = run_strata(folder, {"list", "algorithms"}).out;
     const std::set<std::string> fixed{
@@ -65,7 +66,7 @@ TEST_CASE("every algorithm is listed in one group, by how many passes it takes a
         CHECK(text.find(heading) != std::string::npos);
 }
 
-TEST_CASE("a profile's letters are explained where they are printed") {
+TEST_CASE("the letters of a profile's sources are explained where they are printed") {
     const Folder folder;
     const std::string text = run_strata(folder, {"list", "profiles", "geforce3"}).out;
     for (const char* letter : {"[S]", "[M]", "[A]"}) {
@@ -74,7 +75,7 @@ TEST_CASE("a profile's letters are explained where they are printed") {
     }
 }
 
-TEST_CASE("a texture without a name is called unnamed") {
+TEST_CASE("a texture without a name is listed as unnamed") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"render", "planes:count=1", "--size", "4x2", "-q", "-o", "image.png"}).status == 0);
     std::ofstream(folder / "a.gltf")

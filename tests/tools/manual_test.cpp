@@ -1,5 +1,5 @@
-// Model: what the program parses with is what is written about it: every option of every command stands in its help,
-// its page and each shell's completions. bash itself completes; man's own formatter reads the pages.
+// Tests that the documentation lists what the command-line parser accepts: every option of every command is in its
+// help, its manual page and each shell's completions. bash itself completes; man's own formatter checks the pages.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
@@ -27,7 +27,7 @@ bool is_there(const std::string& program) {
 
 }  // namespace
 
-TEST_CASE("help of a command is its --help, and all adds the rare options") {
+TEST_CASE("help of a command is its --help and all adds the rare options") {
     const Folder folder;
     const Ended usual = run_strata(folder, {"help", "render"}), all = run_strata(folder, {"help", "render", "all"});
     CHECK(usual.status == 0);
@@ -43,7 +43,7 @@ TEST_CASE("help of a command is its --help, and all adds the rare options") {
     CHECK(run_strata(folder, {"help", "render", "everything"}).status == 2);
 }
 
-TEST_CASE("the page of every command names each of its options, and man finds no fault in it") {
+TEST_CASE("the manual page of every command names each of its options and man finds no fault in it") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"man", "-o", "man1"}).status == 0);
     const std::string root = content_of(folder / "man1/strata.1");
@@ -80,12 +80,12 @@ TEST_CASE("completions of every shell have every command and every option") {
             WARN("SKIPPED: " << name << " was not found: its completions are not read");
             continue;
         }
-        // LC_ALL: bash warns of a locale that the machine lacks, as a remote user's often is.
+        // LC_ALL is set because bash warns of a locale that the machine lacks, such as that of a remote user.
         CHECK(shell(folder, "strata completions " + name + " > file && LC_ALL=C " + name + " -n file").err.empty());
     }
 }
 
-TEST_CASE("bash completes commands, options, choices and scenes") {
+TEST_CASE("bash completes commands and their options and values") {
     const Folder folder;
     const auto completed = [&](const std::string& line) {
         const Ended ended =
@@ -102,7 +102,7 @@ TEST_CASE("bash completes commands, options, choices and scenes") {
     CHECK(completed("strata render tea") == "teapot\n");
 }
 
-TEST_CASE("a picture tells the command that made it, and that command makes the same file again") {
+TEST_CASE("a picture stores the command that made it and that command makes the same file again") {
     const Folder folder;
     const std::string ending = GENERATE("png", "exr");
     const std::string file = "a." + ending, copy = "b." + ending;
@@ -119,7 +119,7 @@ TEST_CASE("a picture tells the command that made it, and that command makes the 
     CHECK(run_strata(folder, {"render", "--from"}).status == 2);
 }
 
-TEST_CASE("a picture of another program has no command to tell") {
+TEST_CASE("a picture of another program has no stored command") {
     const Folder folder;
     // A black pixel, written by hand: IHDR, IDAT and IEND.
     const unsigned char png[] = {0x89, 'P',  'N',  'G',  13,   10,  26,  10,  0,   0,    0,    13,   'I',  'H',
@@ -138,7 +138,7 @@ TEST_CASE("a picture of another program has no command to tell") {
     CHECK(from.err.find("other.png: strata:command: expected a picture that strata wrote") != std::string::npos);
 }
 
-TEST_CASE("an expected digest that no file has ends with status 1") {
+TEST_CASE("an expected digest that no file has gives status 1") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"render", "planes:count=2", "--size", "8x8", "-o", "a.png"}).status == 0);
     const std::string digest = lines_of(run_strata(folder, {"digest", "a.png"}).out).at(1).substr(0, 32);
@@ -150,7 +150,7 @@ TEST_CASE("an expected digest that no file has ends with status 1") {
     CHECK(run_strata(folder, {"digest", "--expect", "zz", "a.png"}).status == 2);
 }
 
-TEST_CASE("channels have digests of their own, which tell where two pictures differ") {
+TEST_CASE("channels have separate digests that identify where two pictures differ") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"render", "planes:count=1", "--background", "0,0,0", "--size", "8x8", "-o", "a.exr"})
                 .status == 0);
@@ -166,7 +166,7 @@ TEST_CASE("channels have digests of their own, which tell where two pictures dif
     CHECK(a.at(3).substr(0, 32) != b.at(3).substr(0, 32));  // blue
 }
 
-TEST_CASE("statistics to /dev/stdout are those to -") {
+TEST_CASE("statistics written to /dev/stdout are those written to -") {
     const Folder folder;
     const std::vector<std::string> words{"render", "planes:count=1", "--size", "8x8", "--no-audit", "--stats"};
     auto to_dash = words, to_device = words;
@@ -179,7 +179,7 @@ TEST_CASE("statistics to /dev/stdout are those to -") {
     CHECK(digests(to_dash) == digests(to_device));
 }
 
-TEST_CASE("a scene may come from standard input") {
+TEST_CASE("a scene may be read from standard input") {
     const Folder folder;
     std::ofstream(folder / "scene.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
@@ -194,7 +194,7 @@ TEST_CASE("a scene may come from standard input") {
     CHECK(shell(folder, "strata render - < /dev/null").status == 2);
 }
 
-TEST_CASE("an extension that a file needs and we lack is refused with the way out") {
+TEST_CASE("an unsupported extension that a file requires is rejected with a workaround") {
     const Folder folder;
     for (const auto& [extension, way] :
          {std::pair<std::string, std::string>{"KHR_draco_mesh_compression", "gltf-transform copy"},

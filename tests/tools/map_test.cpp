@@ -1,5 +1,5 @@
-// Model: planes one behind the other, whose number at a pixel is a matter of counting; colours worked out by hand from
-// the legend.
+// Tests the maps of `render --map` on planes whose number at each pixel is known. The expected colours are worked out
+// by hand from the legend.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -34,7 +34,7 @@ std::string legend(const Folder& folder, const std::string& scene, const std::st
 
 }  // namespace
 
-TEST_CASE("a map of the depth complexity is white where most fragments lie, and black where none is") {
+TEST_CASE("a map of the depth complexity is white where the most fragments are and black where there are none") {
     const Folder folder;
     const auto image = map_image(folder, "planes:count=3", "depth-complexity", "dual");
     CHECK(color_at(image, 16, 12) == 0xffffff);
@@ -43,7 +43,7 @@ TEST_CASE("a map of the depth complexity is white where most fragments lie, and 
 }
 
 // Three fragments of one depth at every pixel, as `strata hard-cases --list` states.
-TEST_CASE("a map of ties counts the fragments at a depth that another one of the pixel has") {
+TEST_CASE("a map of ties counts the fragments that share their depth with another one of the pixel") {
     const Folder folder;
     CHECK(legend(folder, "hard:case=coincident", "ties", "dual") == "ties: black is 0, white is 3\n");
     CHECK(legend(folder, "planes:count=4", "ties", "dual") == "ties: black is 0, white is 0\n");
@@ -51,8 +51,8 @@ TEST_CASE("a map of ties counts the fragments at a depth that another one of the
     CHECK(color_at(map_image(folder, "planes:count=4", "ties", "dual"), 16, 12) == 0);
 }
 
-// One triangle, drawn opaque and, in the same place, blended.
-TEST_CASE("a map of ties with opaque surfaces counts the fragments at the very depth of the one behind them") {
+// One triangle, drawn opaque and again, at the same position, blended.
+TEST_CASE("a map of ties with opaque surfaces counts the fragments at exactly the depth of the surface behind them") {
     const Folder folder;
     std::ofstream(folder / "coplanar.gltf")
         << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
@@ -70,7 +70,7 @@ TEST_CASE("a map of ties with opaque surfaces counts the fragments at the very d
     CHECK_THAT(told.out + told.err, Catch::Contains("LESS hides them, LEQUAL would show them"));
 }
 
-TEST_CASE("a map of the error is black for the exact picture, and shows where a wrong one is wrong") {
+TEST_CASE("a map of the error is black for the exact picture and shows the wrong pixels of another one") {
     const Folder folder;
     CHECK(legend(folder, "planes:count=3", "error", "a_buffer") == "error: black is 0, white is 0 of 255\n");
     const auto wrong = map_image(folder, "volume-beam:slices=4,order=near", "error", "unsorted");
@@ -81,7 +81,7 @@ TEST_CASE("a map of the error is black for the exact picture, and shows where a 
     CHECK(lit < 32 * 24);
 }
 
-TEST_CASE("a map's own command makes it again, and it wants a picture's name") {
+TEST_CASE("the command stored in a map makes it again and a map requires a picture file") {
     const Folder folder;
     static_cast<void>(map_image(folder, "planes:count=3", "ties", "dual"));
     CHECK(lines_of(run_strata(folder, {"info", "map.png"}).out).at(0).ends_with("--map ties"));
@@ -91,7 +91,7 @@ TEST_CASE("a map's own command makes it again, and it wants a picture's name") {
     CHECK(run_strata(folder, {"render", "planes", "--map", "ties", "-o", "x.exr"}).status == 2);
 }
 
-TEST_CASE("layers as a sheet are a row a layer of colours and depths") {
+TEST_CASE("a sheet of layers has a row of colour and depth per layer") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"layers", "planes:count=3", "--size", "64x24", "-o", "sheet.png"}).status == 0);
     const auto three = strata::scenes::read_images(folder / "sheet.png").at(0).image;

@@ -1,4 +1,4 @@
-// Model: the peak that the system measured.
+// Tests the prediction of --max-memory against the peak that the system measures.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace strata::test;
 
 constexpr double bytes_of_a_mebibyte = 1 << 20;
 
-// The figure of the sentence that refuses the run, in bytes.
+// The number of bytes in the message that rejects the run.
 double predicted(const Folder& folder, std::vector<std::string> words) {
     words.insert(words.end(), {"--max-memory", "1M"});
     const Ended ended = run_strata(folder, words);
@@ -39,7 +39,7 @@ Peak peak_of(const Folder& folder, const std::string& job, const char* threads) 
 
 }  // namespace
 
-TEST_CASE("what a picture will take is told within a quarter of what it takes") {
+TEST_CASE("the predicted memory of a picture is within a quarter of the measured one") {
     const std::vector<std::string> jobs{
         "render teapot --size 1024x1024 --algorithm dual",
         "render teapot --size 1024x1024 --algorithm dual --no-audit -o a.png",
@@ -58,14 +58,14 @@ TEST_CASE("what a picture will take is told within a quarter of what it takes") 
         INFO(job << ": " << one.measured / bytes_of_a_mebibyte << " and " << two.measured / bytes_of_a_mebibyte
                  << " MiB");
         CHECK(one.told == Approx(one.measured).epsilon(0.25));
-        // Two threads may take their tiles by turns and then need less; they never need a quarter more than told.
+        // Two threads may work on their tiles alternately and then need less, but never a quarter more than predicted.
         CHECK(two.measured < 1.25 * two.told);
         worst = std::max(worst, std::abs(one.told / one.measured - 1));
     }
     std::cout << jobs.size() << " pictures: memory told within " << std::ceil(100 * worst) << " %" << std::endl;
 }
 
-TEST_CASE("a picture that would take more than --max-memory is refused before anything is written") {
+TEST_CASE("a picture that would exceed --max-memory is rejected before anything is written") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"render", "teapot", "--size", "2048x2048", "--execution", "literal",
                                             "--max-memory", "64M", "-o", "a.exr"});

@@ -1,5 +1,5 @@
-// Model: what stands in tools/docs/commands.md about messages: which stream, how much, which bytes. A terminal is one
-// that script(1) makes.
+// Tests messages against tools/docs/commands.md: which stream they go to, how many there are, and which bytes they may
+// contain. script(1) provides a terminal.
 #include "tools/strata/messages.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* escape = "\x1b";
 
-// What the command prints to a terminal, both streams; "" where there is no script(1).
+// Output of the command on a terminal, both streams; "" if script(1) is not installed.
 std::string on_terminal(const Folder& folder, const std::string& command, const std::string& no_color = "") {
     const Ended ended = shell(folder, "script -qec '" + command + "' /dev/null < /dev/null",
                               {.environment = {{"TERM", "xterm"}, {"NO_COLOR", no_color}}});
@@ -29,7 +29,7 @@ std::string warned_scene(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("quiet leaves warnings, notes and the table beside a picture out, and nothing else") {
+TEST_CASE("quiet omits only warnings and notes and the table next to a picture") {
     const Folder folder;
     const std::string scene = warned_scene(folder);
     CHECK(run_strata(folder, {"render", scene, "--size", "8x8", "-o", "a.png"}).err.find("warning") !=
@@ -45,7 +45,7 @@ TEST_CASE("quiet leaves warnings, notes and the table beside a picture out, and 
     CHECK(wrong.err.starts_with("strata: none.glb: "));
 }
 
-TEST_CASE("a scene without triangles is told with what to do about it") {
+TEST_CASE("a scene without triangles is reported with a suggestion") {
     const Folder folder;
     const Ended one = run_strata(folder, {"scene", warned_scene(folder)});
     CHECK(one.status == 0);
@@ -58,7 +58,7 @@ TEST_CASE("a scene without triangles is told with what to do about it") {
     CHECK(run_strata(folder, {"scene", "planes:count=1"}).err.empty());
 }
 
-TEST_CASE("verbose tells what was read and written, and how long each step took, and changes no result") {
+TEST_CASE("verbose reports inputs and outputs and the time of each step and changes no result") {
     const Folder folder;
     const std::vector<std::string> words{"render", "planes:count=2", "--size", "8x8", "-o", "a.png"};
     auto verbose = words;
@@ -78,7 +78,7 @@ TEST_CASE("verbose tells what was read and written, and how long each step took,
     CHECK(content_of(folder / "a.png") == before);
 }
 
-TEST_CASE("a terminal gets colours unless NO_COLOR or --color says otherwise, and a pipe gets none unless asked") {
+TEST_CASE("a terminal gets colours unless NO_COLOR or --color disables them and a pipe gets none unless requested") {
     const Folder folder;
     const std::string piped = run_strata(folder, {"rendr"}).err;
     CHECK(piped.find(escape) == std::string::npos);
@@ -100,7 +100,7 @@ TEST_CASE("a terminal gets colours unless NO_COLOR or --color says otherwise, an
     }
 }
 
-TEST_CASE("a picture to standard output has the bytes of the file, behind what is there already") {
+TEST_CASE("a picture on standard output has the bytes of the file and is appended to earlier output") {
     const Folder folder;
     const std::string render = "strata render planes:count=2 --size 8x8 ";
     REQUIRE(shell(folder, render + "-o a.png && " + render + "-o a.exr").status == 0);
@@ -120,7 +120,7 @@ TEST_CASE("a picture to standard output has the bytes of the file, behind what i
     CHECK(folder.files() == std::vector<std::string>{"a.exr", "a.png", "b", "c", "d", "e", "l", "l.exr"});
 }
 
-TEST_CASE("no control character of a name or of a file reaches either stream, and JSON stays JSON") {
+TEST_CASE("no control character of a name or of a file reaches either stream and JSON stays valid") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"render", "planes:count=2", "--size", "8x8", "-o", "a.png"}).status == 0);
     const std::string evil = "e\x1b[2J\x07\x7f\xc2\x9b.png";
@@ -151,7 +151,7 @@ TEST_CASE("no control character of a name or of a file reaches either stream, an
     CHECK(strata::scenes::printable("a\n\x9f\xc2\x80\xc2\xa0") == "a\\x0a\\x9f\\u0080\xc2\xa0");
 }
 
-TEST_CASE("every fault of a glTF file is told, a line each") {
+TEST_CASE("every fault of a glTF file is reported on its own line") {
     const Folder folder;
     std::ofstream(folder / "bad.gltf")
         << R"({"asset":{"version":"3.0"},"extensionsRequired":["A_b"],"materials":[{"alphaMode":"X"},{"alphaCutoff":-1}],)"
@@ -175,7 +175,7 @@ TEST_CASE("every fault of a glTF file is told, a line each") {
     CHECK(told.back() == "strata: 10 more faults are not shown");
 }
 
-TEST_CASE("an interrupt says which files are missing") {
+TEST_CASE("an interrupt reports which files are missing") {
     const std::string missing =
         "strata: interrupted; 0 of 2 algorithms are done; not written: a.dual.png, a.painter.png\n";
     int told = 0;
@@ -187,7 +187,7 @@ TEST_CASE("an interrupt says which files are missing") {
                                          "--algorithm", "dual,painter", "--no-audit", "-o", "a.png"},
                                         {.interrupt_after_ms = delay});
         told += render.err == missing ? 1 : 0;
-        // Before main() has its handlers, the system ends the process without a word.
+        // Before main() installs its handlers, the system ends the process without a message.
         if (render.status == 130 && render.err != missing && !render.err.empty() &&
             !render.err.starts_with("strata: interrupted"))
             wrong = render.err;

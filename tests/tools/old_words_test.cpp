@@ -1,4 +1,4 @@
-// Model: the spellings of version 0.1.0, typed out, next to those that they stand for.
+// Tests the spellings of version 0.1.0 against the current ones that replace them.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -8,7 +8,7 @@ using namespace strata::test;
 
 namespace {
 
-// What both print, without the warning.
+// Checks that both print the same, apart from the warning.
 void same(const Folder& folder, const std::string& old, const std::string& now, const std::string& warning = "") {
     const Ended before = shell(folder, "strata " + old), after = shell(folder, "strata " + now);
     INFO(old << ": " << before.err << "; " << now << ": " << after.err);
@@ -22,7 +22,7 @@ void same(const Folder& folder, const std::string& old, const std::string& now, 
 
 }  // namespace
 
-TEST_CASE("an option's old spelling means the new one, with a warning unless -q leaves it out") {
+TEST_CASE("an option's old spelling has the new meaning and warns unless -q is given") {
     const Folder folder;
     const std::string render = "render planes:count=2 --size 8x8 --profile ideal --stats - --no-audit ";
     const auto digests = [&](const std::string& words) {
@@ -37,7 +37,7 @@ TEST_CASE("an option's old spelling means the new one, with a warning unless -q 
     CHECK(run_strata(folder, {"render", "planes", "--depth", "d25"}).err.starts_with("strata: --depth-format: "));
 }
 
-TEST_CASE("a command that has become a part of another one works under its old name, with its options and its help") {
+TEST_CASE("a command that became part of another one works under its old name with its options and its help") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"render", "planes:count=2", "--size", "8x8", "-o", "a.exr"}).status == 0);
     same(folder, "algorithms", "list algorithms");
@@ -62,7 +62,7 @@ TEST_CASE("a command that has become a part of another one works under its old n
     CHECK(names("effects ") == names("bench --per-effect "));
 }
 
-TEST_CASE("bench took a file behind --json") {
+TEST_CASE("bench accepts a file after --json") {
     const Folder folder;
     const std::string bench = "bench planes:count=2 --size 8x8 --algorithm unsorted --repeat 1 --warm-up 0 --json ";
     const Ended file = shell(folder, "strata " + bench + "old.json");
@@ -76,7 +76,7 @@ TEST_CASE("bench took a file behind --json") {
     CHECK(shell(folder, "strata " + bench).err.empty());
 }
 
-TEST_CASE("the help of no command has an old spelling, or a word that people look up") {
+TEST_CASE("no help text contains an old spelling or an unusual word") {
     const Folder folder;
     std::string wrong;
     for (const std::string& verb : commands()) {

@@ -1,4 +1,4 @@
-// Model: glTF files of one triangle whose material is opaque, cut out or transparent.
+// Tests the notes on glTF files of one triangle whose material is opaque, masked or blended.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -19,7 +19,7 @@ void write_triangle(const std::string& path, const std::string& alpha_mode) {
 
 }  // namespace
 
-TEST_CASE("a scene in which nothing is transparent is told, with what to type") {
+TEST_CASE("a scene in which nothing is transparent is reported with the option to use") {
     const auto mode = GENERATE(as<std::string>{}, "OPAQUE", "MASK", "BLEND");
     const Folder folder;
     write_triangle(folder / "a.gltf", mode);
@@ -32,7 +32,7 @@ TEST_CASE("a scene in which nothing is transparent is told, with what to type") 
     CHECK(run_strata(folder, {"render", "a.gltf", "--size", "16x16", "--alpha", "0.5"}).err.empty());
 }
 
-TEST_CASE("a scene without triangles is told, with what to do") {
+TEST_CASE("a scene file without triangles is reported with the options to use") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"render", "random:triangles=0", "--size", "16x16"});
     CHECK(ended.status == 0);

@@ -1,4 +1,5 @@
-// Model: what other commands say of the same scene: digests of the picture, numbers of passes, fragments.
+// Tests `passes`, `layers` and `explain` against other commands on the same scene: digests of the picture, numbers of
+// passes, fragments.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -7,7 +8,7 @@
 
 using namespace strata::test;
 
-TEST_CASE("passes writes a file a pass, whose last one has the picture's digest, and a list that says the same") {
+TEST_CASE("passes writes a file per pass and a list of them and the last file has the picture's digest") {
     const Folder folder;
     const Ended render = run_strata(folder, {"render", "teapot", "--size", "40x30", "--stats", "-"});
     const nlohmann::json stats = nlohmann::json::parse(render.out)[0];
@@ -28,7 +29,7 @@ TEST_CASE("passes writes a file a pass, whose last one has the picture's digest,
     CHECK(lines_of(ended.out).size() == passes.size() + 1);
 }
 
-TEST_CASE("passes of a refused algorithm are told as refused, and the others are written") {
+TEST_CASE("passes of a rejected algorithm are reported as rejected and the others are written") {
     const Folder folder;
     const Ended ended = run_strata(folder, {"passes", "teapot", "--size", "16x12", "--profile", "geforce3",
                                             "--algorithm", "depth_units,dual", "-o", "out"});
@@ -40,8 +41,7 @@ TEST_CASE("passes of a refused algorithm are told as refused, and the others are
 }
 
 TEST_CASE(
-    "layers of a dual peel come from both ends, near to far, and are those of a peel from the front where nothing "
-    "ties") {
+    "the layers of a dual peel come from both ends in order from near and equal those of front-to-back without ties") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata layers planes --size 40x30 --algorithm dual -o dual.exr && "
@@ -61,7 +61,7 @@ TEST_CASE(
     CHECK(dual.back() == "back.000");
 }
 
-TEST_CASE("explain tells a pixel in text and as JSON, and names the pixels that there are") {
+TEST_CASE("explain describes a pixel in text and as JSON and reports the valid pixels") {
     const Folder folder;
     const Ended text = run_strata(
         folder, {"explain", "teapot", "--size", "40x30", "--pixel", "20,15", "--algorithm", "dual,front_to_back"});

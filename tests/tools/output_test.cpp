@@ -1,4 +1,4 @@
-// Model: equality of files and digests between runs that must not differ.
+// Tests that files and digests of runs that must not differ are equal.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -24,10 +24,10 @@ std::string digest_line(const Folder& folder, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("strata digest of an image is the digest that its statistics gave") {
+TEST_CASE("strata digest of an image prints the digest that its statistics contain") {
     const auto format = GENERATE(as<std::string>{}, "rgba8", "rgba16f", "rgba32f");
     const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
-    if (ending == ".png" && format != "rgba8") return;  // a PNG holds 8-bit codes
+    if (ending == ".png" && format != "rgba8") return;  // PNG files hold 8-bit codes
     const Folder folder;
     const Ended ended = render(folder, {"--color-format", format, "--stats", "-", "-o", "out" + ending});
     REQUIRE(ended.status == 0);
@@ -38,7 +38,7 @@ TEST_CASE("strata digest of an image is the digest that its statistics gave") {
         CHECK(digest_line(folder, "out.exr").find(row["digest"]["depth"].get<std::string>()) != std::string::npos);
 }
 
-TEST_CASE("strata digest prints the files that it can read, says which it cannot, and ends with status 2") {
+TEST_CASE("strata digest prints files that it can read and reports those it cannot and exits with status 1") {
     const Folder folder;
     CHECK(render(folder, {"-o", "a.exr"}).status == 0);
     CHECK(render(folder, {"-o", "b.png"}).status == 0);
@@ -53,7 +53,7 @@ TEST_CASE("strata digest prints the files that it can read, says which it cannot
     CHECK(ordered_json::parse(json.out).size() == 1);
 }
 
-TEST_CASE("strata digest tells a deep EXR by its fragments, and a change of one of them") {
+TEST_CASE("strata digest of a deep EXR depends on each of its fragments") {
     const Folder folder;
     const auto deep = [&](const std::string& file, const std::string& alpha) {
         CHECK(run_strata(folder, {"layers", small[0], small[1], small[2], "--alpha", alpha, "--deep", file}).status ==
@@ -72,7 +72,7 @@ TEST_CASE("strata digest tells a deep EXR by its fragments, and a change of one 
     CHECK(content_of(folder / "a.exr").find(first["digest"].get<std::string>()) != std::string::npos);
 }
 
-TEST_CASE("the same run gives the same bytes, whatever threads, tiles, execution and effects make it") {
+TEST_CASE("equal runs write equal bytes for any tile size or thread count or execution or effects") {
     const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
     const Folder folder;
     CHECK(render(folder, {"-o", "first" + ending}).status == 0);
@@ -97,7 +97,7 @@ TEST_CASE("the same run gives the same bytes, whatever threads, tiles, execution
     }
 }
 
-TEST_CASE("layers and deep files are the same bytes in every run") {
+TEST_CASE("layers and deep files have the same bytes in every run") {
     const Folder folder;
     for (const std::string name : {"a", "b"}) {
         CHECK(run_strata(folder,
@@ -109,7 +109,7 @@ TEST_CASE("layers and deep files are the same bytes in every run") {
     CHECK(folder.files() == std::vector<std::string>{"a.deep.exr", "a.exr", "b.deep.exr", "b.exr"});
 }
 
-TEST_CASE("a hard case rendered in its own frame and depth range is the picture that its line names") {
+TEST_CASE("a hard case rendered with its own frame and depth range has the digest in its list entry") {
     const Folder folder;
     const Ended cases = run_strata(folder, {"hard-cases", "narrow-range", "--algorithm", "dual", "--profile",
                                             "geforce8", "--depth-format", "d24", "--json", "-o", "cases"});
@@ -121,15 +121,15 @@ TEST_CASE("a hard case rendered in its own frame and depth range is the picture 
         REQUIRE(ended.status == 0);
         return ordered_json::parse(ended.out)[0]["digest"]["color"].get<std::string>();
     };
-    CHECK(digest_of("0.5,0.50006103515625") == digest);  // 1/2 to 1/2 + 2^-14
-    // A hundredth of that range is narrower than a code: the layers fall together.
+    CHECK(digest_of("0.5,0.50006103515625") == digest);  // depth range 1/2 to 1/2 + 2^-14
+    // A hundredth of that range is narrower than one code: the layers merge.
     CHECK(digest_of("0.5,0.5000000596") != digest);
     const Ended reversed = run_strata(folder, {"render", "hard:case=narrow-range", "--depth-range", "1,0"});
     CHECK(reversed.status == 2);
     CHECK(reversed.err.find("reversed depth range") != std::string::npos);
 }
 
-TEST_CASE("a hard case, a device or an algorithm that is named twice is refused, and nothing is written") {
+TEST_CASE("a repeated hard case or device or algorithm is rejected and nothing is written") {
     const Folder folder;
     const auto told = [&](std::vector<std::string> words) {
         words.insert(words.begin(), {"hard-cases", "frame-1x1", "-o", "out"});
@@ -142,7 +142,7 @@ TEST_CASE("a hard case, a device or an algorithm that is named twice is refused,
     CHECK(folder.files().empty());
 }
 
-TEST_CASE("no output holds a path, a host or a user") {
+TEST_CASE("no output contains a path or a host name or a user name") {
     const Folder folder;
     CHECK(shell(folder, "cp " STRATA_PROGRAM
                         " here && mkdir -p deep/er && strata render teapot --size 16x16 -o deep/er/out.exr")
@@ -154,7 +154,7 @@ TEST_CASE("no output holds a path, a host or a user") {
           std::string::npos);
 }
 
-TEST_CASE("pictures of several algorithms have the algorithm's name before the ending") {
+TEST_CASE("pictures of several algorithms have the algorithm's name before the file ending") {
     const Folder folder;
     CHECK(render(folder, {"--algorithm", "dual,unsorted", "-o", "out.png"}).status == 0);
     CHECK(folder.files() == std::vector<std::string>{"out.dual.png", "out.unsorted.png"});
@@ -171,7 +171,7 @@ TEST_CASE("a table in a pipe has no escape codes and no progress bar") {
 TEST_CASE("a locale with decimal commas changes no byte") {
     const Folder folder, locales;
     const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8");
-    if (shell(folder, make).status > 1) {  // 1: made, with warnings
+    if (shell(folder, make).status > 1) {  // status 1: written, with warnings
         WARN("localedef cannot make de_DE.UTF-8 (package locales): decimal commas are not tested");
         return;
     }
@@ -191,7 +191,7 @@ TEST_CASE("a locale with decimal commas changes no byte") {
     CHECK(profile({}) == profile(german));
 }
 
-TEST_CASE("execution tiled is replay without fragment memory, and says so on standard error") {
+TEST_CASE("execution tiled is replay without fragment memory and standard error says so") {
     const Folder folder;
     const Ended tiled = render(folder, {"--execution", "tiled", "--fragment-memory", "1M", "--stats", "-"});
     CHECK(tiled.status == 0);

@@ -1,5 +1,5 @@
-// Slices and a cone: how Carr's algorithms grow with the number of slices. Model: the counts of the paper's section 8,
-// in passes and fragments, never in seconds.
+// Tests how the cost of Carr's algorithms grows with the number of slices, on slices and a cone. The expected passes
+// and fragments are those of the paper's section 8; no times are compared.
 #include <catch2/catch.hpp>
 
 #include "peeling/render.h"
@@ -29,18 +29,17 @@ double work(int slices, const char* algorithm) {
 
 }  // namespace
 
-TEST_CASE("256 slices and a cone of two layers: layer_peel 259 iterations, the last one empty, hybrid 3, coherent 4") {
+TEST_CASE("on 256 slices and a cone of two layers layer_peel takes 259 iterations and hybrid 3 and coherent 4") {
     const auto layer_peel = render(256, "layer_peel", 24);
     CHECK(layer_peel.audit.layers_max == 258);
     CHECK(layer_peel.frame.iterations == 259);
     CHECK(render(256, "hybrid", 24).frame.iterations == 3);
-    // The cone comes last and cuts the slices into three runs, one of which is longer than 128.
+    // The cone is submitted last and splits the slices into three runs, one of which is longer than 128.
     CHECK(render(256, "coherent_stencil", 24).frame.iterations == 4);
     CHECK(render(256, "coherent_blend", 24).frame.iterations == 4);
 }
 
-TEST_CASE(
-    "hybrid takes 3 iterations for any number of slices, and its work grows linearly, layer_peel's quadratically") {
+TEST_CASE("hybrid takes 3 iterations and linear work for any number of slices and layer_peel quadratic work") {
     for (const int slices : {16, 64}) {
         CHECK(render(slices, "hybrid", 24).frame.iterations == 3);
         CHECK(render(slices, "layer_peel", 24).frame.iterations == slices + 3);
@@ -60,7 +59,7 @@ TEST_CASE("hybrid grows linearly and layer_peel quadratically from 16 to 1024 sl
     }
 }
 
-TEST_CASE("the order of triangles and the formulation belong to the command that makes a picture again") {
+TEST_CASE("the order of triangles and the formulation are part of the command stored in a picture") {
     using namespace strata::test;
     const Folder folder;
     const Ended ended = run_strata(

@@ -1,6 +1,6 @@
-// Runs a command and prints the peak of its resident set in KiB on standard error. A process that forks counts its own
-// size for the child until the child becomes another program; this one is small. Without huge pages, which systems hand
-// out as they like: a page of 2 MiB for a few bytes counts whole.
+// Runs a command and prints the peak of its resident set in KiB on standard error. A process that forks has its own
+// size counted for the child until the child executes another program, so this program is small. It disables huge
+// pages, which the system assigns unpredictably: a 2 MiB page counts entirely even if only a few bytes are used.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

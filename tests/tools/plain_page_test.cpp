@@ -1,5 +1,5 @@
-// Model: pages of a few words whose text is typed out; the picture in a page is read back as a PNG by another reader; a
-// CSV by RFC 4180.
+// Tests the HTML pages of reports. The expected text of short pages is written by hand, the picture in a page is read
+// back with another PNG reader, and CSV follows RFC 4180.
 #include "tools/strata/report/plain_page.h"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,7 @@ strata::pipeline::Image checkered(int width, int height) {
     return image;
 }
 
-// One file: nothing in it names another place.
+// True if the page refers to no other file or address.
 bool stands_alone(const std::string& page) {
     return page.find("src=\"http") == std::string::npos && times_in(page, "href=\"") == times_in(page, "href=\"#") &&
            page.find("<link") == std::string::npos && page.size() <= (std::size_t{8} << 20);
@@ -39,7 +39,7 @@ bool stands_alone(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("a plain page has its parts in their order, and every character of a text as text") {
+TEST_CASE("a page has its parts in order and every character of a text is escaped") {
     PlainPage page{"Title <1>", "a & b"};
     page.heading("First");
     page.paragraph("x < y & \"z\"\x1b");
@@ -57,7 +57,7 @@ TEST_CASE("a plain page has its parts in their order, and every character of a t
     CHECK(stands_alone(html));
 }
 
-TEST_CASE("a legend of a page has a swatch a colour, with its words") {
+TEST_CASE("a legend of a page has a swatch per colour with its label") {
     PlainPage page{"t", "s"};
     page.legend({{{255, 0, 10}, "lost & <found>"}, {{0, 1, 2}, "other"}});
     const std::string html = page.html();
@@ -65,7 +65,7 @@ TEST_CASE("a legend of a page has a swatch a colour, with its words") {
     CHECK(times_in(html, "style=\"background:#000102\"></span>other</span>") == 1);
 }
 
-TEST_CASE("a scale of a page has its colours in a row, and each number at its share of the way") {
+TEST_CASE("a scale of a page has its colours in a row and each number at its proportional position") {
     PlainPage page{"t", "s"};
     const std::array<std::array<std::uint8_t, 3>, 2> colors{{{255, 0, 10}, {0, 1, 2}}};
     page.scale(colors, {{0, "1 <code>"}, {0.25, "4"}, {1, "255"}});
@@ -76,7 +76,7 @@ TEST_CASE("a scale of a page has its colours in a row, and each number at its sh
     CHECK(times_in(html, "left:100.0%;transform:translateX(-100.0%)\">255</span>") == 1);
 }
 
-TEST_CASE("a picture of a page is a PNG that another reader reads back") {
+TEST_CASE("a picture of a page is a PNG that another reader reads") {
     const Folder folder;
     const auto image = checkered(7, 5);
     std::ofstream(folder / "a.png", std::ios::binary) << strata::scenes::png_bytes(image);
@@ -87,7 +87,7 @@ TEST_CASE("a picture of a page is a PNG that another reader reads back") {
     CHECK(base64("foobar") == "Zm9vYmFy");  // RFC 4648, 10
 }
 
-TEST_CASE("pictures that would make a page larger than 8 MiB are left out, and it says how many") {
+TEST_CASE("pictures that would make a page larger than 8 MiB are omitted and their number is given") {
     PlainPage page{"t", "s"};
     for (int i = 0; i < 5; ++i) page.picture(checkered(800, 600), "noise");
     const std::string html = page.html();
@@ -98,14 +98,14 @@ TEST_CASE("pictures that would make a page larger than 8 MiB are left out, and i
     CHECK_THROWS_AS(page.html(), strata::InputError);
 }
 
-TEST_CASE("a CSV comes back as its fields") {
+TEST_CASE("a CSV file is read as its fields") {
     using Rows = std::vector<std::vector<std::string>>;
     CHECK(csv_rows("a,b\n1,\n") == Rows{{"a", "b"}, {"1", ""}});
     CHECK(csv_rows("a\n\"x,\"\"y\"\"\nz\"\n") == Rows{{"a"}, {"x,\"y\"\nz"}});
     CHECK(csv_rows("").empty());
 }
 
-TEST_CASE("every command with --report leaves one page that stands alone") {
+TEST_CASE("every command with --report writes one page that refers to no other file") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render planes:count=2 --size 16x12 -q --algorithm dual,unsorted -o t.png").status ==
             0);
@@ -126,7 +126,7 @@ TEST_CASE("every command with --report leaves one page that stands alone") {
         CHECK(page.starts_with("<!doctype html>"));
         CHECK(page.ends_with("</html>\n"));
         CHECK(stands_alone(page));
-        // What was found is said first, numbers are tables, and no picture has the name of a file for its text.
+        // The result is the first sentence, numbers are in tables, and no picture's text is a file name.
         const std::size_t sentence = page.find("<p class=\"lead\">");
         if (line.find("render") == std::string::npos) {
             CHECK(sentence != std::string::npos);

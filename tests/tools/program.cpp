@@ -24,8 +24,8 @@ void redirect(int descriptor, const std::string& path) {
     close(file);
 }
 
-// SIGINT waits while this is there. Between fork and exec the test's own handler must not run: what it does is not safe
-// where the signal interrupts an allocation, and the child would wait for itself for ever.
+// Blocks SIGINT during its lifetime. Between fork and exec the test's own handler must not run: it is not
+// async-signal-safe, and the child would deadlock if the signal interrupts an allocation.
 class InterruptsWait {
   public:
     InterruptsWait() {
@@ -41,7 +41,7 @@ class InterruptsWait {
     sigset_t interrupts_;
 };
 
-// The child's side: never returns. SIGINT has the system's own handler again.
+// Runs in the child and never returns. Restores the default SIGINT handler.
 [[noreturn]] void become(const Folder& folder, const std::vector<std::string>& words, const Setting& setting,
                          const Folder& captured) {
     if (chdir(folder.path().c_str()) != 0) _exit(126);
@@ -113,7 +113,8 @@ Ended run_strata(const Folder& folder, const std::vector<std::string>& words, co
     return run(folder, all, setting);
 }
 
-// By a small process between: a fork of this one, which is linked with all libraries, would count their pages, too.
+// Started through a small process, because a fork of this one, which is linked with all libraries, would count their
+// pages, too.
 std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words) {
     std::vector<std::string> all{PEAK_OF, STRATA_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());

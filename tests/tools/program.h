@@ -1,4 +1,5 @@
-// tests/tools/program.h - runs the built `strata` as a person would: words in, exit status, output and files out.
+// tests/tools/program.h - runs the built `strata` as a user does: takes arguments, returns exit status, output and
+// files.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 namespace strata::test {
 
-// Every command, in the order in which the help tells them.
+// Every command, in the order of the help.
 [[nodiscard]] inline std::vector<std::string> commands() {
     return {
         "render", "report",   "explain",        "passes", "layers",     "scene",      "info",        "compare",
@@ -18,7 +19,7 @@ namespace strata::test {
     };
 }
 
-// A folder of its own that goes when the test does.
+// A folder with a unique name, deleted when the test ends.
 class Folder {
   public:
     Folder();
@@ -28,7 +29,7 @@ class Folder {
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    [[nodiscard]] std::vector<std::string> files() const;  // names, sorted; hidden ones too
+    [[nodiscard]] std::vector<std::string> files() const;  // file names, sorted, including hidden files
 
   private:
     std::filesystem::path path_;
@@ -41,15 +42,15 @@ struct Ended {
 
 struct Setting {
     std::vector<std::pair<std::string, std::string>> environment{};
-    std::string out{};                        // where standard output goes; empty: into Ended
+    std::string out{};                        // file for standard output; empty: stored in Ended
     std::optional<int> interrupt_after_ms{};  // SIGINT
-    std::optional<int> max_file_bytes{};      // a write beyond it fails, as on a full disk
+    std::optional<int> max_file_bytes{};      // writes beyond this size fail, as on a full disk
 };
 
-// Runs in `folder`. The first overload runs strata, the second one a line of shell that finds strata in its PATH.
+// Both run in `folder`. The first overload runs strata, the second a shell line with strata in its PATH.
 [[nodiscard]] Ended run_strata(const Folder& folder, const std::vector<std::string>& words,
                                const Setting& setting = {});
-// The peak of strata's resident set, bytes; 0 if it does not end with status 0.
+// The peak of strata's resident set in bytes; 0 if its exit status is not 0.
 [[nodiscard]] std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words);
 [[nodiscard]] Ended shell(const Folder& folder, const std::string& line, const Setting& setting = {});
 

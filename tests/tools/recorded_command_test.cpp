@@ -1,5 +1,5 @@
-// Model: a picture whose command the test wrote by hand, with all that it names at hand, so that following it would
-// succeed; the folder's listing and bytes are those of before.
+// Tests that a command stored in a picture can do no harm. The test writes a picture whose command would succeed if it
+// were executed, and checks that the folder's files are unchanged.
 #include "tools/strata/recorded_command.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using strata::tools::shell_words;
 
 namespace {
 
-// A picture of one black pixel that says it was made by this command.
+// Writes a picture of one black pixel with this command stored in it.
 void write_picture(const std::string& path, const std::string& command) {
     strata::pipeline::Image pixel{strata::pipeline::Format::rgba8, 1, 1};
     pixel.codes[3] = 255;
@@ -34,7 +34,7 @@ const std::string scene = "planes:count=2 --size 8x8";
 
 }  // namespace
 
-TEST_CASE("words of a shell come back as they were, and a line that ends in quotes has none") {
+TEST_CASE("words are unchanged after quoting and splitting for a shell and a line with an open quote is rejected") {
     const std::vector<std::string> words{"a",    "",           "a b",        "it's", "$(touch pwned)",
                                          "`id`", "\"quoted\"", "--size=8x8", "\\n",  "a\nb\tc",
                                          "*?~",  "é",          "''",         ";"};
@@ -44,13 +44,13 @@ TEST_CASE("words of a shell come back as they were, and a line that ends in quot
     const Folder folder;
     std::string joined;
     for (const std::string& word : words) joined += word + "\n";
-    CHECK(shell(folder, "printf '%s\\n' " + line).out == joined);  // the shell reads the same
+    CHECK(shell(folder, "printf '%s\\n' " + line).out == joined);  // the shell splits it the same way
     CHECK(shell_words("a  b ") == std::vector<std::string>{"a", "b"});
     CHECK_FALSE(shell_words("a 'b").has_value());
     CHECK(shell_word("planes:count=3,gap=1e-7") == "planes:count=3,gap=1e-7");
 }
 
-TEST_CASE("a picture's command writes nothing, and its options are those that choose what is drawn") {
+TEST_CASE("a picture's command writes nothing and only its options that choose what is drawn are used") {
     const Folder folder;
     for (const std::string name : {"victim.json", "victim.png", "victim.exr", "victim.html"})
         std::ofstream(folder / name) << "old";
@@ -90,7 +90,7 @@ TEST_CASE("a picture's command writes nothing, and its options are those that ch
         }
 }
 
-TEST_CASE("a picture's command names files in its own folder, or in the one of --files-in") {
+TEST_CASE("a picture's command names files in its own folder or in that of --files-in") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "mkdir own sub && strata profiles --json geforce8 > chip.json && "
@@ -138,7 +138,7 @@ TEST_CASE("a picture's command names files in its own folder, or in the one of -
           "strata: --files-in: expected --from beside it, found none\n");
 }
 
-TEST_CASE("a picture draws itself again whatever its scene is called, and from a pack with the pack's own state") {
+TEST_CASE("a picture is redrawn whatever the name of its scene and from a pack with the pack's own state") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "cat > \"it's \\$(touch pwned) --stats x.json\" <<'END'\n"
@@ -150,7 +150,7 @@ TEST_CASE("a picture draws itself again whatever its scene is called, and from a
     INFO(again.err);
     CHECK(again.status == 0);
     CHECK(content_of(folder / "a.png") == content_of(folder / "b.png"));
-    // The line that info shows is one for a shell.
+    // The line that info prints can be executed by a shell.
     CHECK(shell(folder, "sh -c \"$(strata info a.png | head -1) -o c.png\"").status == 0);
     CHECK(content_of(folder / "a.png") == content_of(folder / "c.png"));
     CHECK_FALSE(std::filesystem::exists(folder / "pwned"));

@@ -1,5 +1,5 @@
-// Model: what the shell that the test wrote leaves behind. A named pipe tells when a command runs, and that every
-// process with the pipe open has ended: nothing waits for a time.
+// Tests `strata reduce` by the files that the test's own shell commands leave. A named pipe reports when a command
+// runs, and when every process that has it open has ended, so no test waits for a time.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"
@@ -18,7 +18,7 @@ const std::string wrong = "strata render {pack} --algorithm front_to_back --mist
 
 }  // namespace
 
-TEST_CASE("reduce hands a pack of any name to the command, in any quotes") {
+TEST_CASE("reduce passes a pack of any name to the command in any quotes") {
     const Folder folder;
     make_pack(folder);
     int number = 0;
@@ -38,7 +38,7 @@ TEST_CASE("reduce hands a pack of any name to the command, in any quotes") {
             CHECK_FALSE(std::filesystem::exists(folder / "pwned"));
         }
     }
-    // The ending is a part of the picture's name, and TMPDIR of both names.
+    // The ending is part of the picture's name, and TMPDIR part of both names.
     CHECK(run_strata(folder, {"reduce", "pack", wrong, "--picture", ".exr;touch pwned", "-o", "none"}).status == 2);
     CHECK(run_strata(folder, {"reduce", "pack", wrong, "--picture", "/../x.exr", "-o", "none"}).status == 2);
     std::filesystem::create_directory(folder / "$(touch pwned)/tmp");
@@ -51,7 +51,7 @@ TEST_CASE("reduce hands a pack of any name to the command, in any quotes") {
     CHECK_FALSE(std::filesystem::exists(folder / "pwned"));
 }
 
-TEST_CASE("every command of a list that reduce runs is silent and reads nothing") {
+TEST_CASE("every command of a list that reduce runs is silent and has empty input") {
     const Folder folder;
     make_pack(folder);
     const Ended ended = shell(folder, "echo loud | strata reduce pack 'echo loud; echo loud >&2; cat; " + wrong +
@@ -60,10 +60,10 @@ TEST_CASE("every command of a list that reduce runs is silent and reads nothing"
     CHECK((ended.out + ended.err).find("loud") == std::string::npos);
 }
 
-TEST_CASE("a signal ends reduce, the command with all that it started, and the temporary folder") {
+TEST_CASE("a signal ends reduce and the command with its child processes and deletes the temporary folder") {
     const Folder folder;
     make_pack(folder);
-    // A grandchild holds the pipe, too, and would say "late" if it lived.
+    // A grandchild also holds the pipe open, and would write "late" if it survived.
     const Ended ended =
         shell(folder,
               "mkdir tmp; mkfifo pipe; for signal in INT TERM HUP; do\n"
@@ -77,7 +77,7 @@ TEST_CASE("a signal ends reduce, the command with all that it started, and the t
     CHECK_FALSE(std::filesystem::exists(folder / "small"));
 }
 
-TEST_CASE("a command that hangs is killed after --timeout, and one that leaves a process behind leaves none") {
+TEST_CASE("a command that hangs is killed after --timeout together with processes that it leaves behind") {
     const Folder folder;
     make_pack(folder);
     const Ended late = shell(

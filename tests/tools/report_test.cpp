@@ -1,4 +1,4 @@
-// Model: what other commands say of the same scene, and explain's histories, pixel by pixel.
+// Tests `strata report` against other commands on the same scene, and pixel by pixel against the histories of explain.
 #include <zlib.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace strata::test;
 
 namespace {
 
-// A page taken apart again.
+// The parsed page.
 struct UnpackedReport {
     nlohmann::json document;
     std::vector<std::string> blobs;
@@ -58,7 +58,7 @@ std::vector<std::uint8_t> from_base64(const std::string& text) {
     return bytes;
 }
 
-// Words of `size` bytes out of their planes.
+// Values of `size` bytes each, reassembled from their byte planes.
 std::vector<std::uint32_t> words_of(const UnpackedReport& report, const nlohmann::json& blob, std::size_t size) {
     const std::vector<std::uint8_t> packed = from_base64(report.blobs.at(blob.get<std::size_t>()));
     std::vector<std::uint8_t> bytes(std::size_t{64} << 20);
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> words_of(const UnpackedReport& report, const nlohmann
     return words;
 }
 
-// The same scene, by hand.
+// The same scene, loaded by the test.
 struct ReportScene {
     scenes::Scene scene;
     pipeline::View view;
@@ -89,7 +89,7 @@ ReportScene report_scene(const std::string& name, const std::string& profile) {
 
 }  // namespace
 
-TEST_CASE("the pictures of a report have the codes and digests of render's, in every format") {
+TEST_CASE("the pictures of a report have the codes and digests of render in every format") {
     const std::string format = GENERATE("rgba8", "rgba16f", "rgba32f");
     const Folder folder;
     const std::string options = "teapot --size 30x20 --algorithm dual,weighted_average --color-format " + format;
@@ -108,7 +108,7 @@ TEST_CASE("the pictures of a report have the codes and digests of render's, in e
     }
 }
 
-TEST_CASE("the fragments of a report are all there are, near to far in each pixel") {
+TEST_CASE("the fragments of a report are complete and in order from near to far in each pixel") {
     const Folder folder;
     const UnpackedReport report = report_of(folder, "random:triangles=60 --size 24x20 --algorithm a_buffer");
     const nlohmann::json& f = report.document["fragments"];
@@ -132,7 +132,7 @@ TEST_CASE("the fragments of a report are all there are, near to far in each pixe
     CHECK(z.size() == stats["counters"]["fragments_rasterized"].get<std::size_t>());
 }
 
-TEST_CASE("a region's report has the frame's codes, fragments, takings and killers at its own pixels") {
+TEST_CASE("a region's report has the same values as that of the whole frame at its pixels") {
     const Folder folder;
     const std::string options = "random:triangles=60 --size 24x20 --algorithm dual";
     const UnpackedReport whole = report_of(folder, options), part = report_of(folder, options + " --region 6,4,10,9");
@@ -175,7 +175,7 @@ TEST_CASE("a region's report has the frame's codes, fragments, takings and kille
     CHECK(run_strata(folder, {"report", "teapot", "--region", "8,8,0,8", "-o", "x"}).status == 2);
 }
 
-TEST_CASE("passes and ends at which fragments are taken are those of every pixel's history") {
+TEST_CASE("the passes and ends at which fragments are peeled are those of every pixel's history") {
     const auto [scene, profile, name] =
         GENERATE(table<std::string, std::string, std::string>({{"teapot", "geforce8", "dual"},
                                                                {"random:triangles=40", "ideal", "front_to_back"},
@@ -193,7 +193,7 @@ TEST_CASE("passes and ends at which fragments are taken are those of every pixel
         tools::columns_of(renderer.fragments(*peeling::find_algorithm("a_buffer")).all, 14 * 12);
     const tools::Survey survey = tools::survey(input, algorithm, columns);
     CHECK(survey.has_taken);
-    using Taken = std::set<std::tuple<std::uint32_t, int, bool>>;  // primitive, pass, at the far end
+    using Taken = std::set<std::tuple<std::uint32_t, int, bool>>;  // primitive, pass, true at the far end
     std::size_t taken_in_all = 0;
     for (const oracle::History& history : oracle::explain(input, algorithm, {0, 0, 14, 12})) {
         Taken told, found;
@@ -203,7 +203,7 @@ TEST_CASE("passes and ends at which fragments are taken are those of every pixel
                     told.insert({history.fragments[static_cast<std::size_t>(f)].primitive, line.pass,
                                  line.side == pipeline::Side::back});
         const auto pixel = static_cast<std::size_t>(history.y * 14 + history.x);
-        // A fragment that is taken twice, by a peel that fails, is told by its last time.
+        // A fragment that a failing peel composites twice is listed with its last pass.
         std::map<std::uint32_t, std::pair<int, bool>> last;
         for (const auto& [primitive, pass, is_far] : told) last[primitive] = {pass, is_far};
         told.clear();
@@ -217,7 +217,7 @@ TEST_CASE("passes and ends at which fragments are taken are those of every pixel
     CHECK(taken_in_all > 20);
 }
 
-TEST_CASE("the test that a report says killed most is the one that kills most in the pixel's history") {
+TEST_CASE("the test that a report lists as rejecting most fragments is the one that does in the pixel's history") {
     const auto [profile, name] = GENERATE(table<std::string, std::string>({{"geforce3", "depth_units"},
                                                                            {"ideal", "front_to_back"},
                                                                            {"ideal", "coherent_stencil"},
@@ -269,12 +269,12 @@ TEST_CASE("a report stays within 8 MiB, loads nothing, is the same every time, a
     if (!leaves_out) CHECK(report_of(folder, options).page == report.page);
 }
 
-TEST_CASE("no name in a scene can end the data of a page") {
+TEST_CASE("no name in a scene can terminate the data of a page") {
     CHECK(tools::script_safe({{"name", "a</script><script>alert(1)"}}).find('<') == std::string::npos);
     CHECK(nlohmann::json::parse(tools::script_safe({{"name", "</script>\xff"}}))["name"] == "</script>\xef\xbf\xbd");
 }
 
-TEST_CASE("report asks for a folder, and writes nothing where every algorithm is refused but says so") {
+TEST_CASE("report requires a folder and writes nothing and says so where every algorithm is rejected") {
     const Folder folder;
     CHECK(run_strata(folder, {"report", "teapot"}).err ==
           "strata: -o is missing: the page, FILE.html, or a folder for it\n");
@@ -289,9 +289,7 @@ TEST_CASE("report asks for a folder, and writes nothing where every algorithm is
     CHECK_FALSE(std::filesystem::exists(folder / "none"));
 }
 
-TEST_CASE(
-    "report -o FILE.html writes the page, in a folder that is made, and another name is a folder that gets "
-    "report.html") {
+TEST_CASE("report -o FILE.html writes the page in a new folder and any other name is a folder for report.html") {
     const Folder folder;
     const std::string report = "strata report planes:count=2 --size 16x12 --algorithm dual ";
     const Ended file = shell(folder, report + "-o new/page.html"), in_folder = shell(folder, report + "--output out");

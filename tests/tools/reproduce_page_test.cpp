@@ -1,4 +1,5 @@
-// Model: pages and charts of a few words, their text typed out; points by the logarithm's own law.
+// Tests the pages and charts of `strata reproduce` on short pages whose expected text is written by hand. The expected
+// points of charts are computed from logarithms.
 #include "tools/lab/reproduce/reproduce_page.h"
 
 #include <catch2/catch.hpp>
@@ -33,7 +34,7 @@ std::string chart_with(const Folder& folder, const Chart& chart) {
     return content_of(folder / "c.svg");
 }
 
-// Opaque grey pixels of these codes, in a row.
+// Opaque grey pixels with these codes, in a row.
 Image greys(const std::vector<std::uint32_t>& codes) {
     Image image{Format::rgba8, static_cast<int>(codes.size()), 1};
     for (std::size_t p = 0; p < codes.size(); ++p)
@@ -55,7 +56,7 @@ std::vector<std::pair<double, double>> points_of(const std::string& svg) {
 
 }  // namespace
 
-TEST_CASE("a page holds its sections in order, their tables and pictures, and every character of a text as text") {
+TEST_CASE("a page has its sections in order with their tables and pictures and every character of a text is escaped") {
     const Folder folder;
     const Section first{
         "A < B & C", "text", {"numbers", {"x", "y > 0"}, {{"1", "a<b"}, {"2", "&"}}}, {{"p.png", "caption & more"}}},
@@ -78,8 +79,7 @@ TEST_CASE("a page holds its sections in order, their tables and pictures, and ev
     CHECK(folder.files() == std::vector<std::string>{"index.html", "numbers.csv"});
 }
 
-TEST_CASE(
-    "a picture's file holds straight colours: those of a finished frame are divided by alpha, a layer's are not") {
+TEST_CASE("a picture file has straight colours for which only those of a finished frame are divided by alpha") {
     const Folder folder;
     Image image{Format::rgba8, 1, 1};
     image.codes = {60, 30, 0, 128};
@@ -94,14 +94,14 @@ TEST_CASE(
     CHECK(codes("layer.png") == std::vector<std::uint32_t>{60, 30, 0, 128});
 }
 
-TEST_CASE("a table's file quotes fields with commas, quotes or ends of lines, and no others") {
+TEST_CASE("a table's file quotes fields with commas or quotes or line ends and no others") {
     const Folder folder;
     const Sheet sheet{"t", {"plain", "with, comma"}, {{"say \"x\"", "two\nlines"}, {"", "a;b 'c'"}}};
     static_cast<void>(page_with(folder, {"", "", "", {{"", "", sheet, {}}}}));
     CHECK(content_of(folder / "t.csv") == "plain,\"with, comma\"\n\"say \"\"x\"\"\",\"two\nlines\"\n,a;b 'c'\n");
 }
 
-TEST_CASE("pictures differ by their largest channel at each pixel, and alpha does not count") {
+TEST_CASE("pictures are compared by their largest channel difference at each pixel without alpha") {
     const Image a = greys({10, 20, 30, 40});
     Image b = a;
     const auto is = [&](double largest, double mean, std::uint64_t pixels) {
@@ -125,8 +125,9 @@ TEST_CASE("an axis of a chart runs from the power below its least value to the o
     };
     using Points = std::vector<std::pair<double, double>>;
     CHECK(at_ends(2, 8, 1, 100) == Points{{60, 230}, {300, 20}});
-    CHECK(at_ends(4, 4, 10, 10) == Points{{60, 230}, {60, 230}});  // one power more, so that there is an axis
-    const Points inner = at_ends(3, 6, 20, 500);                   // 2 to 8, 10 to 1000
+    // One more power, because the axis must have a length.
+    CHECK(at_ends(4, 4, 10, 10) == Points{{60, 230}, {60, 230}});
+    const Points inner = at_ends(3, 6, 20, 500);  // 2 to 8, 10 to 1000
     CHECK(inner[0].first == Approx(60 + 240 * std::log2(3 / 2.0) / 2).margin(0.051));
     CHECK(inner[1].first == Approx(60 + 240 * std::log2(6 / 2.0) / 2).margin(0.051));
     CHECK(inner[0].second == Approx(230 - 210 * std::log10(20 / 10.0) / 2).margin(0.051));
@@ -134,7 +135,7 @@ TEST_CASE("an axis of a chart runs from the power below its least value to the o
     CHECK(at_ends(1, 2, 0.001, 0.01) == Points{{60, 230}, {300, 20}});
 }
 
-TEST_CASE("every power on an axis has its line and its mark: numbers up to 9999, powers of ten beyond") {
+TEST_CASE("every power on an axis has its line and its label in digits up to 9999 and as a power of ten beyond") {
     const Folder folder;
     const std::string svg = chart_with(folder, {"slices", "ms", {{"c", {{1, 0.001}, {16, 1e5}}}}});
     for (const char* number : {"1", "2", "4", "8", "16", "0.01", "0.1", "10", "100", "1000"}) {
@@ -148,7 +149,7 @@ TEST_CASE("every power on an axis has its line and its mark: numbers up to 9999,
     CHECK(count_of(svg, ">ms</text>") == 1);
 }
 
-TEST_CASE("each curve of a chart has its colour, its row in the legend and a path through its points in order") {
+TEST_CASE("each curve of a chart has its colour and its row in the legend and a path through its points in order") {
     const Folder folder;
     Chart chart{"x", "y", {}};
     for (int i = 0; i < 7; ++i) chart.curves.push_back({"curve " + std::to_string(i), {{1, 1.0 + i}, {2, 10}}});
@@ -156,7 +157,7 @@ TEST_CASE("each curve of a chart has its colour, its row in the legend and a pat
     const char* const colors[] = {"#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"};
     for (std::size_t i = 0; i < 6; ++i)
         CHECK(count_of(svg, std::string("stroke=\"") + colors[i] + "\"") ==
-              (i == 0 ? 4u : 2u));  // the seventh begins again
+              (i == 0 ? 4u : 2u));  // the colours repeat from the seventh curve
     for (int i = 0; i < 7; ++i) {
         const std::string row = std::to_string(34 + 18 * i) + ".0";
         CHECK(count_of(svg, "<text x=\"328.0\" y=\"" + row + "\" text-anchor=\"start\">curve " + std::to_string(i)) ==

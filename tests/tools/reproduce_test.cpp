@@ -1,5 +1,5 @@
-// What `strata reproduce` leaves: a page whose pictures and tables are there, tables that say what the papers'
-// algorithms must, and charts whose points lie where logarithms put them.
+// Tests `strata reproduce`: its page has its pictures and tables, the tables have the numbers that the papers'
+// algorithms must give, and the points of charts are at the positions of their logarithms.
 #include <catch2/catch.hpp>
 #include <regex>
 
@@ -29,17 +29,17 @@ std::string reproduced(const Folder& folder, const std::string& paper) {
 }  // namespace
 
 TEST_CASE(
-    "a reproduced paper's page shows only files that are there, and the last composite of Figure 5 is the whole") {
+    "a reproduced paper's page shows only existing files and the last composite of Figure 5 is the complete one") {
     const Folder folder;
     const auto files = linked(reproduced(folder, "everitt2001"));
     CHECK(files.size() >= 8);
     for (const std::string& file : files) CHECK(std::filesystem::file_size(folder / ("page/" + file)) > 0);
     const auto rows = lines_of(content_of(folder / "page/figure5.csv"));
-    CHECK_THAT(rows.at(1), Catch::StartsWith("1,") && !Catch::EndsWith(",0"));  // one layer is truncated
+    CHECK_THAT(rows.at(1), Catch::StartsWith("1,") && !Catch::EndsWith(",0"));  // one layer is not the complete picture
     CHECK_THAT(rows.back(), Catch::EndsWith(",0,0.000,0,0"));
 }
 
-TEST_CASE("dual peels in the passes that the reproduced page says, and its figure is the exact one") {
+TEST_CASE("dual peels in the number of passes on the reproduced page and its figure is the exact picture") {
     const Folder folder;
     for (const std::string& file : linked(reproduced(folder, "bavoil2008")))
         CHECK(std::filesystem::file_size(folder / ("page/" + file)) > 0);
@@ -47,8 +47,8 @@ TEST_CASE("dual peels in the passes that the reproduced page says, and its figur
         if (row.find(",dual,") != std::string::npos) CHECK_THAT(row, Catch::EndsWith(",0,0.000"));
 }
 
-// 60 to 300 pixels are 16 to 256 by powers of two, 230 to 20 are 1 to 1000 by powers of ten.
-TEST_CASE("a chart's points lie where logarithms put them") {
+// 60 to 300 pixels are 16 to 256 in powers of two, 230 to 20 are 1 to 1000 in powers of ten.
+TEST_CASE("the points of a chart are at the positions of their logarithms") {
     const Folder folder;
     const auto picture = strata::tools::write_chart(folder.path().string(), "chart.svg", "counts",
                                                     {"slices", "passes", {{"peel", {{16, 1}, {64, 10}, {256, 1000}}}}});

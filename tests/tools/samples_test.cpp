@@ -1,12 +1,12 @@
-// Model: the sentences that people read, the command that a picture records, and the picture that its command draws
-// again.
+// Tests the options for samples: the expected error messages are written by hand, and the command that a picture
+// records must draw it again.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"
 
 using namespace strata::test;
 
-TEST_CASE("numbers of samples are refused by name, and --sample where all of them mean nothing") {
+TEST_CASE("numbers of samples are rejected by name and --sample where it would have no meaning") {
     struct Wrong {
         std::vector<std::string> words;
         std::string sentence;
@@ -40,7 +40,7 @@ TEST_CASE("numbers of samples are refused by name, and --sample where all of the
     CHECK(ended.err.find(wrong.sentence) != std::string::npos);
 }
 
-TEST_CASE("a picture records its samples, and its command draws it again") {
+TEST_CASE("a picture records its samples and its command draws it again") {
     const Folder folder;
     for (const std::string samples : {"--samples 4", "--samples 4 --sample 2", "--samples 2 --resolve quincunx"}) {
         const std::string device = samples.ends_with("x") ? " --profile geforce3 --algorithm depth_units " : " ";

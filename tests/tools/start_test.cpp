@@ -1,4 +1,5 @@
-// Model: what the dynamic loader lists, and the peak that the system counts, of runs that read no PNG or JPEG.
+// Tests runs that read no PNG or JPEG: the libraries that the dynamic loader lists, and the peak memory that the system
+// counts.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"

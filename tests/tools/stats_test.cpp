@@ -1,4 +1,4 @@
-// Model: reports.md 1: the keys and types of a row, typed here a second time.
+// Tests the statistics against reports.md 1, whose keys and types are listed here independently.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -77,7 +77,7 @@ ordered_json rows_of(const Folder& folder, std::vector<std::string> words) {
 
 }  // namespace
 
-TEST_CASE("every row of the statistics has every key with its type, and a refused one has zeros and its reason") {
+TEST_CASE("every row of the statistics has every key with its type and a rejected one has zeros and its reason") {
     const auto profile = GENERATE(as<std::string>{}, "geforce3", "geforce8", "geforce8_dx101", "ideal");
     const Folder folder;
     const auto rows = rows_of(
@@ -100,9 +100,7 @@ TEST_CASE("every row of the statistics has every key with its type, and a refuse
     }
 }
 
-TEST_CASE(
-    "what --stats - prints is exactly one JSON document, in a pipe without escape codes, and nothing on standard "
-    "error") {
+TEST_CASE("the output of --stats - is exactly one JSON document without escape codes and standard error is empty") {
     const Folder folder;
     const Ended ended =
         run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual,weighted_sum", "--stats", "-"});
@@ -112,7 +110,7 @@ TEST_CASE(
     CHECK(ended.err.empty());
 }
 
-TEST_CASE("the file of --stats FILE holds the document that --stats - prints, save for the seconds") {
+TEST_CASE("the file of --stats FILE equals the document of --stats - except for the times") {
     const Folder folder;
     const std::vector<std::string> words{"render", "teapot", "--size", "16x16", "--algorithm", "dual"};
     auto printed = rows_of(folder, words);
@@ -124,7 +122,7 @@ TEST_CASE("the file of --stats FILE holds the document that --stats - prints, sa
     CHECK(printed == stored);
 }
 
-TEST_CASE("counters are null unless they are asked for, and then those of literal execution, which changes no bit") {
+TEST_CASE("counters are null unless requested and then those of literal execution and they change no bit") {
     const Folder folder;
     const std::vector<std::string> words{"render", "teapot", "--size", "16x16", "--algorithm", "dual"};
     const auto with = [&](const std::vector<std::string>& more) {
@@ -140,7 +138,7 @@ TEST_CASE("counters are null unless they are asked for, and then those of litera
     CHECK(counted["digest"] == plain["digest"]);
 }
 
-TEST_CASE("without the audit its statistics are null and the others stay") {
+TEST_CASE("without the audit its statistics are null and the others unchanged") {
     const Folder folder;
     const std::vector<std::string> words{"render", "teapot", "--size", "16x16", "--algorithm", "dual"};
     auto audited = rows_of(folder, words)[0];
@@ -171,7 +169,7 @@ TEST_CASE("a list prints one JSON document with --json") {
     CHECK(ordered_json::accept(ended.out));
 }
 
-TEST_CASE("the JSON that strata profiles prints is a profile that --profile takes, with the same bits") {
+TEST_CASE("the JSON that strata profiles prints is a valid profile for --profile and gives the same bits") {
     const auto name = GENERATE(as<std::string>{}, "geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
                                "softpipe", "swiftshader");
     const Folder folder;

@@ -1,5 +1,5 @@
-// Model: the packs that `golden` makes of the listed commands, and what `diagnose` says of a mistake drawn by `render
-// --mistake`.
+// Compares the suite with packs that `golden` writes from the commands that suite.json lists, and its table of mistakes
+// with the diagnosis of images from `render --mistake`.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ bool names(const json& list, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a suite holds the packs of its commands, says which mistake shows where, and checks") {
+TEST_CASE("golden --suite writes the packs of the listed commands and the mistakes that each scene detects") {
     const Folder folder;
     const std::string scene = "planes.front_to_back";
     REQUIRE(run_strata(folder, {"golden", scene, "--suite", "-q", "-o", "set"}).status == 0);
@@ -64,7 +64,7 @@ TEST_CASE("a suite holds the packs of its commands, says which mistake shows whe
     CHECK_THAT(spoiled.out, Contains("suite.json: line 7: is not what the scenes give now\n"));
 }
 
-TEST_CASE("a suite takes no options of other packs, and lists scenes that there are") {
+TEST_CASE("golden --suite rejects options of single packs and unknown scene names") {
     const Folder folder;
     const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
         const Ended ended = run_strata(folder, words);

@@ -1,4 +1,5 @@
-// Model: files written here byte by byte, and shares of cells by division.
+// Tests the journal of a sweep on files that the test writes byte by byte. The expected shares of cells are computed by
+// division.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -31,7 +32,7 @@ std::string sentence_of(Action&& action) {
 
 }  // namespace
 
-TEST_CASE("shards share the cells of a sweep: each cell is one shard's, in order, and shares differ by one at most") {
+TEST_CASE("shards divide the cells of a sweep in order and their sizes differ by one at most") {
     std::string wrong;
     for (std::size_t all = 0; all <= 12; ++all)
         for (std::size_t count = 1; count <= 14; ++count) {
@@ -51,7 +52,7 @@ TEST_CASE("shards share the cells of a sweep: each cell is one shard's, in order
     CHECK(wrong == "");
 }
 
-TEST_CASE("a shard is written I/N with I from 1 to N, both whole numbers and nothing else") {
+TEST_CASE("a shard is written I/N with I from 1 to N in whole numbers and nothing else") {
     for (int count = 1; count <= 4; ++count)
         for (int index = -1; index <= 6; ++index) {
             const auto shard = to_shard(std::to_string(index) + "/" + std::to_string(count));
@@ -62,13 +63,13 @@ TEST_CASE("a shard is written I/N with I from 1 to N, both whole numbers and not
         CHECK_FALSE(to_shard(text).has_value());
 }
 
-TEST_CASE("the file of the only shard has the plain name, the others tell which they are") {
+TEST_CASE("the file of a single shard has the plain name and the others have the shard in their names") {
     CHECK(shard_file("out", "results", {}) == "out/results.jsonl");
     CHECK(shard_file("out", "timings", {2, 5}) == "out/timings.2of5.jsonl");
     CHECK(shard_file("", "results", {1, 12}) == "results.1of12.jsonl");
 }
 
-TEST_CASE("a journal is read line by line, and a last line without its end is torn") {
+TEST_CASE("a journal is read line by line and a last line without its end is truncated") {
     const Folder folder;
     CHECK(read_journal(folder / "missing.jsonl").lines.empty());
     CHECK_FALSE(read_journal(folder / "missing.jsonl").torn);
@@ -85,13 +86,13 @@ TEST_CASE("a journal is read line by line, and a last line without its end is to
     }
 }
 
-TEST_CASE("a line ends with the digest of its text, typed out") {
-    // XXH3-128 of "line", a zero byte, and the codes of {"cell":0 as u32, little endian.
+TEST_CASE("a line ends with the digest of its text") {
+    // XXH3-128 of "line", a zero byte, and the character codes of {"cell":0 as little-endian u32.
     CHECK(line_text({{"cell", 0}}) == "{\"cell\":0,\"line_digest\":\"c79cdea5087fa8d85b7cd0c81e74f515\"}\n");
     CHECK(line_text({{"name", "b\xff"}}).starts_with("{\"name\":\"b\xef\xbf\xbd\",\"line_digest\""));
 }
 
-TEST_CASE("a line with any byte changed, taken away or put in counts for nothing, and its neighbours stay") {
+TEST_CASE("a line with any byte changed or removed or inserted is ignored and its neighbours are kept") {
     const Folder folder;
     const std::string before = line_text({{"cell", 0}}), line = line_text({{"cell", 1}, {"rmse", 0.25}}),
                       after = line_text({{"cell", 2}});
@@ -115,7 +116,7 @@ TEST_CASE("a line with any byte changed, taken away or put in counts for nothing
     CHECK(wrong == "");
 }
 
-TEST_CASE("lines go to the places of their cells, and repeated ones and those of other keys count for nothing") {
+TEST_CASE("lines are assigned to their cells and repeated ones and those with other keys are ignored") {
     const Expected expected{.cells = {1, 4, 7},
                             .described = {{{"cell", 1}, {"scene", "a"}}, {{"cell", 4}, {"scene", "b"}}, {{"cell", 7}}},
                             .keys = {"cell", "found"}};
@@ -133,7 +134,7 @@ TEST_CASE("lines go to the places of their cells, and repeated ones and those of
     CHECK(found.changed == std::vector<std::size_t>{3, 4, 5, 6});
 }
 
-TEST_CASE("a line of another plan is refused with its number and the key that differs") {
+TEST_CASE("a line of another plan is rejected with its number and the key that differs") {
     const Expected expected{
         .cells = {0, 1}, .described = {{{"cell", 0}, {"scene", "a"}}, {{"cell", 1}, {"scene", "b"}}}, .keys = {"cell"}};
     const auto said = [&](const ordered_json& line) {
@@ -149,12 +150,12 @@ TEST_CASE("a line of another plan is refused with its number and the key that di
           "f: line 9: scene: expected \"b\", as the plan has it (another plan needs another folder), found nothing");
     CHECK(said({{"cell", 2}, {"scene", "a"}}) ==
           "f: line 9: cell: expected a cell of the plan (another plan needs another folder), found 2");
-    CHECK(said({{"cell", 0.0}, {"scene", "a"}}).starts_with("f: line 9: cell: "));  // its text is another
+    CHECK(said({{"cell", 0.0}, {"scene", "a"}}).starts_with("f: line 9: cell: "));  // written as another JSON number
     CHECK(said({{"cell", -1}}).starts_with("f: line 9: cell: "));
     CHECK(said({{"scene", "a"}}).ends_with("found null"));
 }
 
-TEST_CASE("a journal cuts off what was torn, appends whole lines, and each is in the file at once") {
+TEST_CASE("a journal removes a truncated line and appends whole lines that are in the file at once") {
     const Folder folder;
     const std::string first = line_text({{"cell", 0}});
     const std::string path = with_bytes(folder, first + "{\"cel");
@@ -164,7 +165,7 @@ TEST_CASE("a journal cuts off what was torn, appends whole lines, and each is in
         CHECK(strata::test::content_of(path) == first);
         journal.append({{"cell", 1}, {"a", nullptr}});
         CHECK(strata::test::content_of(path) == first + line_text({{"cell", 1}, {"a", nullptr}}));
-        journal.append({{"z", 1}, {"a", 2}});  // keys as they come
+        journal.append({{"z", 1}, {"a", 2}});  // keys in the given order
     }
     CHECK(read_journal(path).lines == Lines{{{"cell", 0}}, {{"cell", 1}, {"a", nullptr}}, {{"z", 1}, {"a", 2}}});
     CHECK_FALSE(read_journal(path).torn);

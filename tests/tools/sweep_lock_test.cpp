@@ -1,4 +1,4 @@
-// Model: a lock that this process holds, and a folder's listing.
+// Tests the lock of a sweep with a lock that this process holds, and by listing the folder.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ std::vector<std::string> two_cells(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("a second run on a folder says who writes to it, and changes nothing") {
+TEST_CASE("a second run on a folder reports who writes to it and changes nothing") {
     const Folder folder;
     std::filesystem::create_directory(folder / "out");
     {
@@ -40,7 +40,7 @@ TEST_CASE("a second run on a folder says who writes to it, and changes nothing")
         auto merge = two_cells("out");
         merge.insert(merge.end(), {"--merge", "2"});
         CHECK(run_strata(folder, merge).err.find("no other run writes to") != std::string::npos);
-        // Another shard has files of its own.
+        // Another shard has its own files.
         auto shard = two_cells("out");
         shard.insert(shard.end(), {"--shard", "1/2"});
         CHECK(run_strata(folder, shard).status == 0);
@@ -50,7 +50,7 @@ TEST_CASE("a second run on a folder says who writes to it, and changes nothing")
     CHECK_FALSE(std::filesystem::exists(folder / "out/.results.jsonl.lock"));
 }
 
-TEST_CASE("a lock ends with its process, and its file is then free") {
+TEST_CASE("a lock is released when its process ends and its file is then available") {
     const Folder folder;
     const std::string journal = folder / "results.jsonl";
     const pid_t child = ::fork();
@@ -70,7 +70,7 @@ TEST_CASE("a lock ends with its process, and its file is then free") {
     CHECK_NOTHROW(Lock(journal));
 }
 
-TEST_CASE("temporaries that a killed run has left go with the next run of the same shard, and no other file does") {
+TEST_CASE("temporary files of a killed run are deleted by the next run of the same shard and no other files") {
     const Folder folder;
     std::filesystem::create_directory(folder / "images");
     const std::vector<std::string> ours{".results.2of3.jsonl.7-0.tmp", ".timings.2of3.jsonl.7-1.tmp",

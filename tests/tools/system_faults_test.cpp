@@ -1,5 +1,5 @@
-// Model: a folder's listing, and the bytes of the same command without a fault. Calls of the system fail one after the
-// other by a library that stands before the C library.
+// Tests commands whose system calls fail one after the other, through a library that is loaded before the C library.
+// The expected files are those of the same command without a fault.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cerrno>
@@ -16,7 +16,7 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
-// All files under the folder by their names, with their bytes.
+// All files in the folder by name, with their content.
 Files files_under(const Folder& folder) {
     Files files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
@@ -29,7 +29,7 @@ Ended run_failing(const Folder& folder, const std::vector<std::string>& words, c
     return run_strata(folder, words, {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_FAIL", fault}}});
 }
 
-// The counted calls of a command that does not fail, in their order.
+// The counted system calls of a command that does not fail, in order.
 std::vector<std::string> calls_of(const Folder& folder, const std::vector<std::string>& words) {
     const Folder log;
     const Ended ended = run_strata(
@@ -42,19 +42,19 @@ std::string fault_of(const std::string& call, std::ptrdiff_t number, int error) 
     return call + ":" + std::to_string(number) + ":" + std::to_string(error);
 }
 
-// What a run with a fault may leave: each file as it was before, or as the command makes it.
+// After a run with a fault each file must have its old content, or the content that the command writes.
 bool is_old_or_new(const Files& found, const Files& whole) {
     return std::all_of(found.begin(), found.end(), [&](const auto& file) {
         return whole.contains(file.first) && (file.second == "old" || file.second == whole.at(file.first));
     });
 }
 
-// A command that writes. A new one is one more entry of `writing_commands`.
+// A command that writes files. To test another command, add an entry to `writing_commands`.
 struct Writing {
     std::vector<std::string> words;
-    std::vector<std::string> outputs{};  // files that are there before, with other content
-    std::vector<std::string> before{};   // a run of strata that makes what the command reads
-    std::vector<std::string> timed{};    // files with times in them cannot be compared
+    std::vector<std::string> outputs{};  // files that exist before the run, with other content
+    std::vector<std::string> before{};   // a run of strata that makes the command's inputs
+    std::vector<std::string> timed{};    // files that contain times and cannot be compared
 };
 
 const std::vector<Writing> writing_commands{
@@ -80,7 +80,7 @@ const std::vector<Writing> writing_commands{
     {{"report", "planes:count=1", "--size", "8x8", "--algorithm", "front_to_back", "--threads", "1", "-o", "page"}},
 };
 
-// Which calls of a kind fail: each of them, or the last alone, behind which most of the work is done.
+// Which calls of a kind fail: each of them in separate runs, or only the last one, when most of the work is done.
 enum class Calls { each, last };
 
 std::vector<std::ptrdiff_t> numbers_of(const std::vector<std::string>& calls, const std::string& call, Calls which) {
@@ -90,14 +90,14 @@ std::vector<std::ptrdiff_t> numbers_of(const std::vector<std::string>& calls, co
     return numbers;
 }
 
-// What the folder holds but for files with times.
+// The files in the folder without those that contain times.
 Files comparable(const Folder& folder, const Writing& writing) {
     Files files = files_under(folder);
     for (const std::string& name : writing.timed) files.erase(name);
     return files;
 }
 
-// What lies in the folder before the command runs.
+// Writes the files that the folder has before the command runs.
 void prepare(const Folder& folder, const Writing& writing, const Files& read) {
     for (const auto& [name, bytes] : read) std::ofstream(folder / name, std::ios::binary) << bytes;
     for (const std::string& output : writing.outputs) std::ofstream(folder / output) << "old";
@@ -115,7 +115,7 @@ void fail_calls_of(const Writing& writing, Calls which) {
     const Files whole = comparable(clean, writing);
     std::string wrong;
     int told = 0, points = 0;
-    // A full disk stays full; one that fails once loses what it was given then.
+    // Either all calls from this one on fail, as on a full disk, or only one, whose data is then lost.
     struct Fault {
         std::string call, further;
         int error;
@@ -132,8 +132,8 @@ void fail_calls_of(const Writing& writing, Calls which) {
             const bool says_it = ended.status == 3 && lines_of(ended.err).size() == 1;
             told += says_it ? 1 : 0;
             ++points;
-            // What other libraries write to sockets and pipes of their own, and a close after the bytes are safe, may
-            // fail unnoticed: then all is there.
+            // Libraries write to sockets and pipes, and close files after the data is safe; these calls may fail
+            // without an error if all files are complete.
             const bool may_pass = ended.status == 0 && (call == "close" || call == "write") && found == whole;
             if (!may_pass && !(says_it && is_old_or_new(found, whole)))
                 wrong += call + " " + std::to_string(n) + ": " + std::to_string(ended.status) + " " + ended.err + "; ";
@@ -144,7 +144,7 @@ void fail_calls_of(const Writing& writing, Calls which) {
     if (which == Calls::each) std::cout << words.front() << ": " << points << " calls failed" << std::endl;
 }
 
-// A sweep, and its files with times in them.
+// A sweep, and its files that contain times.
 struct Sweep {
     std::vector<std::string> words, timed;
 };
@@ -190,23 +190,23 @@ const std::vector<Sweep> sweeps{
 
 }  // namespace
 
-TEST_CASE("whichever call of the system fails, a command says so and leaves each file old or new, never half") {
+TEST_CASE("if any system call fails the command reports it and each file is old or new but never partial") {
     fail_calls_of(writing_commands[GENERATE(range(std::size_t{0}, writing_commands.size()))], Calls::last);
 }
 
-TEST_CASE("each single call of the system fails, and a command leaves each file old or new", "[exhaustive]") {
+TEST_CASE("if any single system call fails each file of the command is old or new", "[exhaustive]") {
     for (const Writing& writing : writing_commands) fail_calls_of(writing, Calls::each);
 }
 
-TEST_CASE("a sweep whose calls of the system fail goes on where it stopped, and ends with the same bytes") {
+TEST_CASE("a sweep that system calls interrupted resumes where it stopped and ends with the same bytes") {
     fail_calls_of_a_sweep(sweeps[GENERATE(range(std::size_t{0}, sweeps.size()))], Calls::last);
 }
 
-TEST_CASE("a sweep goes on after each single call of the system has failed", "[exhaustive]") {
+TEST_CASE("a sweep resumes after each single system call has failed", "[exhaustive]") {
     for (const Sweep& sweep : sweeps) fail_calls_of_a_sweep(sweep, Calls::each);
 }
 
-TEST_CASE("bytes are on the disk before their name, and the name before the command ends") {
+TEST_CASE("data is on the disk before its name and the name before the command ends") {
     const Folder folder;
     const auto calls = calls_of(
         folder, {"render", "planes:count=2", "--size", "24x16", "--no-audit", "--threads", "1", "--stats", "out.json"});
@@ -216,7 +216,7 @@ TEST_CASE("bytes are on the disk before their name, and the name before the comm
     CHECK(order == std::vector<std::string>{"write", "fsync", "rename", "fsync"});
 }
 
-TEST_CASE("threads that the system refuses are fewer threads, a warning and the same picture") {
+TEST_CASE("threads that the system denies reduce the number of threads with a warning and the same picture") {
     const std::vector<std::string> words{
         "render", "random:triangles=300", "--size", "200x150", "--no-audit", "--threads", "4", "--stats", "-"};
     const auto digest_in = [](const Ended& ended) {
@@ -241,7 +241,7 @@ TEST_CASE("threads that the system refuses are fewer threads, a warning and the 
     }
 }
 
-TEST_CASE("however few threads the system gives, a picture is written whole") {
+TEST_CASE("a picture is written completely with however few threads") {
     const std::string output = GENERATE("out.png", "out.exr");
     const int threads = GENERATE(1, 4);
     const Folder clean;
@@ -258,7 +258,7 @@ TEST_CASE("however few threads the system gives, a picture is written whole") {
             folder, asked,
             {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
         INFO(most << " threads beside the first: " << ended.status << " " << ended.err);
-        CHECK(ended.status == 0);  // a PNG needs no thread, and an EXR is packed by the one that there is
+        CHECK(ended.status == 0);  // PNG needs no extra thread, and EXR is compressed by the existing one
         CHECK(content_of(folder / output) == whole);
     }
 }

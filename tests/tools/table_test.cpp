@@ -1,3 +1,4 @@
+// Tests tables and the parsing of numbers. The expected lines are written by hand.
 #include "tools/strata/table.h"
 
 #include <catch2/catch.hpp>
@@ -6,7 +7,7 @@
 
 using namespace strata::tools;
 
-TEST_CASE("columns align by characters, not by bytes, and no line ends in a space") {
+TEST_CASE("columns align by characters and not by bytes and no line ends in a space") {
     const Table table{{{"name"}, {"n", Align::right}, {"note"}}, {{"Käse", "7", ""}, {"Brot", "1234", "fresh"}}};
     CHECK(to_text(table) ==
           "name     n  note\n"
@@ -14,7 +15,7 @@ TEST_CASE("columns align by characters, not by bytes, and no line ends in a spac
           "Brot  1234  fresh\n");
 }
 
-TEST_CASE("a number counts only if all of its text is one") {
+TEST_CASE("text is a number only if all of it is") {
     CHECK(to_int("12") == 12);
     CHECK(to_number<float>("0.1") == 0.1f);
     for (const char* text : {"", " 1", "1 ", "1,5", "0x10", "1e999", "inf", "nan", "+1"}) {
@@ -26,7 +27,7 @@ TEST_CASE("a number counts only if all of its text is one") {
     CHECK(to_numbers<double>("-30,20", 2) == std::vector<double>{-30, 20});
 }
 
-TEST_CASE("every line of a table puts a column's cells under its title, whatever their widths and alignment") {
+TEST_CASE("every line of a table has its cells below the column titles for any widths and alignment") {
     std::string wrong;
     for (std::size_t seed = 0; seed < 200; ++seed) {
         Table table;
@@ -59,7 +60,7 @@ TEST_CASE("every line of a table puts a column's cells under its title, whatever
     CHECK(wrong == "");
 }
 
-TEST_CASE("positive whole numbers, seconds and parts between separators are read as written") {
+TEST_CASE("positive integers and seconds and parts between separators are read as written") {
     CHECK(to_positive("1") == 1);
     CHECK(to_positive("2147483647") == 2147483647);
     for (const char* text : {"0", "-1", "2147483648", "1.0", ""}) CHECK_FALSE(to_positive(text));

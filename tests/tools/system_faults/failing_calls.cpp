@@ -1,8 +1,11 @@
-// tests/tools/system_faults/failing_calls.cpp - put before the C library (LD_PRELOAD), lets a call of the system fail.
+// tests/tools/system_faults/failing_calls.cpp - a library that is loaded before the C library (LD_PRELOAD) and makes
+// system calls fail.
 //
 // Rule     STRATA_FAIL=fsync:2:5 fails the second fsync with errno 5; fsync:2+:5 that one and all further ones. open
-//          counts where it may write, write where it is no standard stream. STRATA_CALLS=FILE gets a line a counted
-//          call: its name. STRATA_MOST_THREADS=2 refuses a third thread beside the first one while two are running.
+//          counts if it may write, write if the file is not a standard stream. STRATA_CALLS=FILE gets one line per
+//          counted
+//          call with its name. STRATA_MOST_THREADS=2 refuses a third thread besides the first one while two are
+//          running.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -33,7 +36,7 @@ void note(const char* name) {
     real<int(int)>("close")(file);
 }
 
-// The errno with which this call of `name` is to fail; 0: it is not.
+// The errno with which this call of `name` must fail; 0: it must not fail.
 int failure_of(const char* name) {
     static std::atomic<int> count = 0;
     note(name);
@@ -94,14 +97,14 @@ int rename(const char* from, const char* to) noexcept {
     return real<int(const char*, const char*)>("rename")(from, to);
 }
 
-// The descriptor is closed all the same, as Linux does.
+// The descriptor is closed in any case, as on Linux.
 int close(int file) {
     const int error = failure_of("close");
     const int done = real<int(int)>("close")(file);
     return error != 0 ? (errno = error, -1) : done;
 }
 
-// As many threads at once as STRATA_MOST_THREADS says, the first one not counted.
+// At most STRATA_MOST_THREADS threads at once, not counting the first one.
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                    void* argument) noexcept {
     const char* const most = std::getenv("STRATA_MOST_THREADS");
