@@ -1,4 +1,4 @@
-// Model: a list of materials, changed by hand.
+// Tests the option that blends named materials, against a list of materials changed by hand.
 #include "scenes/blended_materials.h"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ DrawList three_materials() {
 
 }  // namespace
 
-TEST_CASE("materials that are named are blended by their own alpha times the one asked for, and no others") {
+TEST_CASE("named materials are blended with their own alpha times the requested one and no others") {
     DrawList list = three_materials();
     const std::vector<MaterialAlpha> wanted{{"wall", 0.25f}, {"pane", 0.5f}};
     blend_materials(list, wanted, "scene");
@@ -33,7 +33,7 @@ TEST_CASE("materials that are named are blended by their own alpha times the one
     CHECK(list.materials == expected.materials);
 }
 
-TEST_CASE("a name that no material has, and a material whose alpha is cut, are refused") {
+TEST_CASE("an unknown material name and a material with an alpha cutoff are rejected") {
     DrawList list = three_materials();
     CHECK_THROWS_WITH(blend_materials(list, std::vector<MaterialAlpha>{{"pan", 0.5f}}, "room.glb"),
                       "room.glb: --alpha: expected a material of the scene (strata scene lists them), found 'pan' (did "

@@ -1,4 +1,5 @@
-// Model: corners of small lists, worked out by hand; the order of a sum by numbers that show it.
+// Tests the bounding box of a draw list on small lists whose corners are worked out by hand, and the order of summation
+// on values for which it matters.
 #include "scenes/bounds.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +26,7 @@ constexpr Matrix identity = strata::pipeline::identity;
 
 }  // namespace
 
-TEST_CASE("the box of a list holds every drawn vertex of every instance, and touches them") {
+TEST_CASE("the box of a list contains every drawn vertex of every instance and is tight") {
     Matrix moved = identity, turned{0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 10, 20, 30, 1};  // x to 2y, y to -3x, z to 4z
     moved[3][0] = -7;
     const Bounds one = bounds_of(list_of({{1, 2, 3}, {-4, 5, -6}, {0, 0, 0}}, {identity}));
@@ -36,7 +37,7 @@ TEST_CASE("the box of a list holds every drawn vertex of every instance, and tou
     CHECK(both.hi == Corner3{4, 22, 42});
 }
 
-TEST_CASE("vertices that no index names and meshes without an instance do not count") {
+TEST_CASE("vertices without an index and meshes without an instance do not count") {
     DrawList list = list_of({{1, 1, 1}, {9, 9, 9}}, {identity});
     list.meshes[0].indices = {0, 0, 0};
     list.meshes.emplace_back().positions = {{-50, 0, 0}};
@@ -47,13 +48,13 @@ TEST_CASE("vertices that no index names and meshes without an instance do not co
     CHECK_FALSE(bounds.is_empty());
 }
 
-TEST_CASE("nothing drawn has an empty box") {
+TEST_CASE("an empty list has an empty box") {
     CHECK(bounds_of({}).is_empty());
     CHECK(bounds_of(list_of({}, {identity})).is_empty());
     CHECK(bounds_of(list_of({{1, 2, 3}}, {})).is_empty());
 }
 
-TEST_CASE("a vertex with a coordinate that is no number or infinite does not count, whichever it is") {
+TEST_CASE("a vertex with an infinite or NaN coordinate does not count") {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     for (const float bad : {nan, infinity, -infinity})
         for (std::size_t i = 0; i < 3; ++i) {
@@ -70,7 +71,7 @@ TEST_CASE("a vertex with a coordinate that is no number or infinite does not cou
     CHECK(bounds_of(list_of({{nan, 0, 0}}, {identity})).is_empty());
 }
 
-TEST_CASE("a vertex that its instance moves beyond binary64 does not count, along whichever axis") {
+TEST_CASE("a vertex that its instance moves beyond binary64 along any axis does not count") {
     for (int axis = 0; axis < 3; ++axis) {
         Matrix huge = identity;
         huge[axis][axis] = 1e308;
@@ -80,9 +81,9 @@ TEST_CASE("a vertex that its instance moves beyond binary64 does not count, alon
     }
 }
 
-TEST_CASE("a vertex is transformed in binary64, from the first column to the translation") {
-    // ((2^53 + 1) - 2^53) + 1/2 is 1/2, for the first sum is rounded; 2^53 + (1 - 2^53) would be 1, and the others' sum
-    // 0.
+TEST_CASE("a vertex is transformed in binary64 and summed from the first column to the translation") {
+    // ((2^53 + 1) - 2^53) + 1/2 is 1/2, because the first sum is rounded; 2^53 + (1 - 2^53) would give 1, and the
+    // others 0.
     Matrix m = identity;
     for (int r = 0; r < 3; ++r) {
         m[0][r] = 0x1p53;
@@ -95,5 +96,5 @@ TEST_CASE("a vertex is transformed in binary64, from the first column to the tra
     CHECK(bounds.hi == Corner3{0.5, 0.5, 0.5});
     Matrix small = identity;
     small[3][0] = 1e-300;
-    CHECK(bounds_of(list_of({{0, 0, 0}}, {small})).hi[0] == 1e-300);  // binary32 has no such number
+    CHECK(bounds_of(list_of({{0, 0, 0}}, {small})).hi[0] == 1e-300);  // too small for binary32
 }

@@ -1,4 +1,4 @@
-// Model: what an orbit's picture must hold, by projecting points; limits from both sides.
+// Tests the orbit camera by projecting points that the picture must contain, and by angles on both sides of the limits.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -31,7 +31,7 @@ std::string said_by_orbit(double azimuth, double elevation) {
 
 }  // namespace
 
-TEST_CASE("an orbit shows the box's centre in its middle and all of its bounding sphere between its planes") {
+TEST_CASE("an orbit shows the centre of the box in the middle and all of its bounding sphere between its planes") {
     std::mt19937_64 random{11};
     std::uniform_real_distribution<double> unit{-1, 1};
     std::string wrong;
@@ -66,7 +66,7 @@ TEST_CASE("an orbit shows the box's centre in its middle and all of its bounding
     CHECK(wrong == "");
 }
 
-TEST_CASE("angles of an orbit are taken up to their limits and refused beyond, each by its own sentence") {
+TEST_CASE("angles of an orbit are accepted up to their limits and rejected beyond with separate messages") {
     for (const double sign : {1.0, -1.0}) {
         CHECK(said_by_orbit(0, sign * 90) == "accepted");
         CHECK(said_by_orbit(sign * 1e6, 0) == "accepted");
@@ -75,14 +75,14 @@ TEST_CASE("angles of an orbit are taken up to their limits and refused beyond, e
         CHECK_THAT(said_by_orbit(sign * std::nextafter(1e6, 2e6), 0),
                    Catch::StartsWith("--orbit: azimuth: expected degrees from -1000000 to 1000000, found "));
     }
-    CHECK_THAT(said_by_orbit(2e6, 91), Catch::Contains("azimuth"));  // the first of two
+    CHECK_THAT(said_by_orbit(2e6, 91), Catch::Contains("azimuth"));  // the first of two faults
     for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
         CHECK_THAT(said_by_orbit(bad, 0), Catch::Contains("azimuth"));
         CHECK_THAT(said_by_orbit(0, bad), Catch::Contains("elevation"));
     }
 }
 
-TEST_CASE("up is +y until the line of sight is within a millionth of it, and is square to that line from there on") {
+TEST_CASE("up is +y until the line of sight is within a millionth of it and from there perpendicular to that line") {
     for (const double sign : {1.0, -1.0})
         for (const double azimuth : {0.0, 25.0, -170.0}) {
             const double turn = azimuth * std::acos(-1.0) / 180;
@@ -99,7 +99,7 @@ TEST_CASE("up is +y until the line of sight is within a millionth of it, and is 
         }
 }
 
-TEST_CASE("a box without extent is seen as one of radius 1, an empty one from round the origin") {
+TEST_CASE("a box without extent is seen like one of radius 1 and an empty one from around the origin") {
     const LookAt empty = orbit_camera({}, 0, 0), point = orbit_camera({{3, 4, 5}, {3, 4, 5}}, 90, 0);
     CHECK((empty.eye[0] == 0 && empty.eye[1] == 0 && empty.eye[2] == 2.5));
     CHECK((empty.center[0] == 0 && empty.center[1] == 0 && empty.center[2] == 0));
@@ -110,7 +110,7 @@ TEST_CASE("a box without extent is seen as one of radius 1, an empty one from ro
     CHECK((point.near == 1.4 && point.far == 3.6));
 }
 
-TEST_CASE("a scene's camera keeps its own shape of picture, and takes the image's only where it has none") {
+TEST_CASE("a scene's camera keeps its own aspect ratio and uses the image's only if it has none") {
     for (const double own : {0.0, 0.5, 2.0})
         for (const double image : {0.75, 1.0, 3.0}) {
             const SceneCamera camera{.yfov = 1, .aspect = own, .znear = 1, .zfar = 9};

@@ -1,5 +1,5 @@
-// The models: what gluLookAt and gluPerspective must do to points that one knows (eye, centre, frustum corners), and
-// the orbit's formula of scenes.md 7.2 in 60 decimal digits.
+// Checks look_at and the perspective projection on known points (eye, centre, frustum corners), and orbit_view against
+// the formula of scenes.md 7.2 with 60 digits.
 #include "scenes/camera.h"
 
 #include <boost/math/constants/constants.hpp>
@@ -31,7 +31,7 @@ void check_close(const Point& a, const Point& b, double tolerance = 1e-13) {
 
 Bounds box(double x0, double y0, double z0, double x1, double y1, double z1) { return {{x0, y0, z0}, {x1, y1, z1}}; }
 
-// The eye, from an orthonormal view matrix.
+// The eye, computed from an orthonormal view matrix.
 std::array<double, 3> eye_of(const View& view) {
     std::array<double, 3> eye{};
     for (std::size_t c = 0; c < 3; ++c)
@@ -41,7 +41,7 @@ std::array<double, 3> eye_of(const View& view) {
 
 }  // namespace
 
-TEST_CASE("look_at puts the eye at the origin, the centre on -z and up into the upper half plane") {
+TEST_CASE("look_at maps the eye to the origin and the centre to -z and up into the upper half plane") {
     std::mt19937_64 random{3};
     std::uniform_real_distribution<double> unit{-1, 1};
     for (int i = 0; i < 200; ++i) {
@@ -60,7 +60,7 @@ TEST_CASE("look_at puts the eye at the origin, the centre on -z and up into the 
     }
 }
 
-TEST_CASE("a perspective projection takes the corners of its frustum to the corners of clip space") {
+TEST_CASE("a perspective projection maps the corners of its frustum to the corners of clip space") {
     const double half = boost::math::constants::pi<double>() * 42 / 360, aspect = 16.0 / 9, n = 1.9, f = 4.2;
     const Matrix m = look_at({.fovy_degrees = 42, .near = n, .far = f}, aspect).projection;
     for (const double z : {n, f}) {
@@ -70,7 +70,7 @@ TEST_CASE("a perspective projection takes the corners of its frustum to the corn
     }
 }
 
-TEST_CASE("an orbit's eye, depth range and angle are those of scenes.md 7.2 to the last digits") {
+TEST_CASE("the eye and depth range and angle of an orbit are those of scenes.md 7.2 within 1e-13") {
     const Bounds bounds = box(-1, 0, 2, 5, 3, 4);
     const Wide radius = sqrt(Wide{49} / 4), degree = boost::math::constants::pi<Wide>() / 180;  // half sides 3, 1.5, 1
     for (const double azimuth : {30.0, -115.0, 400.0}) {
@@ -90,7 +90,8 @@ TEST_CASE("an orbit's eye, depth range and angle are those of scenes.md 7.2 to t
     }
 }
 
-TEST_CASE("straight above and below the orbit's up is its limit, so that the picture does not jump") {
+TEST_CASE(
+    "at elevation +-90 degrees the up vector is the limit of neighbouring elevations so the image does not jump") {
     for (const double sign : {1.0, -1.0}) {
         const View at = orbit_view(box(-1, -1, -1, 1, 1, 1), 25, sign * 90, 1);
         const View beside = orbit_view(box(-1, -1, -1, 1, 1, 1), 25, sign * 89.999, 1);
@@ -98,7 +99,7 @@ TEST_CASE("straight above and below the orbit's up is its limit, so that the pic
     }
 }
 
-TEST_CASE("an orbit sees a box without extent, an empty one and a single point") {
+TEST_CASE("orbit_view is finite for an empty box and a single point and rejects bad angles") {
     for (const Bounds& bounds : {Bounds{}, box(1, 2, 3, 1, 2, 3)}) {
         for (const double entry : strata::entries_of(orbit_view(bounds, 30, 20, 1).view)) CHECK(std::isfinite(entry));
     }
@@ -106,7 +107,7 @@ TEST_CASE("an orbit sees a box without extent, an empty one and a single point")
     CHECK_THROWS_AS(orbit_view({}, NAN, 0, 1), strata::InputError);
 }
 
-TEST_CASE("a glTF camera projects as section 3.10.3 says: finite, infinite and orthographic") {
+TEST_CASE("a glTF camera uses the finite or infinite or orthographic projection of glTF 2.0 section 3.10.3") {
     const SceneCamera finite{.yfov = 0.7, .aspect = 2, .znear = 0.1, .zfar = 10};
     const Matrix m = camera_view(finite, 1).projection;
     CHECK(m[0][0] == Approx(1 / (2 * std::tan(0.35))).epsilon(1e-15));
@@ -126,7 +127,8 @@ TEST_CASE("a glTF camera projects as section 3.10.3 says: finite, infinite and o
     check_close(o * Point{-2, 4, -3, 1}, {-1, 1, 1, 1});
 }
 
-TEST_CASE("a view under another convention sees the same volume: near and far come where the convention has them") {
+TEST_CASE(
+    "converting a view to another clip convention keeps the view volume and maps near and far to its depth limits") {
     using strata::rasterizer::ClipDepth;
     using strata::rasterizer::DepthOrder;
     const double n = 1.9, f = 4.2;

@@ -1,4 +1,5 @@
-// What depth paths store and compare on whole scenes: the cure differs nowhere, the hazard does.
+// Tests which depths the depth paths store and compare on whole scenes: with depth replace they are always equal, with
+// the device's own paths they are not.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -26,7 +27,7 @@ struct Compared {
     std::uint64_t fragments = 0, differing = 0;
 };
 
-// Every fragment of the scene: how many compared depths are not the stored one.
+// The number of fragments of the scene, and of those whose compared depth is not the stored one.
 [[nodiscard]] Compared compare(const Scene& scene, const Machine& machine, DepthPath stored, DepthPath reference,
                                int size) {
     strata::rasterizer::RasterState state;
@@ -57,7 +58,7 @@ void check_cure(const std::string& spec, int size, std::uint64_t at_least) {
     }
 }
 
-// The shared models, or nothing if this machine has none.
+// The folder of the shared models, or an empty path if it does not exist.
 [[nodiscard]] std::filesystem::path models() {
     const char* const named = std::getenv("STRATA_MODELS_DIR");
     const std::filesystem::path folder = named != nullptr ? named : STRATA_MODELS_DIR;
@@ -68,22 +69,20 @@ void check_cure(const std::string& spec, int size, std::uint64_t at_least) {
 
 }  // namespace
 
-TEST_CASE(
-    "the depth that depth replace stores is the depth that is compared, on every procedural scene and 10^6 fragments") {
+TEST_CASE("the depth that depth replace stores is the compared depth on every procedural scene and 10^6 fragments") {
     check_cure("teapot", 256, 20000);
     check_cure("volume-beam:slices=16", 128, 50000);
     check_cure("random:seed=7,triangles=5000", 256, 1000000);
 }
 
-TEST_CASE("the depth that depth replace stores is the depth that is compared, on every shared model", "[slow]") {
+TEST_CASE("the depth that depth replace stores is the compared depth on every shared model", "[slow]") {
     const auto folder = models();
     if (folder.empty()) return;
     for (const char* name : {"bunny.glb", "dragon.glb", "AlphaBlendModeTest.glb", "sponza.glb"})
         check_cure((folder / name).string(), 256, 10000);
 }
 
-TEST_CASE(
-    "the depth that GeForce3 stores is not the depth that its shadow comparison has, on the teapot and the dragon") {
+TEST_CASE("the depth that GeForce3 stores is not the depth of its shadow comparison on the teapot and the dragon") {
     const Machine d24{"geforce3", DepthFormat::d24};
     const auto share = [&](const std::string& spec) {
         const Compared found = compare(load_scene(spec, {}), d24, DepthPath::window_z, DepthPath::perspective_rq, 256);

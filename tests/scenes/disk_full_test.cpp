@@ -1,4 +1,4 @@
-// A limit on the size of files stands in for a full disk: write() fails in the same way, with EFBIG.
+// Tests writing on a full disk. A limit on the size of files simulates it: write() fails in the same way, with EFBIG.
 #include <sys/resource.h>
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 using Write = std::function<void(const std::string& path)>;
 
-// For as long as it lives, this process writes no file beyond `bytes`.
+// During its lifetime, this process cannot write beyond `bytes` in any file.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(std::uintmax_t bytes) : handler_{std::signal(SIGXFSZ, SIG_IGN)} {
@@ -64,7 +64,7 @@ void check_every_limit(const std::string& name, const Write& write) {
 
 }  // namespace
 
-TEST_CASE("a disk that fills up while an image is written is an error and leaves no file, wherever it happens") {
+TEST_CASE("a disk that fills up at any point while an image is written is an error and leaves no file") {
     const OutputColor output{.color = wild_image(Format::rgba8, 100, 100, 1),
                              .depth = wild_image(Format::d24, 100, 100, 2)};
     const std::vector<OutputColor> layers(4, output);

@@ -1,4 +1,4 @@
-// tests/scenes/image_support.h - targets full of every kind of code.
+// tests/scenes/image_support.h - targets that contain every kind of code.
 #pragma once
 #include <cstdint>
 #include <random>

@@ -1,5 +1,5 @@
-// Model: what lies in the folder is known, for the test put it there; links that lead out stand ready, so that
-// following one would work.
+// Tests file access inside a folder. The test creates the folder, and links that lead outside to existing files, so
+// that following one would succeed.
 #include "scenes/inside_folder.h"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using strata::scenes::inside_folder;
 using strata::scenes::path_inside;
 using Found = strata::scenes::InsideFolder::Found;
 
-TEST_CASE("a name inside a folder is found, and every way out of the folder is refused") {
+TEST_CASE("a name inside a folder is found and every path out of the folder is rejected") {
     namespace fs = std::filesystem;
     const strata::test::TemporaryFolder root;
     fs::create_directories(root / "home/below");

@@ -1,4 +1,4 @@
-// Model: the edit distance as a recursion over the last letters, as its definition reads; the limit as a sentence.
+// Tests name suggestions against the edit distance as a recursion over the last letters, by its definition.
 #include "scenes/nearest_name.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
     return least;
 }
 
-// All words of up to `longest` letters of "abc".
+// All words of up to `longest` letters from "abc".
 Words words_of_abc(std::size_t longest) {
     Words words{""};
     for (std::size_t first = 0, length = 1; length <= longest; ++length) {
@@ -42,9 +42,8 @@ std::string_view nearest(std::string_view name, const Words& candidates) {
 
 }  // namespace
 
-TEST_CASE(
-    "a name is near if at most a third of its letters have to change, or one of two, whatever the two words are") {
-    // A common ending changes no distance, and makes the limit higher: the distance itself shows.
+TEST_CASE("a name is near if at most a third of its letters differ or one of two for any pair of words") {
+    // A common ending does not change the distance but raises the limit, so the exact distance is tested.
     std::string wrong;
     const Words words = words_of_abc(3);
     REQUIRE(words.size() == 40);
@@ -61,14 +60,14 @@ TEST_CASE(
     CHECK(wrong == "");
 }
 
-TEST_CASE("neighbours exchanged are one mistake, unless a letter stands between them") {
+TEST_CASE("two exchanged neighbouring letters are one change unless another letter is between them") {
     CHECK(nearest("ab", {"ba"}) == "ba");
-    CHECK(nearest("ca", {"abc"}) == "");  // three: a letter put between exchanged ones counts by itself
+    CHECK(nearest("ca", {"abc"}) == "");  // distance 3: a letter inserted between exchanged ones counts separately
     CHECK(nearest("retapot", {"teapot"}) == "teapot");
     CHECK(nearest("litreal", {"literal"}) == "literal");
 }
 
-TEST_CASE("of several near names the nearest is offered, of equally near ones the first") {
+TEST_CASE("of several near names the nearest is suggested and of equally near ones the first") {
     const Words words = words_of_abc(3);
     std::string wrong;
     for (const std::string& name : words)
@@ -94,7 +93,7 @@ TEST_CASE("of several near names the nearest is offered, of equally near ones th
     CHECK(nearest("abc", {}) == "");
 }
 
-TEST_CASE("a word counts by its first 64 letters, and no more of it is quoted") {
+TEST_CASE("only the first 64 letters of a word are compared and quoted") {
     const std::string long_name(64, 'n'), longer = long_name + std::string(1000, 'm');
     CHECK(nearest(longer, {long_name}) == long_name);
     CHECK(nearest(std::string(63, 'n') + "o", {long_name}) == long_name);

@@ -1,4 +1,4 @@
-// tests/scenes/scenes_support.h - folders that vanish, bytes of files, and numbers printed as another country would.
+// tests/scenes/scenes_support.h - temporary folders, the bytes of files, and a locale with decimal commas.
 #pragma once
 #include <unistd.h>
 
@@ -31,7 +31,8 @@ inline std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// While it lives, C++ streams and, if the system has such a locale, the C library write 1.5 as 1,5 and 1000 as 1.000.
+// During its lifetime, C++ streams and, if the system has such a locale, the C library write 1.5 as 1,5 and 1000 as
+// 1.000.
 class CommaLocale {
   public:
     CommaLocale() : cpp_{std::locale::global(std::locale{std::locale{}, new Comma})} {

@@ -1,5 +1,5 @@
-// What a w buffer holds of whole scenes: w of the exact plane of 1/w, in units of which the far plane has the format's
-// depth 1.
+// Tests w buffers on whole scenes: they store w of the exact plane of 1/w, scaled so that the far plane has the
+// format's depth 1.
 #include <catch2/catch.hpp>
 
 #include "pipeline/vertices/prepare.h"
@@ -16,7 +16,7 @@ using strata::rasterizer::DepthRequest;
 using strata::rasterizer::FragmentBatch;
 using strata::rasterizer::Geometry;
 
-// w by binary64: the sum of edge values over that of edge values over w.
+// w in binary64: the sum of the edge values divided by the sum of edge values over w.
 [[nodiscard]] double model_w(const Geometry& geometry, std::uint32_t triangle, int x, int y) {
     const auto& record = geometry.triangles[triangle];
     const strata::rasterizer::TriangleEdges edges{geometry.points(record), geometry.rules.tie_rule};
@@ -35,13 +35,13 @@ using strata::rasterizer::Geometry;
     state.depth_format = format;
     const strata::pipeline::View view = orbit_view(scene.bounds, 30, 20, 96.0 / 72.0);
     const auto& p = view.projection;
-    far = p[3][2] / (p[2][2] + 1.0);  // -z of -z = A z + B
+    far = p[3][2] / (p[2][2] + 1.0);  // the distance -z at which A z + B = -z, which is depth 1
     return prepare(scene.list, view, state, *strata::pipeline::find_profile("geforce3"), {});
 }
 
 }  // namespace
 
-TEST_CASE("a w buffer of a scene holds w, scaled so that the far plane is depth 1, in every format of the chip",
+TEST_CASE("a w buffer of a scene stores w scaled so that the far plane is depth 1 in every format of the chip",
           "[slow]") {
     const Scene scene = load_scene("teapot", {});
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f}) {
@@ -57,7 +57,7 @@ TEST_CASE("a w buffer of a scene holds w, scaled so that the far plane is depth 
                     const double w = model_w(geometry, t, batch.x[i], batch.y[i]) * double{geometry.state.w_scale};
                     const double held = buffer_value(batch.code[i], format),
                                  next = buffer_value(batch.code[i] + 1, format);
-                    // A code is cut from a value that is right to some 20 bits.
+                    // A code is truncated from a value that is correct to about 20 bits.
                     wrong += w < held * (1 - 1e-6) || w > next * (1 + 1e-6) ? 1 : 0;
                     alike += batch.code[i] == batch.exact_code[i] ? 1 : 0;
                     ++fragments;
@@ -75,7 +75,7 @@ TEST_CASE("a w buffer of a scene holds w, scaled so that the far plane is depth 
     }
 }
 
-TEST_CASE("a parallel projection has no w to keep, one with perspective has") {
+TEST_CASE("a parallel projection has no w to store and a perspective one has") {
     const Scene scene = load_scene("teapot", {});
     CHECK(strata::pipeline::has_perspective(orbit_view(scene.bounds, 30, 20, 1.0)));
     CHECK_FALSE(strata::pipeline::has_perspective({}));

@@ -1,3 +1,4 @@
+// Tests that files appear completely or not at all, by listing and reading the folder.
 #include "scenes/files/atomic_file.h"
 
 #include <sys/resource.h>
@@ -28,7 +29,8 @@ int files_in(const std::string& folder) {
     return count;
 }
 
-// The exit status of `body` run in a child process, while `beside` runs in this one.
+// The exit status of `body` run in a child process while `beside` runs in this one; 1000 + the signal's number if a
+// signal ends it.
 template <class Body, class Beside>
 int status_of_child(Body body, Beside beside) {
     const pid_t child = ::fork();
@@ -62,7 +64,7 @@ TEST_CASE("a file appears when it is committed and not before") {
     CHECK(files_in(folder.path) == 1);
 }
 
-TEST_CASE("a file that is not committed leaves nothing, and the old one as it was") {
+TEST_CASE("a file that is not committed is removed and the old one is unchanged") {
     const TemporaryFolder folder;
     const std::string path = folder / "a.txt";
     strata::scenes::write_file(path, "old");
@@ -73,7 +75,7 @@ TEST_CASE("a file that is not committed leaves nothing, and the old one as it wa
     CHECK(strata::test::bytes_of(path) == "new");
 }
 
-TEST_CASE("what is written after a seek replaces what stood there") {
+TEST_CASE("data written after a seek replaces what was there") {
     const TemporaryFolder folder;
     AtomicFile file{folder / "a.txt"};
     file.write("0123456789", 10);
@@ -84,7 +86,7 @@ TEST_CASE("what is written after a seek replaces what stood there") {
     CHECK(strata::test::bytes_of(folder / "a.txt") == "01ab456789");
 }
 
-TEST_CASE("a folder that is missing, a name that is a folder and a name too long are the system's errors") {
+TEST_CASE("a missing folder and a name of a folder and a name that is too long are system errors") {
     const TemporaryFolder folder;
     CHECK_THROWS_AS(strata::scenes::write_file(folder / "no/such/a.txt", "x"), SystemError);
     CHECK_THROWS_AS(strata::scenes::write_file(folder.path, "x"), SystemError);
@@ -93,11 +95,11 @@ TEST_CASE("a folder that is missing, a name that is a folder and a name too long
     CHECK(files_in(folder.path) == 0);
 }
 
-TEST_CASE("a disk that is full is an error, and leaves neither the file nor its temporary") {
+TEST_CASE("a full disk is an error and leaves neither the file nor its temporary file") {
     const TemporaryFolder folder;
     const int status = status_of_child([&] {
         ::signal(SIGXFSZ, SIG_IGN);
-        const rlimit limit{4096, 4096};  // writes beyond it fail as they would on a full disk
+        const rlimit limit{4096, 4096};  // writes beyond this size fail as on a full disk
         ::setrlimit(RLIMIT_FSIZE, &limit);
         try {
             strata::scenes::write_file(folder / "a.txt", std::string(5000, 'x'));
@@ -109,7 +111,7 @@ TEST_CASE("a disk that is full is an error, and leaves neither the file nor its 
     CHECK(files_in(folder.path) == 0);
 }
 
-TEST_CASE("slots for unfinished files are given back: a thousand files one after the other, sixteen at once") {
+TEST_CASE("slots for unfinished files are reused and there are sixteen of them") {
     const TemporaryFolder folder;
     for (int i = 0; i < 1000; ++i) AtomicFile{folder / "a.txt"}.write("x", 1);
     std::vector<std::unique_ptr<AtomicFile>> files;
@@ -117,7 +119,7 @@ TEST_CASE("slots for unfinished files are given back: a thousand files one after
     CHECK_THROWS_AS(AtomicFile{folder / "one too many"}, SystemError);
 }
 
-TEST_CASE("a name of any length that a folder takes is written, and one byte more is told at once") {
+TEST_CASE("a name of any length that the file system accepts is written and one byte more is an error at once") {
     const TemporaryFolder folder;
     for (const std::size_t length : {1, 200, 238, 239, 240, 250, 254, 255}) {
         const std::string path = folder / std::string(length, 'n');
@@ -129,9 +131,9 @@ TEST_CASE("a name of any length that a folder takes is written, and one byte mor
     CHECK(files_in(folder.path) == 8);
 }
 
-TEST_CASE("temporaries of a killed process with this one's number are left alone, and other names are found") {
+TEST_CASE("temporary files of a killed process with the same process number are left alone and other names are used") {
     const TemporaryFolder folder;
-    // The counter goes on by one with each file: the next names are known.
+    // The counter increases by one with each file, so the next names are known.
     std::string first;
     { first = AtomicFile{folder / "a.txt"}.temporary(); }
     const auto dash = first.rfind('-');
@@ -145,7 +147,7 @@ TEST_CASE("temporaries of a killed process with this one's number are left alone
         CHECK(strata::test::bytes_of(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") == "another's");
 }
 
-TEST_CASE("a pipe gets the bytes of the finished file and stays a pipe, also behind a symbolic link") {
+TEST_CASE("a pipe gets the bytes of the finished file and remains a pipe and also behind a symbolic link") {
     const TemporaryFolder folder;
     ::mkfifo((folder / "pipe").c_str(), 0600);
     std::filesystem::create_symlink("pipe", folder / "link");
@@ -169,13 +171,13 @@ TEST_CASE("a pipe gets the bytes of the finished file and stays a pipe, also beh
     CHECK(files_in(folder.path) == 2);
 }
 
-TEST_CASE("a device that takes nothing is an error, and stays a device") {
+TEST_CASE("a device that rejects writes is an error and remains a device") {
     CHECK_THROWS_WITH(strata::scenes::write_file("/dev/full", "x"), Catch::Contains("No space left"));
     CHECK(std::filesystem::is_character_file("/dev/full"));
     CHECK_NOTHROW(strata::scenes::write_file("/dev/null", "x"));
 }
 
-TEST_CASE("a temporary's name tells the name that it was to get, and no other name is a temporary's") {
+TEST_CASE("a temporary file's name contains the final name and no other name is taken for a temporary file's") {
     using strata::scenes::target_of_temporary;
     const TemporaryFolder folder;
     for (const std::string target : {"a.txt", "0003.difference.png", ".hidden", "a-b.7-7"}) {

@@ -1,3 +1,4 @@
+// Tests camera files by a round trip of their bits; the expected error messages are written by hand.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -30,7 +31,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 }  // namespace
 
-TEST_CASE("a camera written as JSON reads back to the same bits, whatever numbers from 2^-64 to 2^64 it holds") {
+TEST_CASE("a camera written as JSON is read back with the same bits for numbers from 2^-64 to 2^64") {
     std::mt19937_64 random{4};
     for (int i = 0; i < 1000; ++i) {
         View view;
@@ -48,14 +49,14 @@ TEST_CASE("a camera written as JSON reads back to the same bits, whatever number
     }
 }
 
-TEST_CASE("decimals and hexadecimal floats name the same camera, which look_at gives") {
+TEST_CASE("decimals and hexadecimal floats give the same camera as look_at") {
     const LookAt expected{.eye = {0, 0.5, 3}, .fovy_degrees = 42, .near = 1.9, .far = 4.2};
     CHECK(same_bits(parse_camera(good, "c", 1.25), look_at(expected, 1.25)));
     CHECK(same_bits(parse_camera(with(good, "\"0x1.0cccccccccccdp+2\"", "4.2"), "c", 1.25), look_at(expected, 1.25)));
     CHECK(same_bits(parse_camera(with(good, "0.5", "\"+0X0.8p0\""), "c", 1.25), look_at(expected, 1.25)));
 }
 
-TEST_CASE("cameras read and write the same under a locale with decimal commas") {
+TEST_CASE("cameras are read and written identically under a locale with decimal commas") {
     const View before = parse_camera(good, "c", 1);
     const std::string text = to_json(before);
     const strata::test::CommaLocale locale;
@@ -66,7 +67,7 @@ TEST_CASE("cameras read and write the same under a locale with decimal commas") 
                       "c: /far: expected a distance beyond near, 5.5, found \"0x1.0cccccccccccdp+2\"");
 }
 
-TEST_CASE("a camera file is read from disk, and one that is missing, a folder or too long is refused by name") {
+TEST_CASE("a camera file is read from disk and one that is missing or a folder or too long is rejected by name") {
     const strata::test::TemporaryFolder folder;
     write_file(folder / "camera.json", good);
     CHECK(same_bits(load_camera(folder / "camera.json", 1), parse_camera(good, "c", 1)));
@@ -76,7 +77,7 @@ TEST_CASE("a camera file is read from disk, and one that is missing, a folder or
     CHECK_THROWS_WITH(load_camera(folder / "long.json", 1), Catch::Contains("the limit is 1048576"));
 }
 
-TEST_CASE("every fault of a camera file is one sentence that names the place and what belongs there") {
+TEST_CASE("every fault of a camera file gives one error message with its JSON pointer and the expected value") {
     const auto message = [](const std::string& text) -> std::string {
         try {
             (void)parse_camera(text, "c", 1);

@@ -1,3 +1,4 @@
+// Tests deep EXR files by a round trip of random fragments, and digests against the bytes of images.md 5.
 #include <xxhash.h>
 
 #include <bit>
@@ -34,9 +35,7 @@ DeepFragments random_fragments(int width, int height, int most) {
 
 }  // namespace
 
-TEST_CASE(
-    "every fragment comes back from a deep EXR, in its pixel and order, with code, primitive and premultiplied "
-    "colour") {
+TEST_CASE("every fragment is read from a deep EXR in its pixel and order with all of its values") {
     const TemporaryFolder folder;
     for (const int most : {0, 1, 40}) {
         const DeepFragments written = random_fragments(37, 23, most);
@@ -49,7 +48,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("depth codes and primitives of a deep EXR keep all 32 bits, and Z its NaN and signed zero") {
+TEST_CASE("depth codes and primitives of a deep EXR keep all 32 bits and Z keeps NaN and signed zero") {
     const TemporaryFolder folder;
     const float nan = std::bit_cast<float>(0x7fc12345u);
     const DeepFragments written{.width = 1,
@@ -67,7 +66,7 @@ TEST_CASE("depth codes and primitives of a deep EXR keep all 32 bits, and Z its 
         CHECK(std::bit_cast<std::uint32_t>(read.z[i]) == std::bit_cast<std::uint32_t>(written.z[i]));
 }
 
-TEST_CASE("a deep file is not a flat one and a flat one not deep, and a deep PNG does not exist") {
+TEST_CASE("reading a deep file as flat or a flat one as deep and writing a deep PNG are errors") {
     const TemporaryFolder folder;
     write_deep(folder / "deep.exr", random_fragments(3, 3, 2), {});
     write_image(folder / "flat.exr", {.color = strata::pipeline::Image{strata::pipeline::Format::rgba8, 3, 3}});
@@ -77,8 +76,8 @@ TEST_CASE("a deep file is not a flat one and a flat one not deep, and a deep PNG
     CHECK_THROWS_AS(write_deep(folder / "no/deep.exr", random_fragments(3, 3, 2), {}), strata::SystemError);
 }
 
-// The bytes of images.md 5, serialised here word by word, through the one-shot XXH3_128bits.
-TEST_CASE("a deep digest is XXH3-128 of name, size, counts and fragments, the same before writing and after reading") {
+// The bytes of images.md 5, serialized here value by value, with the one-shot XXH3_128bits.
+TEST_CASE("a deep digest is XXH3-128 of the documented bytes and the same before writing and after reading") {
     const DeepFragments fragments = random_fragments(5, 3, 4);
     std::string bytes{"deep"};
     bytes += '\0';

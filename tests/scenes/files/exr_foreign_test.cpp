@@ -1,5 +1,5 @@
-// Files that other programs write: OpenImageIO and OpenEXR themselves write them here, of numbers that say their own
-// place.
+// Tests EXR files that other programs write. OpenImageIO and OpenEXR write them here, with values that encode their own
+// position.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -21,14 +21,14 @@ namespace {
 
 constexpr int foreign_width = 37, foreign_height = 21;
 
-// What channel `c` of a sample of a pixel holds, from the window's own corner.
+// The value of channel `c` in a sample of a pixel, counted from the data window's corner.
 std::uint32_t number_at(int x, int y, int sample, int c) {
     return static_cast<std::uint32_t>(((y * foreign_width + x) * 8 + sample) * 8 + c);
 }
 
 int samples_at(int x, int y) { return (x + 2 * y) % 4; }
 
-// Two channels of words, with its corner at (-5, 7); scan lines if `tile` is 0.
+// Two 32-bit channels in a data window with its corner at (-5, 7); scan lines if `tile` is 0.
 OIIO::ImageSpec foreign_spec(int tile, bool is_deep) {
     OIIO::ImageSpec spec{foreign_width, foreign_height, 2, OIIO::TypeDesc::UINT32};
     spec.channelnames = {"first", "second"};
@@ -78,7 +78,8 @@ std::vector<std::uint32_t> words_in(const StoredPart& part) {
 
 }  // namespace
 
-TEST_CASE("an EXR is read from its window's corner, wherever that is, in scan lines and in tiles, flat and deep") {
+TEST_CASE(
+    "an EXR is read from its data window's corner at any position whether in scan lines or tiles and flat or deep") {
     const TemporaryFolder folder;
     const int tile = GENERATE(0, 16);
     const bool is_deep = GENERATE(false, true);
@@ -99,7 +100,7 @@ TEST_CASE("an EXR is read from its window's corner, wherever that is, in scan li
     CHECK(words_in(part) == expected);
 }
 
-TEST_CASE("a channel with fewer samples than pixels is refused in a sentence that names it") {
+TEST_CASE("a channel with fewer samples than pixels is rejected with a message that names it") {
     const TemporaryFolder folder;
     const std::vector<float> values(8 * 8);
     Imf::Header header{8, 8};

@@ -1,5 +1,5 @@
-// zlib has no memory for a block: its two functions that OpenEXR calls are this program's here, which fail when a test
-// says so.
+// Tests EXR files when zlib runs out of memory. This program replaces the two zlib functions that OpenEXR calls; they
+// fail when a test requests it.
 #include <dlfcn.h>
 #include <zlib.h>
 
@@ -14,7 +14,7 @@
 
 namespace {
 
-std::atomic<int> calls = 0, failing = 0;  // the call that fails, from 1; 0: none
+std::atomic<int> calls = 0, failing = 0;  // failing: number of the call that fails, from 1; 0: none
 
 template <class Function, class... Values>
 int unless_failing(const char* name, Values... values) {
@@ -37,7 +37,7 @@ using namespace strata::scenes;
 using strata::pipeline::Format;
 using strata::test::TemporaryFolder;
 
-// A write whose n-th block cannot be packed says so and leaves no file, whichever it is.
+// Checks that a write whose n-th block cannot be compressed fails and leaves no file, for every n.
 template <class Write>
 void fails_at_each_block(const Write& write) {
     const TemporaryFolder folder;
@@ -57,13 +57,13 @@ void fails_at_each_block(const Write& write) {
 
 }  // namespace
 
-TEST_CASE("an EXR whose block cannot be packed is refused, whichever block it is") {
+TEST_CASE("an EXR whose block cannot be compressed is an error for every block") {
     const OutputColor image{.color = strata::test::wild_image(Format::rgba8, 40, 100, 5),
                             .depth = strata::test::wild_image(Format::d24, 40, 100, 6)};
     fails_at_each_block([&](const std::string& path) { write_image(path, image); });
 }
 
-TEST_CASE("a deep EXR whose block cannot be packed is refused, whichever block it is") {
+TEST_CASE("a deep EXR whose block cannot be compressed is an error for every block") {
     DeepFragments fragments{.width = 2, .height = 3, .count = std::vector<std::uint32_t>(6, 40)};
     fragments.depth_code.resize(240);
     fragments.z.resize(240);

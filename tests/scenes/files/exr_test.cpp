@@ -1,4 +1,5 @@
-// The model of what a file shows to others is OpenImageIO's own reader; codes must come back with every bit.
+// Tests EXR files: OpenImageIO's own reader gives what other programs see, and codes must be unchanged in every bit
+// after a round trip.
 #include <OpenImageIO/imageio.h>
 
 #include <bit>
@@ -41,7 +42,7 @@ std::vector<float> channel(OIIO::ImageInput& input, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("targets full of NaN payloads and extreme codes have the same digest after an EXR as before") {
+TEST_CASE("targets full of NaN payloads and extreme codes have the same digest after an EXR round trip") {
     const TemporaryFolder folder;
     for (const Format color : colors) {
         for (const Format depth : depths) {
@@ -63,7 +64,7 @@ TEST_CASE("targets full of NaN payloads and extreme codes have the same digest a
     }
 }
 
-TEST_CASE("all 65,536 halves survive an EXR as native channels and as codes") {
+TEST_CASE("all 65536 halves survive an EXR as native channels and as codes") {
     const TemporaryFolder folder;
     OutputColor output{.color = Image{Format::rgba16f, 128, 128}, .premultiplied = true};
     for (std::uint32_t i = 0; i < 65536; ++i) output.color.codes[i] = i;
@@ -74,7 +75,7 @@ TEST_CASE("all 65,536 halves survive an EXR as native channels and as codes") {
     CHECK(read_images(folder / "b.exr")[0].image == output.color);
 }
 
-TEST_CASE("what others see in an EXR are premultiplied colours and the depth's value") {
+TEST_CASE("other programs see premultiplied colours and the depth's value in an EXR") {
     const TemporaryFolder folder;
     OutputColor output{.color = Image{Format::rgba8, 2, 1}, .depth = Image{Format::d24, 2, 1}};
     output.color.codes = {255, 51, 0, 102, 255, 255, 255, 255};
@@ -89,7 +90,7 @@ TEST_CASE("what others see in an EXR are premultiplied colours and the depth's v
     CHECK(input->spec().channelformat(input->spec().channelindex("Zbits")) == OIIO::TypeDesc::UINT32);
 }
 
-TEST_CASE("an EXR carries command, formats, colour space and digests, and neither time nor host nor path") {
+TEST_CASE("an EXR stores the command and digests and formats but no time or host or path") {
     const TemporaryFolder folder;
     const OutputColor output{.color = wild_image(Format::rgba8, 9, 9, 1),
                              .depth = wild_image(Format::d24, 9, 9, 2),
@@ -109,7 +110,7 @@ TEST_CASE("an EXR carries command, formats, colour space and digests, and neithe
     CHECK(strata::test::bytes_of(folder / "a.exr").find(folder.path) == std::string::npos);
 }
 
-TEST_CASE("viewers are told whether an EXR's colours are sRGB values or linear light, in every part and deep") {
+TEST_CASE("an EXR states for viewers whether its colours are sRGB or linear in every part and when deep") {
     using strata::pipeline::ColorSpace;
     const TemporaryFolder folder;
     for (const ColorSpace space : {ColorSpace::encoded, ColorSpace::linear}) {
@@ -137,7 +138,7 @@ TEST_CASE("viewers are told whether an EXR's colours are sRGB values or linear l
     }
 }
 
-TEST_CASE("the same image written twice, a second later, gives the same EXR bytes, in parts and deep too") {
+TEST_CASE("the same image written a second later gives the same EXR bytes in parts and deep as well") {
     const TemporaryFolder folder;
     const OutputColor output{.color = wild_image(Format::rgba16f, 70, 133, 1),
                              .depth = wild_image(Format::d32f, 70, 133, 2)};
@@ -160,7 +161,7 @@ TEST_CASE("the same image written twice, a second later, gives the same EXR byte
               strata::test::bytes_of(folder / ("2" + std::string{name})));
 }
 
-TEST_CASE("layers are the parts layer.000, layer.001 and so on, each with its own codes and attributes") {
+TEST_CASE("layers are the parts layer.000 layer.001 and so on with their own codes and attributes") {
     const TemporaryFolder folder;
     std::vector<OutputColor> layers;
     for (unsigned i = 0; i < 12; ++i) {
@@ -181,7 +182,7 @@ TEST_CASE("layers are the parts layer.000, layer.001 and so on, each with its ow
     CHECK_THROWS_AS(write_layers(folder / "layers.png", layers), strata::InputError);
 }
 
-TEST_CASE("an EXR by another program is digested by its own types, and refused if it has no colours") {
+TEST_CASE("an EXR by another program is digested by its own types and rejected without colours") {
     const TemporaryFolder folder;
     const auto write = [&](const std::string& name, std::vector<std::string> channels, OIIO::TypeDesc type) {
         OIIO::ImageSpec spec{2, 1, static_cast<int>(channels.size()), type};
@@ -200,7 +201,7 @@ TEST_CASE("an EXR by another program is digested by its own types, and refused i
     CHECK_THROWS_AS(read_images(folder / "luminance.exr"), strata::InputError);
 }
 
-TEST_CASE("a truncated EXR is an input error at every length tried") {
+TEST_CASE("a truncated EXR is an input error at every tested length") {
     const TemporaryFolder folder;
     write_image(folder / "a.exr", {.color = wild_image(Format::rgba8, 64, 64, 2)});
     const std::string bytes = strata::test::bytes_of(folder / "a.exr");

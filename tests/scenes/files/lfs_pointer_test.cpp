@@ -1,4 +1,4 @@
-// Model: the text that git-lfs writes, in the place of each kind of file.
+// Tests Git LFS pointers in place of each kind of file. The text is that which git-lfs writes.
 #include "scenes/lfs_pointer.h"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ constexpr const char* pointer =
     "oid sha256:4d7a214614ab2935c943f9e0ff69d22eadbb8f32b1258daaa5e2ca24d17e2393\n"
     "size 12345\n";
 
-// A triangle whose 36 bytes lie in a file beside it.
+// A triangle whose 36 bytes are in a separate file in the same folder.
 constexpr const char* triangle =
     R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -28,7 +28,7 @@ constexpr const char* triangle =
 }  // namespace
 
 TEST_CASE(
-    "a Git LFS pointer in the place of a model, of its buffer or of triangles is named with the way to fetch it") {
+    "a Git LFS pointer in place of a model or its buffer or triangles is reported with the command that fetches it") {
     const strata::test::OwnFolder folder;
     const auto file = [&](const char* name, const char* text) {
         const std::string path = folder.path() + "/" + name;

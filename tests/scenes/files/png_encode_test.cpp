@@ -1,5 +1,5 @@
-// Model: the chunks of a PNG by ISO/IEC 15948, its check sums bit by bit, and its rows unpacked by zlib and unfiltered
-// by 9.2.
+// Tests the PNG encoder against ISO/IEC 15948: chunks, checksums computed bit by bit, and rows unpacked by zlib and
+// unfiltered by 9.2.
 #include "scenes/images/png_encode.h"
 
 #include <zlib.h>
@@ -26,7 +26,7 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
     return word;
 }
 
-// PNG 5.5: the polynomial division, a bit at a time.
+// PNG 5.5: polynomial division, one bit at a time.
 std::uint32_t check_sum(const std::string& bytes) {
     std::uint32_t sum = 0xffffffff;
     for (const char byte : bytes) {
@@ -51,13 +51,13 @@ std::vector<Chunk> chunks_of(const std::string& bytes) {
     return chunks;
 }
 
-// Paeth's predictor: of a, b and c the one that is nearest to a + b - c.
+// Paeth predictor: the one of a, b and c that is nearest to a + b - c.
 int paeth(int a, int b, int c) {
     const int p = a + b - c, pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
     return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-// The codes of all rows of `width` bytes, `step` of them a pixel.
+// The codes of all rows of `width` bytes; `step` bytes per pixel.
 std::string rows_of(const std::vector<Chunk>& chunks, std::size_t width, std::size_t height, std::size_t step) {
     std::string packed, rows((width + 1) * height + 1, '\0');
     for (const Chunk& chunk : chunks)
@@ -87,7 +87,7 @@ std::uint8_t code(int x, int y, int c) { return static_cast<std::uint8_t>(x * 37
 
 }  // namespace
 
-TEST_CASE("a PNG has its texts in front, then every row as it is, with and without alpha") {
+TEST_CASE("a PNG has its texts first and then every row unchanged with and without alpha") {
     const int channels = GENERATE(3, 4), width = GENERATE(1, 7, 300);
     const PngPicture picture{
         .width = width,
@@ -116,7 +116,7 @@ TEST_CASE("a PNG has its texts in front, then every row as it is, with and witho
     CHECK((rows_of(chunks, static_cast<std::size_t>(width) * step, 5, step) == expected));
 }
 
-TEST_CASE("a PNG that cannot be written, or whose rows cannot be made, ends where that is found") {
+TEST_CASE("a PNG that cannot be written or whose rows cannot be made fails at the first error") {
     int rows = 0, parts = 0;
     const PngPicture picture{.width = 3000, .height = 3000, .row = [&](int y, std::uint8_t* codes) {
                                  ++rows;

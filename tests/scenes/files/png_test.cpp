@@ -1,3 +1,4 @@
+// Tests PNG output by a round trip, and conversions to 8 bits against codes worked out by hand.
 #include <OpenImageIO/imageio.h>
 
 #include <bit>
@@ -35,7 +36,7 @@ ImageCodes floats(float r, float g, float b, float a) {
 
 }  // namespace
 
-TEST_CASE("all 65,536 pairs of colour and alpha come back from a PNG as they were written") {
+TEST_CASE("all 65536 pairs of colour and alpha are unchanged after a PNG round trip") {
     const TemporaryFolder folder;
     OutputColor output{.color = Image{Format::rgba8, 256, 256}};
     for (std::uint32_t i = 0; i < 65536; ++i) {
@@ -50,7 +51,7 @@ TEST_CASE("all 65,536 pairs of colour and alpha come back from a PNG as they wer
     CHECK(digest(images[0].image) == digest(output.color));
 }
 
-TEST_CASE("the same image written twice, a second later, gives the same PNG bytes") {
+TEST_CASE("the same image written a second later gives the same PNG bytes") {
     const TemporaryFolder folder;
     const OutputColor output{.color = strata::test::wild_image(Format::rgba8, 70, 33, 1),
                              .attributes = {{"command", "strata"}}};
@@ -63,7 +64,7 @@ TEST_CASE("the same image written twice, a second later, gives the same PNG byte
 TEST_CASE("a float target becomes 8 bits by clamping and rounding the exact product with 255 half up") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(-1, 2, nan, 0.5f))).codes == ImageCodes{0, 255, 0, 128});
-    const float half_code = 100.5f / 255;  // whichever side of the half the float lies
+    const float half_code = 100.5f / 255;  // the float may be on either side of the half
     const auto expected = static_cast<std::uint32_t>(std::floor(double{half_code} * 255 + 0.5));
     CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(half_code, 0, 1, 1))).codes ==
           ImageCodes{expected, 0, 255, 255});
@@ -71,7 +72,7 @@ TEST_CASE("a float target becomes 8 bits by clamping and rounding the exact prod
           ImageCodes{128, 255, 0, 255});  // 0.5, 1, -1, infinity
 }
 
-TEST_CASE("a premultiplied target is divided by its alpha, and is black where alpha is 0") {
+TEST_CASE("a premultiplied target is divided by its alpha and is black where alpha is 0") {
     OutputColor float_target = one_pixel(Format::rgba32f, floats(0.25f, 0.5f, 0.75f, 0.5f));
     float_target.premultiplied = true;
     CHECK(as_straight_rgba8(float_target).codes == ImageCodes{128, 255, 255, 128});
@@ -87,16 +88,16 @@ TEST_CASE("a premultiplied target is divided by its alpha, and is black where al
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a linear target is encoded as sRGB, and its alpha is not") {
+TEST_CASE("the colours of a linear target are encoded as sRGB and its alpha is not") {
     OutputColor output = one_pixel(Format::rgba32f, floats(0.5f, 0.0f, 1.0f, 0.5f));
     output.space = ColorSpace::linear;
-    CHECK(as_straight_rgba8(output).codes == ImageCodes{188, 0, 255, 128});  // the textbook's middle grey
+    CHECK(as_straight_rgba8(output).codes == ImageCodes{188, 0, 255, 128});  // linear 0.5 in 8 bits
     OutputColor codes = one_pixel(Format::rgba8, {55, 0, 255, 7});
     codes.space = ColorSpace::linear;
     CHECK(as_straight_rgba8(codes).codes == ImageCodes{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
 }
 
-TEST_CASE("another ending, a missing file and a damaged one are input errors, and a missing folder is the system's") {
+TEST_CASE("a wrong file ending or a missing or damaged file is an input error and a missing folder a system error") {
     const TemporaryFolder folder;
     const OutputColor output = one_pixel(Format::rgba8, {1, 2, 3, 4});
     CHECK_THROWS_WITH(write_image(folder / "a.jpg", output), Catch::Contains("a file name that ends in .png or .exr"));
@@ -112,7 +113,7 @@ TEST_CASE("another ending, a missing file and a damaged one are input errors, an
     }
 }
 
-TEST_CASE("a PNG without alpha is digested as opaque, and one that is grey or has 16 bits is refused") {
+TEST_CASE("a PNG without alpha is digested as opaque and a grey or 16-bit one is rejected") {
     const TemporaryFolder folder;
     const auto write = [&](const std::string& name, int channels, OIIO::TypeDesc type) {
         const OIIO::ImageSpec spec{2, 1, channels, type};

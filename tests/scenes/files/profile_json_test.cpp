@@ -1,3 +1,4 @@
+// Tests profiles in JSON by a round trip of all fields; the expected error messages are written by hand.
 #include "scenes/files/profile_json.h"
 
 #include <catch2/catch.hpp>
@@ -27,29 +28,29 @@ std::string error_of(const std::string& text) {
     return "no error";
 }
 
-// A profile that differs from geforce8 by one line.
+// JSON of a profile that differs from geforce8 by one line.
 std::string changed(const std::string& line) { return R"({"name": "mine", "base": "geforce8", )" + line + "}"; }
 
 }  // namespace
 
-TEST_CASE("every built-in profile reads back from its JSON as it was") {
+TEST_CASE("every built-in profile is unchanged after a JSON round trip") {
     for (const DeviceProfile& profile : builtin_profiles()) CHECK(parse_profile(to_json(profile), "x.json") == profile);
 }
 
-TEST_CASE("a profile with every field at its other end reads back from its JSON as it was") {
+TEST_CASE("a profile with every field at its lowest or highest value is unchanged after a JSON round trip") {
     DeviceProfile profile;
     profile.name = "odd \"name\"";
     profile.description = "tabs\tand \xc3\xa4";
     for (const bool highest : {false, true}) {
         for (const ProfileField& field : profile_fields()) field.set(profile, highest ? field.highest : field.lowest);
-        // Spans exclude the chip's weights, which the highest colours are made of.
+        // Span coverage excludes the chip's interpolation weights, which the highest colour rules require.
         if (highest) profile.raster.coverage = strata::rasterizer::CoverageRule::snapped_edges;
-        if (highest) profile.has_signed_blend = false;  // equations of codes
+        if (highest) profile.has_signed_blend = false;  // these equations exist only for codes
         CHECK(parse_profile(to_json(profile), "x.json") == profile);
     }
 }
 
-TEST_CASE("a profile that names a base says only what differs from it") {
+TEST_CASE("a profile that names a base lists only the fields that differ") {
     const DeviceProfile mine = parse_profile(
         R"({"base": "geforce8", "name": "mine", "has_d16": true, "raster": {"snap": "toward_zero", "subpixel_bits": 12}})",
         "my.json");
@@ -61,7 +62,7 @@ TEST_CASE("a profile that names a base says only what differs from it") {
     CHECK(mine == expected);
 }
 
-TEST_CASE("an unknown key or name suggests the nearest") {
+TEST_CASE("for an unknown key or name the nearest one is suggested") {
     CHECK(error_of(changed(R"("has_d61": true)")) ==
           "my.json: /: expected a key of a profile, found 'has_d61' (did you mean 'has_d16'?)");
     CHECK(error_of(changed(R"("raster": {"snapp": "toward_zero"})")) ==
@@ -75,7 +76,7 @@ TEST_CASE("an unknown key or name suggests the nearest") {
           "'geforce3'?)");
 }
 
-TEST_CASE("a field that another one rules out is named with it") {
+TEST_CASE("a field that another one rules out is rejected with the name of that field") {
     CHECK(error_of(R"({"name": "mine", "base": "geforce3", "raster": {"coverage": "float_spans"}})") ==
           "my.json: /raster/coverage: expected snapped_edges with raster.color weights_8bit, found float_spans");
     CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "window_z"}})") ==
@@ -85,7 +86,7 @@ TEST_CASE("a field that another one rules out is named with it") {
     CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "exact"}})") == "no error");
 }
 
-TEST_CASE("a value of the wrong type or outside its range names file, pointer, range and value") {
+TEST_CASE("a value of the wrong type or out of range is rejected with file and JSON pointer and the valid range") {
     CHECK(error_of(changed(R"("max_samples": 9)")) ==
           "my.json: /max_samples: expected a whole number from 1 to 8, found 9");
     CHECK(error_of(changed(R"("max_samples": -1)")) ==
@@ -102,7 +103,7 @@ TEST_CASE("a value of the wrong type or outside its range names file, pointer, r
     CHECK(error_of(changed(R"("denormals": 1)")) == "my.json: /denormals: expected one of flush, keep, found 1");
 }
 
-TEST_CASE("without a base every key that the first packs had must be there") {
+TEST_CASE("without a base every key of the first packs is required") {
     CHECK(error_of(R"({"name": "mine", "description": ""})") ==
           "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found nothing, and no "
           "\"base\" to take it from");
@@ -113,9 +114,8 @@ TEST_CASE("without a base every key that the first packs had must be there") {
           "my.json: /name: expected a name without control characters, found \"a\\nb\"");
 }
 
-// The fields of profiles in packs of format 1 as the first of them had them; those that came later are not there.
-TEST_CASE(
-    "a file without the fields that came later is the machine as it was before them, each alone and all together") {
+// The fields of profiles in the first packs of format 1; later fields are missing.
+TEST_CASE("missing later fields have the values of the behaviour before them singly and all together") {
     const std::set<std::string_view> later{"blend_storage",
                                            "depth24",
                                            "has_d24f",
@@ -152,7 +152,7 @@ TEST_CASE(
     CHECK(parse_profile(all.dump(), "x.json") == before);
 }
 
-TEST_CASE("a profile names the fields that nothing shows, and they are read back") {
+TEST_CASE("a profile lists its open fields and they are read back") {
     DeviceProfile profile;
     profile.name = "found";
     const std::vector<std::string> open{"raster.snap", "has_d16"};
@@ -170,7 +170,7 @@ TEST_CASE("a profile names the fields that nothing shows, and they are read back
           "my.json: /open: expected an array of keys of a profile, such as raster.snap, found object");
 }
 
-TEST_CASE("text that is no JSON object is refused with its place") {
+TEST_CASE("text that is not a JSON object is rejected with its position") {
     CHECK(error_of("") == "my.json: byte 1: expected a profile in JSON, found a syntax error");
     CHECK(error_of("{\"name\": }") == "my.json: byte 10: expected a profile in JSON, found a syntax error");
     CHECK(error_of("[1]") == "my.json: /: expected an object, found array");
@@ -179,7 +179,7 @@ TEST_CASE("text that is no JSON object is refused with its place") {
           "my.json: /: expected at most 64 levels of arrays and objects, found more");
 }
 
-TEST_CASE("a profile is loaded by name or from a file, and a name that is neither suggests the nearest") {
+TEST_CASE("a profile is loaded by name or from a file and for an unknown name the nearest is suggested") {
     CHECK(load_profile("ideal") == *find_profile("ideal"));
     const strata::test::TemporaryFolder folder;
     std::ofstream{folder / "mine.json"} << changed(R"("max_samples": 2)");

@@ -1,4 +1,4 @@
-// Model: the sentences and places, typed out.
+// Tests the JSON reader. The expected error messages and JSON pointers are written by hand.
 #include "scenes/files/strict_json.h"
 
 #include <catch2/catch.hpp>
@@ -32,7 +32,7 @@ std::string camera_refusal(const std::string& text) {
     return sentence_about([&] { static_cast<void>(strata::scenes::parse_camera(text, "c", 1)); });
 }
 
-// A camera of two matrices, each of them `entry` times the identity.
+// A camera of two matrices, each of which is `entry` times the identity.
 std::string diagonal_camera(const std::string& entry) {
     std::string matrix = "[";
     for (int i = 0; i < 16; ++i) matrix += (i == 0 ? "" : ",") + (i % 5 == 0 ? entry : std::string("0"));
@@ -42,7 +42,7 @@ std::string diagonal_camera(const std::string& entry) {
 
 }  // namespace
 
-TEST_CASE("a key that an object has twice is refused with its place, and the same key in two objects is not") {
+TEST_CASE("a key may occur in several objects and a duplicate in one is rejected with its JSON pointer") {
     CHECK(refusal_of(R"({"a":1,"b":{"a":2},"c":[{"a":1},{"a":2}]})") == "");
     CHECK(refusal_of(R"({"a":1,"b":2,"a":1})") == "f: /a: expected each key once, found this one twice");
     CHECK(refusal_of(R"({"a":{"b":1,"c":{},"b":2}})") == "f: /a/b: expected each key once, found this one twice");
@@ -51,7 +51,8 @@ TEST_CASE("a key that an object has twice is refused with its place, and the sam
     CHECK(parse_strict_json(R"({"a":[1,{"b":null}]})", "f", "x") == nlohmann::json{{"a", {1, {{"b", nullptr}}}}});
 }
 
-TEST_CASE("what is no JSON, a number beyond binary64 and nesting beyond 64 levels are sentences") {
+TEST_CASE(
+    "malformed JSON and numbers out of double range and nesting deeper than 64 levels each give an error message") {
     CHECK(refusal_of("{\"a\":}") == "f: byte 6: expected a thing, found a syntax error");
     CHECK(refusal_of("[1e999]") == "f: /: expected a thing, found a number out of range");
     CHECK(refusal_of(std::string(64, '[') + std::string(64, ']')) == "");
@@ -60,7 +61,7 @@ TEST_CASE("what is no JSON, a number beyond binary64 and nesting beyond 64 level
     CHECK(refusal_of(std::string(1000000, '[')) == deep);
 }
 
-TEST_CASE("cameras and profiles with a key twice are refused") {
+TEST_CASE("camera and profile files with duplicate keys are rejected") {
     CHECK(camera_refusal(
               R"({"eye":[0,0,5],"center":[0,0,0],"up":[0,1,0],"fovy_degrees":45,"near":1,"far":10,"far":20})") ==
           "c: /far: expected each key once, found this one twice");
@@ -70,7 +71,7 @@ TEST_CASE("cameras and profiles with a key twice are refused") {
           }) == "p: /raster/subpixel_bits: expected each key once, found this one twice");
 }
 
-TEST_CASE("matrices that cannot be inverted, and numbers beyond 2^64, are refused, and odd but sound ones are not") {
+TEST_CASE("singular matrices and entries beyond 2^64 are rejected and extreme but invertible ones are accepted") {
     for (const char* entry : {"1", "-1", "1e-15", "18446744073709551616", "\"0x1p-1000\""})
         CHECK(camera_refusal(diagonal_camera(entry)) == "");
     CHECK(camera_refusal(diagonal_camera("0")) ==
@@ -82,13 +83,13 @@ TEST_CASE("matrices that cannot be inverted, and numbers beyond 2^64, are refuse
     std::string singular = diagonal_camera("1");
     singular.replace(singular.find("[1,0,0,0,0,1"), 12, "[1,0,0,0,1,0");
     CHECK(camera_refusal(singular) == "c: /view: expected a matrix that can be inverted, found one that cannot");
-    // A pivot of zero that another row mends.
+    // Invertible, but elimination needs a row swap because the first pivot is zero.
     CHECK(camera_refusal(
               R"({"view":[0,1,0,0, 1,0,0,0, 0,0,0,1, 0,0,1,0],"projection":[0,1,0,0, 1,0,0,0, 0,0,0,1, 0,0,1,0]})") ==
           "");
 }
 
-TEST_CASE("an angle or a near plane that binary32 cannot tell from zero is refused") {
+TEST_CASE("an angle or a near plane below 2^-64 is rejected") {
     const auto camera = [](const std::string& fovy, const std::string& near) {
         return camera_refusal("{\"eye\":[0,0,5],\"center\":[0,0,0],\"up\":[0,1,0],\"fovy_degrees\":" + fovy +
                               ",\"near\":" + near + ",\"far\":10}");

@@ -1,4 +1,4 @@
-// Model: a folder's listing after a child process has ended by each signal.
+// Tests that signals delete unfinished files, by listing the folder after a child process was ended by each signal.
 #include "scenes/files/unfinished_files.h"
 
 #include <sys/resource.h>
@@ -23,7 +23,8 @@ namespace {
 
 bool is_bare(const TemporaryFolder& folder) { return std::filesystem::is_empty(folder.path); }
 
-// What waitpid() tells of a child that runs `body`. The child has the system's own handlers, not the test's.
+// The status that waitpid() returns for a child that runs `body`. The child has the system's default handlers, not the
+// test's.
 template <class Body>
 int end_of_child(Body body) {
     const pid_t child = ::fork();
@@ -51,7 +52,7 @@ int end_by(const TemporaryFolder& folder, int signal) {
 
 }  // namespace
 
-TEST_CASE("every signal that ends a process removes its unfinished files first") {
+TEST_CASE("every signal that ends a process deletes its unfinished files first") {
     std::string wrong;
     int ended = 0;
     for (int signal = 1; signal <= SIGRTMAX; ++signal) {
@@ -59,7 +60,7 @@ TEST_CASE("every signal that ends a process removes its unfinished files first")
         const bool is_stop = signal == SIGSTOP || signal == SIGTSTP || signal == SIGTTIN || signal == SIGTTOU;
         if (is_library || is_stop) continue;
         const int plain = end_of_child([&] { ::raise(signal); });
-        // Signals that are ignored by default or cannot be caught are none of these.
+        // Skips signals that are ignored by default or cannot be caught.
         if (!WIFSIGNALED(plain) || signal == SIGKILL || signal == SIGXFSZ) continue;
         ++ended;
         const TemporaryFolder folder;
@@ -71,10 +72,10 @@ TEST_CASE("every signal that ends a process removes its unfinished files first")
         if (!is_right || !is_bare(folder)) wrong += std::to_string(signal) + " ";
     }
     CHECK(wrong == "");
-    CHECK(ended >= 50);  // Linux has 21 plain ones and 31 real-time ones
+    CHECK(ended >= 50);  // Linux has 21 standard ones and 31 real-time ones
 }
 
-TEST_CASE("a signal removes an unfinished folder with everything in it, follows no link, and leaves finished ones") {
+TEST_CASE("a signal deletes an unfinished folder with its content and follows no link and keeps finished files") {
     namespace fs = std::filesystem;
     const TemporaryFolder folder, outside;
     std::ofstream(outside / "kept") << "kept";
@@ -83,7 +84,7 @@ TEST_CASE("a signal removes an unfinished folder with everything in it, follows 
         strata::scenes::NewFolder finished{folder / "finished"}, half{folder / "half"};
         finished.write("a/b/c.txt", "c");
         finished.keep();
-        // More names than one read of a directory gives.
+        // More names than one read of a directory returns.
         for (int i = 0; i < 500; ++i) half.write("scene/" + std::string(100, 'x') + std::to_string(i), "x");
         fs::create_directories(folder / "half/a/b/c/d");
         fs::create_directory_symlink(outside.path, folder / "half/link");
@@ -95,7 +96,7 @@ TEST_CASE("a signal removes an unfinished folder with everything in it, follows 
     CHECK(fs::exists(outside / "kept"));
 }
 
-TEST_CASE("a signal that the process was told to ignore stays ignored, and a handler of a fault stays") {
+TEST_CASE("a signal that the process ignores stays ignored and an existing handler of a fault stays") {
     const TemporaryFolder folder;
     const int status = end_of_child([&] {
         std::signal(SIGHUP, SIG_IGN);
@@ -111,7 +112,7 @@ TEST_CASE("a signal that the process was told to ignore stays ignored, and a han
     CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 7));
 }
 
-TEST_CASE("a write beyond the limit of file sizes is an error, not a signal") {
+TEST_CASE("a write beyond the limit of file sizes is an error and not a signal") {
     const TemporaryFolder folder;
     const int status = end_of_child([&] {
         strata::scenes::remove_unfinished_files_when_interrupted();

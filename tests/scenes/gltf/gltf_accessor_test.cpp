@@ -1,4 +1,5 @@
-// Model: glTF 2.0, 3.6.2: the formulas for normalised integers, sparse substitution as a loop over a plain array.
+// Tests glTF accessors against glTF 2.0, 3.6.2: its formulas for normalised integers, and sparse substitution as a loop
+// over a plain array.
 #include <catch2/catch.hpp>
 
 #include "tests/scenes/gltf/gltf_file.h"
@@ -10,7 +11,7 @@ using Vec3s = std::vector<strata::pipeline::Vec3>;
 
 Json quantised() { return Json::array({"KHR_mesh_quantization"}); }
 
-// Three vertices at integer (or normalised) positions of the component type, four bytes aligned.
+// Three vertices at integer (or normalised) positions of the component type, four-byte aligned.
 template <class T>
 Vec3s positions(Component component, const std::vector<T>& padded, std::size_t stride, bool is_normalized) {
     GltfFile file;
@@ -23,7 +24,7 @@ Vec3s positions(Component component, const std::vector<T>& padded, std::size_t s
 
 }  // namespace
 
-TEST_CASE("every component type of a position means its integer, or its normalised value") {
+TEST_CASE("every component type of a position means its integer or its normalised value") {
     const std::vector<std::int8_t> bytes{-128, 127, 1, 0, 0, -127, 64, 0, -1, 2, 3, 0};
     CHECK(positions(i8, bytes, 4, false) == Vec3s{{-128, 127, 1}, {0, -127, 64}, {-1, 2, 3}});
     CHECK(positions(i8, bytes, 4, true) ==
@@ -57,7 +58,7 @@ TEST_CASE("quantised formats need KHR_mesh_quantization") {
     CHECK(refusal(to_bytes(file.document().dump())).ends_with("[MESH_PRIMITIVE_ACCESSOR_UNALIGNED]"));
 }
 
-TEST_CASE("indices of 8, 16 and 32 bits name the same vertices, and the largest value of each type is refused") {
+TEST_CASE("indices of 8 16 or 32 bits name the same vertices and the largest value of each type is rejected") {
     const auto load_with = [](auto index, Component component, std::uint32_t last) {
         using Index = decltype(index);
         GltfFile file;
@@ -79,7 +80,7 @@ TEST_CASE("indices of 8, 16 and 32 bits name the same vertices, and the largest 
     CHECK(refused(load_with(std::uint32_t{}, u32, 300)).ends_with("found 300 at element 2 [ACCESSOR_INDEX_OOB]"));
 }
 
-TEST_CASE("sparse values replace elements of the base, or of zeros") {
+TEST_CASE("sparse values replace elements of the base or of zeros") {
     for (const bool has_base : {true, false}) {
         std::vector<float> base(3 * 5);
         for (std::size_t i = 0; i < base.size(); ++i) base[i] = static_cast<float>(i + 1);

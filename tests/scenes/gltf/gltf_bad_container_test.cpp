@@ -1,4 +1,5 @@
-// Model: glTF 2.0, 4.4, and JSON's grammar. Each file is a sound one with bytes changed or cut off.
+// Tests damaged .glb and .gltf containers against glTF 2.0, 4.4, and JSON's grammar. Each file is a valid one that is
+// truncated or has bytes changed.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -35,7 +36,7 @@ std::string nested(std::size_t depth, const std::string& open, const std::string
 
 }  // namespace
 
-TEST_CASE("a .glb cut off after any byte is refused, and the whole one is not") {
+TEST_CASE("a .glb truncated after any byte is rejected and the complete one is accepted") {
     GltfFile file;
     file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
     const ByteVector whole = file.as_glb();
@@ -49,7 +50,7 @@ TEST_CASE("a .glb cut off after any byte is refused, and the whole one is not") 
     CHECK(accepted == 0);
 }
 
-TEST_CASE("a .gltf cut off after any byte is refused, and one with any byte changed is refused or loads", "[slow]") {
+TEST_CASE("a .gltf truncated after any byte is rejected and one with any byte changed is rejected or loads", "[slow]") {
     const ByteVector whole = to_bytes(everything().document().dump());
     std::size_t accepted = 0;
     for (std::size_t length = 0; length < whole.size(); ++length)
@@ -63,8 +64,8 @@ TEST_CASE("a .gltf cut off after any byte is refused, and one with any byte chan
         }
 }
 
-// A chunk's length counts no padding, with none behind it or with 1 to 3 blanks that align the next chunk.
-TEST_CASE("a chunk of odd length is read with a warning where the next one can be in one place only") {
+// A chunk whose length excludes its padding, with no padding after it or with 1 to 3 blanks that align the next chunk.
+TEST_CASE("a chunk of odd length is read with a warning if the position of the next chunk is unambiguous") {
     GltfFile file;
     file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
     const ByteVector whole = file.as_glb();
@@ -101,7 +102,7 @@ TEST_CASE("a chunk of odd length is read with a warning where the next one can b
     }
 }
 
-TEST_CASE("each fault of a .glb's header and chunks has the validator's code") {
+TEST_CASE("each fault of the header and chunks of a .glb has the validator's code") {
     GltfFile file;
     file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
     const ByteVector whole = file.as_glb();
@@ -128,7 +129,7 @@ TEST_CASE("each fault of a .glb's header and chunks has the validator's code") {
     check_refused(glb(longer, file.bin), "BUFFER_NON_FIRST_GLB");
 }
 
-TEST_CASE("JSON that is none, nests too deep, repeats a key or leaves the numbers is refused") {
+TEST_CASE("malformed or too deeply nested JSON is rejected and so are duplicate keys and numbers out of range") {
     for (const char* text :
          {"", "{", "{}x", "[", "nil", " ", "{\"asset\":}", "{\"asset\":{\"version\":\"\xff\"}}", "{\"a\":1,\"a\":2}",
           "{\"asset\":{\"version\":\"2.0\"},\"extras\":1e999}", "{\"asset\":{\"version\":\"2.0\"},\"extras\":NaN}"}) {
@@ -144,7 +145,7 @@ TEST_CASE("JSON that is none, nests too deep, repeats a key or leaves the number
     check_refused(to_bytes(nested(1000000, "{\"a\":", "}")), "INVALID_JSON");
 }
 
-TEST_CASE("a message is one line of printable characters, whatever the file holds") {
+TEST_CASE("a message is one line of printable characters for any file content") {
     GltfFile file = everything();
     file.json["meshes"][0]["primitives"][0]["attributes"][std::string("\x1b[31m\n\0bad", 9)] = 0;
     const std::string message = refusal(to_bytes(file.document().dump()));

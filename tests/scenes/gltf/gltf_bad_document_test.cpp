@@ -1,5 +1,5 @@
-// Model: glTF 2.0's own rules. Each bad file is everything() with one value changed; the Khronos validator's code and
-// the JSON pointer of the fault stand beside it.
+// Tests glTF documents that break a rule of glTF 2.0. Each is everything() with one value changed; the table has the
+// Khronos validator's code and the JSON pointer of the fault.
 #include <catch2/catch.hpp>
 
 #include "tests/scenes/gltf/gltf_file.h"
@@ -9,7 +9,7 @@ namespace {
 using namespace strata::scenes::test;
 
 struct Change {
-    const char *path, *value;  // JSON pointer and JSON text; "" removes
+    const char *path, *value;  // JSON pointer and JSON text; "" removes the value
     const char *code, *pointer;
 };
 
@@ -18,7 +18,7 @@ std::string refusal_after(const Change& change) {
     const std::string_view value = change.value;
     const Json operation = value.empty() ? Json{{"op", "remove"}, {"path", change.path}}
                                          : Json{{"op", "add"}, {"path", change.path}, {"value", Json::parse(value)}};
-    // "add" on an array element would insert: replace where something stands.
+    // "add" on an array element would insert, so an existing value is replaced.
     Json patch = Json::array({operation});
     if (!value.empty() && document.contains(Json::json_pointer(change.path))) patch[0]["op"] = "replace";
     return refusal(to_bytes(document.patch(patch).dump()));
@@ -111,7 +111,7 @@ const Change changes[]{
     {"/meshes/0/primitives/0/material", "1", "UNRESOLVED_REFERENCE", "/meshes/0/primitives/0/material"},
     {"/accessors/4/bufferView", "3", "ACCESSOR_TOO_LONG", "/accessors/4"},
     {"/accessors/4/bufferView", "4", "ACCESSOR_INDEX_OOB", "/accessors/4"},
-    {"/accessors/4/componentType", "5121", "", ""},  // bytes 0 0 1 0 2 0: sound
+    {"/accessors/4/componentType", "5121", "", ""},  // bytes 0 0 1 0 2 0: valid
 
     {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1,1,1]", "ARRAY_LENGTH_NOT_IN_LIST",
      "/materials/0/pbrMetallicRoughness/baseColorFactor"},
@@ -172,7 +172,7 @@ const Change changes[]{
     {"/nodes/0", "{\"children\":[1,2],\"scale\":[1e308,1,1],\"translation\":[1e308,0,0]}", "", ""},
     {"/nodes/3/scale", "[1,1,1]", "NODE_MATRIX_TRS", "/nodes/3/matrix"},
     {"/nodes/3/matrix/3", "0.5", "NODE_MATRIX_NON_TRS", "/nodes/3/matrix"},
-    {"/nodes/3/matrix/0", "0", "VALUE_NOT_IN_RANGE", "/nodes/3"},  // the camera has no direction
+    {"/nodes/3/matrix/0", "0", "VALUE_NOT_IN_RANGE", "/nodes/3"},  // the camera then has no direction
     {"/scenes/0/nodes", "[1]", "SCENE_NON_ROOT_NODE", "/scenes/0/nodes/0"},
     {"/scenes/0/nodes", "[0,0]", "DUPLICATE_ELEMENTS", "/scenes/0/nodes/1"},
     {"/scenes/0/nodes", "[4]", "UNRESOLVED_REFERENCE", "/scenes/0/nodes/0"},
@@ -181,7 +181,7 @@ const Change changes[]{
 
 }  // namespace
 
-TEST_CASE("Draco's data is not mistaken for zeros") {
+TEST_CASE("Draco data is not read as zeros") {
     GltfFile file = everything();
     file.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
     file.json["accessors"][0].erase("bufferView");
@@ -192,7 +192,7 @@ TEST_CASE("Draco's data is not mistaken for zeros") {
           "[UNSUPPORTED_EXTENSION]");
 }
 
-TEST_CASE("each fault of a glTF document is refused at its JSON pointer with the validator's code") {
+TEST_CASE("each fault of a glTF document is rejected at its JSON pointer with the validator's code") {
     REQUIRE(refusal(to_bytes(everything().document().dump())) == "");
     for (const Change& change : changes) {
         INFO(change.path << " = " << change.value);
@@ -202,7 +202,7 @@ TEST_CASE("each fault of a glTF document is refused at its JSON pointer with the
             continue;
         }
         CHECK(message.starts_with("test.gltf: " + std::string(change.pointer) + ": expected "));
-        // A change may make two places wrong: the first one is what is changed.
+        // A change may cause two faults: the first reported one is at the changed value.
         CHECK(message.substr(0, message.find(" (and ")).ends_with(" [" + code + "]"));
     }
 }

@@ -1,4 +1,4 @@
-// Model: a scene may read the files of its own folder and nothing else. A file outside stands ready each time, so that
+// Tests that a scene reads the files of its own folder and nothing else. A file outside exists in each case, so that
 // following the uri would succeed.
 #include <unistd.h>
 
@@ -70,7 +70,7 @@ void check_refused(const std::string& message, const std::string& code) {
 
 }  // namespace
 
-TEST_CASE("a uri leads to files of the scene's folder alone, and never to a folder") {
+TEST_CASE("a uri gives access only to files in the scene's folder and never to a folder") {
     const Folder folder;
     for (const char* uri :
          {"inside.bin", "./inside.bin", "inner", "a%20b.bin", "a b.bin", "folder/.//inside.bin/../x"}) {
@@ -91,7 +91,7 @@ TEST_CASE("a uri leads to files of the scene's folder alone, and never to a fold
         check_refused(folder.refusal_of(uri), "FILE_NOT_FOUND");
 }
 
-TEST_CASE("a data uri is base64 of the right kind") {
+TEST_CASE("a data uri must have base64 data of the right kind") {
     const Folder folder;
     for (const char* uri :
          {"data:", "data:,abc", "data:application/octet-stream,abc", "data:application/octet-stream;base64,ab!d",
@@ -102,7 +102,7 @@ TEST_CASE("a data uri is base64 of the right kind") {
               .ends_with("[BUFFER_EXTERNAL_BYTELENGTH_MISMATCH]"));
 }
 
-TEST_CASE("a scene that is no regular file is refused, and one in memory opens no file") {
+TEST_CASE("a scene that is not a regular file is rejected and one in memory opens no file") {
     for (const char* path : {"/", "/dev/zero", "/nowhere/scene.gltf", ""}) {
         INFO(path);
         CHECK_THROWS_AS(strata::scenes::load_gltf(path, {}), strata::InputError);

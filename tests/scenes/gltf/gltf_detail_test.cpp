@@ -1,4 +1,4 @@
-// Model: glTF 2.0's sentences, one small file a sentence; frames of cameras by their own right angles.
+// Tests single statements of glTF 2.0 with one small file each. The frames of cameras are checked for right angles.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -13,7 +13,7 @@ using strata::pipeline::Matrix;
 
 std::string refused(const GltfFile& file) { return refusal(to_bytes(file.document().dump())); }
 
-// everything() with one value at a JSON pointer.
+// The error message for everything() with one value replaced at a JSON pointer.
 std::string refused_with(const char* pointer, const Json& value) {
     GltfFile file = everything();
     file.json[Json::json_pointer(pointer)] = value;
@@ -22,7 +22,7 @@ std::string refused_with(const char* pointer, const Json& value) {
 
 Json rotation_of_length(double length) { return {0.6 * length, 0, 0, 0.8 * length}; }
 
-double along(const Matrix& m, std::size_t a, std::size_t b) {  // of two rows of a view
+double along(const Matrix& m, std::size_t a, std::size_t b) {  // dot product of two rows of a view
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) sum += m[c][a] * m[c][b];
     return sum;
@@ -30,7 +30,7 @@ double along(const Matrix& m, std::size_t a, std::size_t b) {  // of two rows of
 
 }  // namespace
 
-TEST_CASE("a rotation may be off unit length by 0.00769, more is refused") {
+TEST_CASE("a rotation may deviate from unit length by 0.00769 and more is rejected") {
     for (const double off : {0.0, 0.00768, -0.00768})
         CHECK(refused_with("/nodes/0/rotation", rotation_of_length(1 + off)) == "");
     for (const double off : {0.0077, -0.0077, 1.0, -1.0})
@@ -39,7 +39,7 @@ TEST_CASE("a rotation may be off unit length by 0.00769, more is refused") {
                        Catch::EndsWith("[NODE_ROTATION_NON_UNIT]"));
 }
 
-TEST_CASE("a camera's angle ends below pi, and its far plane lies behind the near one") {
+TEST_CASE("a camera's angle must be below pi and its far plane behind the near one") {
     const char *const yfov = "/cameras/0/perspective/yfov", *const zfar = "/cameras/0/perspective/zfar",
                       *const flat_far = "/cameras/1/orthographic/zfar";
     const double pi = std::acos(-1.0);
@@ -54,18 +54,18 @@ TEST_CASE("a camera's angle ends below pi, and its far plane lies behind the nea
     CHECK_THAT(refused_with("/cameras/1/orthographic/ymag", 0), Catch::EndsWith("[CAMERA_XMAG_YMAG_ZERO]"));
 }
 
-TEST_CASE("nodes that are their own ancestors are found in rings of every length") {
+TEST_CASE("nodes that are their own ancestors are found in cycles of every length") {
     for (std::size_t length = 1; length <= 5; ++length) {
         GltfFile file = everything();
         const std::size_t first = file.json["nodes"].size();
         for (std::size_t i = 0; i < length; ++i) file.add("nodes", {{"children", {first + (i + 1) % length}}});
         CHECK_THAT(refused(file), Catch::EndsWith("[NODE_LOOP]"));
-        file.json["nodes"][first + length - 1].erase("children");  // now a chain
+        file.json["nodes"][first + length - 1].erase("children");  // now a chain without a cycle
         if (length > 1) CHECK(refused(file) == "");
     }
 }
 
-TEST_CASE("a camera's frame is square and rigid, however its node is sheared, stretched or mirrored") {
+TEST_CASE("a camera's frame is orthonormal for any shear and scale and mirroring of its node") {
     std::mt19937_64 random{31};
     std::uniform_real_distribution<double> unit{-1, 1};
     std::string wrong;
@@ -89,7 +89,7 @@ TEST_CASE("a camera's frame is square and rigid, however its node is sheared, st
             x_right += view[c][0] * m[c];
             x_up += view[c][1] * m[c];
         }
-        right = right && x_right > 0 && std::fabs(x_up) < 1e-9;  // its x lies in the plane of the node's x and z
+        right = right && x_right > 0 && std::fabs(x_up) < 1e-9;  // its x is in the plane of the node's x and z
         for (std::size_t r = 0; r < 3; ++r) {
             const double eye = view[0][r] * m[12] + view[1][r] * m[13] + view[2][r] * m[14] + view[3][r];
             right = right && std::fabs(eye) < 1e-9;
@@ -99,7 +99,7 @@ TEST_CASE("a camera's frame is square and rigid, however its node is sheared, st
     CHECK(wrong == "");
 }
 
-TEST_CASE("a cutoff above 1 stays above 1, so that nothing passes, and none is above 2") {
+TEST_CASE("a cutoff above 1 stays above 1 so that nothing passes and is at most 2") {
     for (const auto& [written, loaded] : {std::pair{0.0, 0.0f}, {1.0, 1.0f}, {1.5, 1.5f}, {2.0, 2.0f}, {1e300, 2.0f}}) {
         GltfFile file = everything();
         file.json["materials"][0]["alphaMode"] = "MASK";
@@ -108,7 +108,7 @@ TEST_CASE("a cutoff above 1 stays above 1, so that nothing passes, and none is a
     }
 }
 
-TEST_CASE("a material is told to be invisible only if its factor alone keeps it from being drawn") {
+TEST_CASE("a material is reported as invisible only if its factor alone keeps it from being drawn") {
     const auto is_told = [](const char* mode, double alpha, double cutoff) {
         GltfFile file = everything();
         file.json["materials"][0]["alphaMode"] = mode;
@@ -124,7 +124,7 @@ TEST_CASE("a material is told to be invisible only if its factor alone keeps it 
     CHECK_FALSE(is_told("OPAQUE", 0, 0.5));
 }
 
-TEST_CASE("materials of one coverage share a texture, and an opaque one has its own, for its alpha is 1") {
+TEST_CASE("materials of equal coverage share a texture and an opaque one has its own because its alpha is 1") {
     GltfFile file = everything();
     Json primitive = file.json["meshes"][0]["primitives"][0];
     for (const char* mode : {"MASK", "OPAQUE", "OPAQUE"}) {
@@ -142,7 +142,7 @@ TEST_CASE("materials of one coverage share a texture, and an opaque one has its 
     for (std::size_t i = 0; i < 4; ++i) CHECK(list.materials[i].texture == expected[i]);
 }
 
-TEST_CASE("what has no name is numbered: meshes, their primitives, materials, and a texture takes its image's") {
+TEST_CASE("objects without names are numbered and a texture takes its image's name") {
     GltfFile file = everything();
     file.json["images"][0]["name"] = "leaf.png";
     Json primitive = file.json["meshes"][0]["primitives"][0];
@@ -162,7 +162,7 @@ TEST_CASE("what has no name is numbered: meshes, their primitives, materials, an
     CHECK(named.instances.size() == 2);
 }
 
-TEST_CASE("colours of exactly 0 and 1 are in range, the next numbers beyond are clamped with a warning") {
+TEST_CASE("colours of exactly 0 and 1 are in range and the next numbers beyond are clamped with a warning") {
     for (const float color : {0.0f, 1.0f, std::nextafter(1.0f, 2.0f), -0x1p-149f}) {
         GltfFile file = everything();
         file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
@@ -174,7 +174,7 @@ TEST_CASE("colours of exactly 0 and 1 are in range, the next numbers beyond are 
     }
 }
 
-TEST_CASE("a warning that many places ask for is told once, with the first of them and how many more there are") {
+TEST_CASE("a warning with several occurrences is reported once with the first one and the number of others") {
     strata::scenes::Warnings warnings;
     CHECK(warnings.sentences().empty());
     warnings.add("/b", "second");
@@ -184,7 +184,7 @@ TEST_CASE("a warning that many places ask for is told once, with the first of th
     CHECK(warnings.sentences() == std::vector<std::string>{"/b (and 2 more): second", "/a: first"});
 }
 
-TEST_CASE("text of a file is one line of at most 160 bytes in a sentence") {
+TEST_CASE("text from a file is one line of at most 160 bytes in a message") {
     using strata::scenes::in_quotes;
     using strata::scenes::one_line;
     CHECK(one_line("a\tb\nc\x7f"

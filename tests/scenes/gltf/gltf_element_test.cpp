@@ -1,5 +1,5 @@
-// Model: glTF 2.0's table of sizes (3.6.2.4, with its alignment of matrix columns) and its formulas of 3.6.2.2; a
-// quotient is right if no neighbouring binary32 is nearer, which integers tell.
+// Tests accessor elements against glTF 2.0's table of sizes (3.6.2.4, with its alignment of matrix columns) and its
+// formulas of 3.6.2.2. A quotient is correct if no neighbouring binary32 is nearer, which is decided in integers.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace strata::scenes;
 constexpr ComponentType all_types[] = {ComponentType::i8,  ComponentType::u8,  ComponentType::i16,
                                        ComponentType::u16, ComponentType::u32, ComponentType::f32};
 
-// Whether `value` is the binary32 nearest to code / scale: value * scale is exact in binary64, for 24 + 16 bits.
+// True if `value` is the binary32 nearest to code / scale. value * scale is exact in binary64: 24 + 16 bits.
 bool is_nearest_quotient(float value, int code, int scale) {
     const auto off = [&](float v) { return std::fabs(double{v} * scale - code); };
     return off(value) <= off(std::nextafter(value, 2.0f)) && off(value) <= off(std::nextafter(value, -2.0f));
@@ -21,10 +21,10 @@ bool is_nearest_quotient(float value, int code, int scale) {
 
 }  // namespace
 
-TEST_CASE("an element's bytes are the specification's, columns of matrices padded to four") {
+TEST_CASE("an element has the size of the specification with columns of matrices padded to four") {
     struct Row {
         ElementType type;
-        std::uint64_t bytes1, bytes2, bytes4;  // by the component's size
+        std::uint64_t bytes1, bytes2, bytes4;  // bytes for components of 1, 2 and 4 bytes
     };
     constexpr Row rows[] = {{ElementType::scalar, 1, 2, 4}, {ElementType::vec2, 2, 4, 8},
                             {ElementType::vec3, 3, 6, 12},  {ElementType::vec4, 4, 8, 16},
@@ -40,7 +40,7 @@ TEST_CASE("an element's bytes are the specification's, columns of matrices padde
     }
 }
 
-TEST_CASE("six codes are component types, seven words are element types, nothing else") {
+TEST_CASE("six codes are component types and seven words are element types and nothing else") {
     int known = 0;
     for (std::uint64_t code = 0; code < 70'000; ++code) known += to_component_type(code) ? 1 : 0;
     CHECK(known == 6);
@@ -58,7 +58,7 @@ TEST_CASE("indices are unsigned integers") {
               (type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32));
 }
 
-TEST_CASE("every code of 8 and 16 bits means its integer, or the nearest quotient by the type's largest value") {
+TEST_CASE("every code of 8 and 16 bits means its integer or the nearest quotient by the type's largest value") {
     struct Kind {
         ComponentType type;
         int lowest, highest;
@@ -84,7 +84,7 @@ TEST_CASE("every code of 8 and 16 bits means its integer, or the nearest quotien
     }
 }
 
-TEST_CASE("32-bit components are a float's bits, or an integer rounded to binary32") {
+TEST_CASE("32-bit components are a float's bits or an integer rounded to binary32") {
     for (const bool normalized : {false, true}) {
         CHECK(component_value(0x3f800000, ComponentType::f32, normalized) == 1);
         CHECK(std::bit_cast<std::uint32_t>(component_value(0x7fc12345, ComponentType::f32, normalized)) == 0x7fc12345);

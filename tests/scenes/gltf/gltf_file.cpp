@@ -115,7 +115,8 @@ ByteVector png(std::uint32_t width, std::uint32_t height, int bits, int channels
     return bytes;
 }
 
-// ITU T.81 by hand: every quantiser 1, one Huffman code '0' each for "DC difference 0" and "end of block".
+// A JPEG by ITU T.81, written by hand: every quantizer is 1, with one Huffman code '0' each for "DC difference 0" and
+// "end of block".
 ByteVector grey_jpeg() {
     std::vector<int> codes{0xff, 0xd8, 0xff, 0xdb, 0, 67, 0};
     codes.insert(codes.end(), 64, 1);

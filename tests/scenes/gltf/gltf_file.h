@@ -1,4 +1,4 @@
-// tests/scenes/gltf/gltf_file.h - small glTF files, made in a test.
+// tests/scenes/gltf/gltf_file.h - builds small glTF files for tests.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -24,14 +24,15 @@ using ByteVector = std::vector<std::byte>;
 [[nodiscard]] ByteVector glb(const Json& json, const ByteVector& bin);
 inline constexpr std::uint32_t json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;
 
-// `channels` interleaved codes of 8 or 16 bits, big endian, with the PNG colour type that fits; compressed by storing.
+// `channels` interleaved codes of 8 or 16 bits, big endian, as a PNG of the matching colour type in stored
+// (uncompressed) blocks.
 [[nodiscard]] ByteVector png(std::uint32_t width, std::uint32_t height, int bits, int channels,
                              const std::vector<std::uint8_t>& raw);
-[[nodiscard]] ByteVector grey_jpeg();  // 8 x 8 texels of 128
+[[nodiscard]] ByteVector grey_jpeg();  // 8 x 8 texels of code 128
 
 enum Component { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-// A document that grows part by part. One buffer; each part returns its index.
+// A document that is built part by part, with one buffer; each function that adds a part returns its index.
 class GltfFile {
   public:
     Json json{{"asset", {{"version", "2.0"}}}};
@@ -60,7 +61,7 @@ class GltfFile {
     }
     int positions(const std::vector<float>& values) { return accessor("VEC3", f32, values.size() / 3, values); }
 
-    // A mesh of one primitive, a node for it, and the node in scene 0.
+    // Adds a mesh of one primitive and a node for it, and the node to scene 0.
     int show(Json primitive) {
         const int mesh = add("meshes", {{"primitives", Json::array({std::move(primitive)})}});
         return show_node({{"mesh", mesh}});
@@ -72,14 +73,14 @@ class GltfFile {
         return index;
     }
 
-    [[nodiscard]] Json document() const;  // the buffer as a data: uri
+    [[nodiscard]] Json document() const;  // with the buffer as a data: uri
     [[nodiscard]] ByteVector as_glb() const;
     [[nodiscard]] Scene load(const SceneOptions& options = {}) const;
 };
 
 [[nodiscard]] Scene load(const Json& document, const SceneOptions& options = {});
 
-// A file that uses a bit of everything: the bad files are this one with one thing changed. Accessors: 0 POSITION, 1
+// A file that uses every kind of object; the invalid files are this one with one change. Accessors: 0 POSITION, 1
 // NORMAL, 2 TEXCOORD_0, 3 COLOR_0 (sparse), 4 indices. Nodes: 0 (parent of 1 and 2), 1 mesh, 2 camera, 3 camera.
 [[nodiscard]] GltfFile everything();
 

@@ -1,4 +1,5 @@
-// Model: transforms worked out by hand, as the matrix of a node with the same translation, rotation and scale has them.
+// Tests EXT_mesh_gpu_instancing against transforms worked out by hand, and against nodes with the same translation,
+// rotation and scale.
 #include <catch2/catch.hpp>
 
 #include "tests/scenes/gltf/gltf_file.h"
@@ -10,7 +11,7 @@ namespace {
 
 const double sqrt_half = 0.7071067811865476;  // sine and cosine of half a right angle
 
-// One node that shows a triangle, repeated by these attributes.
+// One node with a triangle, repeated by these attributes.
 GltfFile instanced(GltfFile file, const Json& attributes, const Json& node = Json::object()) {
     const int mesh = file.add(
         "meshes",
@@ -24,7 +25,7 @@ GltfFile instanced(GltfFile file, const Json& attributes, const Json& node = Jso
     return file;
 }
 
-// The world matrix of a node that has these parts, below a parent moved by (0, 0, 7).
+// The world matrix of a node with these properties, below a parent moved by (0, 0, 7).
 Matrix of_node(const Json& node) {
     GltfFile file;
     file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
@@ -36,7 +37,7 @@ Matrix of_node(const Json& node) {
 
 }  // namespace
 
-TEST_CASE("a node's mesh stands at each instance's translation, rotation and scale, below the node's own transform") {
+TEST_CASE("a mesh is drawn at each instance's translation and rotation and scale below the node's own transform") {
     GltfFile file;
     const int moved = file.accessor("VEC3", f32, 2, std::vector<float>{1, 2, 3, -4, 5, 6});
     const int turned = file.accessor(
@@ -58,7 +59,7 @@ TEST_CASE("a node's mesh stands at each instance's translation, rotation and sca
     CHECK(scene.bounds.hi[2] == 13);
 }
 
-TEST_CASE("what an instancing leaves out is the identity's, and rotations may be normalised integers") {
+TEST_CASE("attributes missing in an instancing are the identity's and rotations may be normalised integers") {
     GltfFile file;
     const int turned = file.accessor("VEC4", i16, 1, std::vector<std::int16_t>{0, 0, 0, 32767}, {{"normalized", true}});
     const auto scene = instanced(file, {{"ROTATION", turned}}).load();
@@ -66,7 +67,7 @@ TEST_CASE("what an instancing leaves out is the identity's, and rotations may be
     CHECK(scene.list.instances[0].model == strata::pipeline::identity);
 }
 
-TEST_CASE("an instancing whose accessors do not fit is refused by the place that is wrong") {
+TEST_CASE("an instancing with inconsistent accessors is rejected with its JSON pointer") {
     const auto says = [](const std::string& words, const std::string& type, Component component, std::size_t count,
                          const char* name) {
         GltfFile file;

@@ -1,5 +1,5 @@
-// Model: glTF 2.0, 3.8 and 3.9, IEC 61966-2-1 with numbers worked out by hand, and the worked example of
-// KHR_texture_transform.
+// Tests glTF materials against glTF 2.0, 3.8 and 3.9, IEC 61966-2-1 with numbers worked out by hand, and the worked
+// example of KHR_texture_transform.
 #include <catch2/catch.hpp>
 
 #include "tests/scenes/gltf/gltf_file.h"
@@ -30,7 +30,7 @@ void check_near(const std::vector<Vec2>& found, const std::vector<Vec2>& expecte
 
 }  // namespace
 
-TEST_CASE("a base colour factor is linear: encoded once for an encoded frame, kept for a linear one, alpha never") {
+TEST_CASE("a linear base colour factor is encoded once for an encoded frame and alpha never is") {
     GltfFile file = everything();
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.2140411404715882, 0, 0.5};
     const Rgba encoded = file.load().list.materials.at(0).front;
@@ -46,7 +46,7 @@ TEST_CASE("a base colour factor is linear: encoded once for an encoded frame, ke
     CHECK(file.load().list.textures[0].texels == linear.list.textures[0].texels);
 }
 
-TEST_CASE("alpha mode, cutoff and sides are the material's, and opaque means alpha 1 everywhere") {
+TEST_CASE("alpha mode and cutoff and sidedness are the material's and opaque means alpha 1 everywhere") {
     GltfFile file = everything();
     Json& material = file.json["materials"][0];
     const auto loaded = [&] { return file.load().list; };
@@ -65,7 +65,7 @@ TEST_CASE("alpha mode, cutoff and sides are the material's, and opaque means alp
     CHECK(loaded().meshes.at(0).colors.at(2)[3] == 1);
 }
 
-TEST_CASE("a material that can never be seen is loaded as written, with a warning") {
+TEST_CASE("a material that can never be visible is loaded as written with a warning") {
     GltfFile file = everything();
     file.json["materials"][0]["alphaMode"] = "MASK";
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][3] = 0;
@@ -73,7 +73,7 @@ TEST_CASE("a material that can never be seen is loaded as written, with a warnin
     CHECK(scene.list.materials.at(0).front[3] == 0);
     CHECK(scene.warnings ==
           std::vector<std::string>{"/materials/0: its alpha is below its cutoff: nothing of it is drawn"});
-    file.json["materials"][0]["alphaCutoff"] = 0;  // alpha 0 passes it
+    file.json["materials"][0]["alphaCutoff"] = 0;  // alpha 0 passes this cutoff
     CHECK(file.load().warnings.empty());
     file.json["materials"][0]["alphaMode"] = "BLEND";
     CHECK(file.load().warnings ==
@@ -81,7 +81,7 @@ TEST_CASE("a material that can never be seen is loaded as written, with a warnin
               "/materials/0: its alpha is 0: nothing of it is seen, but its fragments are peeled as layers"});
 }
 
-TEST_CASE("a material that transmits light is named with its factor and the way to draw it alone blended") {
+TEST_CASE("a material that transmits light is reported with its factor and the way to draw it blended") {
     GltfFile file = everything();
     file.json["materials"][0]["name"] = "pane";
     file.json["extensionsUsed"] = {"KHR_materials_transmission"};
@@ -97,14 +97,14 @@ TEST_CASE("a material that transmits light is named with its factor and the way 
     transmission["transmissionFactor"] = 1;
     file.json["materials"][0]["name"] = "a pane";
     CHECK(file.load().warnings.at(0).find("--alpha 'a pane=0.05' draws") != std::string::npos);
-    // Nothing is lost where nothing is transmitted.
+    // No warning where nothing is transmitted.
     transmission["transmissionFactor"] = 0;
     CHECK(file.load().warnings.empty());
     transmission.erase("transmissionFactor");
     CHECK(file.load().warnings.empty());
 }
 
-TEST_CASE("unlit comes from the material or from the options, and then there are no normals") {
+TEST_CASE("unlit comes from the material or from the options and then there are no normals") {
     GltfFile file = everything();
     CHECK_FALSE(file.load().list.materials.at(0).unlit);
     CHECK(file.load().list.meshes.at(0).normals.size() == 4);
@@ -118,7 +118,7 @@ TEST_CASE("unlit comes from the material or from the options, and then there are
     CHECK(scene.warnings.empty());
 }
 
-TEST_CASE("a primitive without material is white, opaque, lit and one-sided") {
+TEST_CASE("a primitive without material is opaque white and lit and one-sided") {
     GltfFile file = everything();
     file.json["meshes"][0]["primitives"][0].erase("material");
     const auto scene = file.load();
@@ -127,7 +127,7 @@ TEST_CASE("a primitive without material is white, opaque, lit and one-sided") {
     CHECK(scene.list.meshes.at(0).texcoords.empty());
 }
 
-TEST_CASE("the sampler's wrap and magnification count, its mip levels are warned of") {
+TEST_CASE("the wrap and magnification of a sampler are used and its mip levels give a warning") {
     GltfFile file = everything();
     const auto texture = [&] { return file.load().list.textures.at(0); };
     CHECK(texture().filter == TextureFilter::nearest);
@@ -143,20 +143,20 @@ TEST_CASE("the sampler's wrap and magnification count, its mip levels are warned
     CHECK(texture().wrap_s == TextureWrap::repeat);
 }
 
-TEST_CASE("a texture transform scales, then turns counter-clockwise as seen with v down, then moves") {
+TEST_CASE("a texture transform scales and then rotates counterclockwise as seen with v down and then translates") {
     const std::vector<Vec2> plain{{0, 0}, {1, 0}, {0, 1}, {1, 1}};
     CHECK(texcoords_with(Json::object()) == plain);
     check_near(texcoords_with({{"offset", {0.25, 3000000000.0}}}),
                {{0.25f, 3e9f}, {1.25f, 3e9f}, {0.25f, 3e9f}, {1.25f, 3e9f}});
     check_near(texcoords_with({{"offset", {0, 1}}, {"scale", {1, -1}}}), {{0, 1}, {1, 1}, {0, 0}, {1, 0}});
-    // The extension's example: the lower left quadrant of the image (v down: 0 to 0.5, 0.5 to 1), turned.
+    // The extension's example: the lower left quadrant of the image (v down: 0 to 0.5, 0.5 to 1), rotated.
     check_near(texcoords_with({{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}}),
                {{0, 1}, {0, 0.5f}, {0.5f, 1}, {0.5f, 0.5f}});
     check_near(texcoords_with({{"rotation", 0.5235987755982988}, {"scale", {2, 4}}}),
                {{0, 0}, {1.7320508f, -1}, {2, 3.4641016f}, {3.7320508f, 2.4641016f}});
 }
 
-TEST_CASE("texCoord names the set, and the transform's own texCoord wins") {
+TEST_CASE("texCoord names the set and the transform's own texCoord takes precedence") {
     GltfFile file = everything();
     Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["TEXCOORD_1"] = file.accessor<float>("VEC2", f32, 4, {9, 9, 9, 9, 9, 9, 9, 9});
@@ -168,7 +168,7 @@ TEST_CASE("texCoord names the set, and the transform's own texCoord wins") {
     CHECK(first() == Vec2{0, 0});
 }
 
-TEST_CASE("what is ignored is named once, with its first place and how many more") {
+TEST_CASE("each ignored feature is reported once with its first JSON pointer and the number of others") {
     GltfFile file = everything();
     file.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
     file.json["animations"] = Json::array({Json::object()});

@@ -1,4 +1,5 @@
-// Model: glTF 2.0, 3.7.2.1 (which vertices make which triangle), written out for small meshes.
+// Tests glTF meshes against glTF 2.0, 3.7.2.1 (which vertices make which triangle). The expected triangles of small
+// meshes are written by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,7 @@ using strata::pipeline::ColorSpace;
 using strata::pipeline::Mesh;
 using Vec3s = std::vector<strata::pipeline::Vec3>;
 
-GltfFile numbered_vertices(std::size_t count, Json primitive) {  // vertex i stands at (i, i * i, 0)
+GltfFile numbered_vertices(std::size_t count, Json primitive) {  // vertex i is at (i, i * i, 0)
     GltfFile file;
     std::vector<float> positions;
     for (std::size_t i = 0; i < count; ++i)
@@ -23,7 +24,7 @@ GltfFile numbered_vertices(std::size_t count, Json primitive) {  // vertex i sta
     return file;
 }
 
-// The vertex numbers of the corners, as the mesh's positions tell them.
+// The vertex numbers of the corners, recovered from the mesh's positions.
 Indices corners(const Mesh& mesh) {
     Indices numbers;
     for (const std::uint32_t index : mesh.indices)
@@ -38,7 +39,7 @@ Indices corners_of(std::size_t count, int mode) {
 
 }  // namespace
 
-TEST_CASE("triangles, strips and fans take their corners in the specification's order") {
+TEST_CASE("triangles and strips and fans take their corners in the specification's order") {
     CHECK(corners_of(6, 4) == Indices{0, 1, 2, 3, 4, 5});
     CHECK(corners_of(6, 5) == Indices{0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4});
     CHECK(corners_of(6, 6) == Indices{1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0});
@@ -48,18 +49,18 @@ TEST_CASE("triangles, strips and fans take their corners in the specification's 
     for (const int mode : {0, 1, 2, 3}) CHECK(corners_of(6, mode).empty());
 }
 
-TEST_CASE("an indexed strip is the strip of its indices, and unused vertices are left out") {
+TEST_CASE("an indexed strip is the strip of its indices and unused vertices are omitted") {
     GltfFile file = numbered_vertices(9, {{"mode", 5}});
     file.json["meshes"][0]["primitives"][0]["indices"] = file.accessor<std::uint8_t>("SCALAR", u8, 4, {7, 2, 5, 8});
     const auto lit = file.load().list.meshes.at(0), unlit = file.load({.light = false}).list.meshes.at(0);
     CHECK(corners(lit) == Indices{7, 2, 5, 2, 8, 5});
     CHECK(corners(unlit) == Indices{7, 2, 5, 2, 8, 5});
-    CHECK(lit.positions.size() == 6);    // flat: nothing is shared
-    CHECK(unlit.positions.size() == 4);  // 2 5 7 8
+    CHECK(lit.positions.size() == 6);    // flat shading: no vertex is shared
+    CHECK(unlit.positions.size() == 4);  // vertices 2 5 7 8
     CHECK(unlit.normals.empty());
 }
 
-TEST_CASE("without normals each triangle is flat, and one without area has a normal of length 1 all the same") {
+TEST_CASE("without normals each triangle is flat and one without area still has a normal of length 1") {
     GltfFile file;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const int accessor = file.positions({0, 0, 0, 2, 0, 0, 0, 3, 0,      0,   0, 0, 0, 4, 3, 0, 8, 6,
@@ -70,11 +71,11 @@ TEST_CASE("without normals each triangle is flat, and one without area has a nor
     REQUIRE(normals.size() == 12);
     const Vec3s expected{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, 1}};
     for (std::size_t i = 0; i < 12; ++i) CHECK(normals[i] == expected[i / 3]);
-    CHECK(std::isnan(scene.list.meshes[0].positions[9][0]));  // the rasterizer drops and counts it
+    CHECK(std::isnan(scene.list.meshes[0].positions[9][0]));  // dropped and counted by the rasterizer
     CHECK(scene.bounds.hi == strata::Vec3d{2, 8, 6});
 }
 
-TEST_CASE("vertex colours are linear, clamped, and encoded once") {
+TEST_CASE("vertex colours are linear and clamped and encoded once") {
     GltfFile file = numbered_vertices(3, Json::object());
     Json& primitive = file.json["meshes"][0]["primitives"][0];
     primitive["attributes"]["COLOR_0"] =
@@ -93,7 +94,7 @@ TEST_CASE("vertex colours are linear, clamped, and encoded once") {
           std::vector<std::string>{"/meshes/0/primitives/0: vertex colours outside 0 to 1 are clamped"});
 }
 
-TEST_CASE("vertex alpha counts unless the material is opaque, in every format") {
+TEST_CASE("vertex alpha counts unless the material is opaque and in every format") {
     for (const char* mode : {"OPAQUE", "BLEND", "MASK"}) {
         GltfFile file = numbered_vertices(3, {{"material", 0}});
         file.add("materials", {{"alphaMode", mode}});
@@ -108,7 +109,7 @@ TEST_CASE("vertex alpha counts unless the material is opaque, in every format") 
     }
 }
 
-TEST_CASE("NaN and infinity are refused in every attribute but POSITION") {
+TEST_CASE("NaN and infinity are rejected in every attribute except POSITION") {
     for (const char* name : {"NORMAL", "TEXCOORD_0", "COLOR_0"})
         for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
             GltfFile file = everything();

@@ -1,4 +1,5 @@
-// Model: one scene in three wrappings gives one draw list; the counts that the models' own README states.
+// Tests complete models: one scene in three containers must give one draw list, and the shared models must have the
+// counts that their README states.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -30,7 +31,7 @@ void write(const fs::path& path, const ByteVector& bytes) {
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-// The shared models, or nothing if this machine has none.
+// The folder of the shared models, or an empty path if it does not exist.
 fs::path models() {
     const char* const named = std::getenv("STRATA_MODELS_DIR");
     const fs::path folder = named != nullptr ? named : STRATA_MODELS_DIR;
@@ -47,7 +48,7 @@ std::size_t triangles(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("a scene is the same as .glb, with data uris and with files beside it") {
+TEST_CASE("a scene is the same as .glb and with data uris and with separate files") {
     const GltfFile file = everything();
     const fs::path folder = fs::temp_directory_path() / ("strata_gltf_model_" + std::to_string(::getpid()));
     fs::create_directories(folder);
@@ -71,7 +72,7 @@ TEST_CASE("a scene is the same as .glb, with data uris and with files beside it"
     CHECK(data.warnings.empty());
 }
 
-TEST_CASE("the shared models hold the triangles that their README counts") {
+TEST_CASE("the shared models have the numbers of triangles in their README") {
     const fs::path folder = models();
     if (folder.empty()) return;
     const std::pair<const char*, std::size_t> expected[]{
@@ -103,7 +104,7 @@ TEST_CASE("the Khronos alpha models keep their modes and cutoffs") {
     }
 }
 
-TEST_CASE("Sponza's three masked materials are found, and that two of them can never be seen") {
+TEST_CASE("Sponza's three masked materials are found and two of them can never be visible") {
     const fs::path folder = models();
     if (folder.empty()) return;
     const Scene scene = strata::scenes::load_gltf((folder / "sponza.glb").string(), {});

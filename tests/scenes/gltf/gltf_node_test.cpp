@@ -1,4 +1,5 @@
-// Model: transforms worked out by hand; a camera's view is checked by where it puts points of its own frame.
+// Tests glTF nodes against transforms worked out by hand. A camera's view is checked by the images of points of its own
+// frame.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/input_error.h"
@@ -39,7 +40,7 @@ const double half = 0.7071067811865476;  // sine and cosine of half a right angl
 
 }  // namespace
 
-TEST_CASE("a node scales, then rotates, then translates, and a parent comes last") {
+TEST_CASE("a node scales then rotates then translates and a parent's transform is applied last") {
     GltfFile file = triangle({{"translation", {10, 0, 0}}, {"rotation", {0, 0, half, half}}, {"scale", {2, 3, 4}}});
     const Matrix own = file.load().list.instances.at(0).model;
     check_near(transformed(own, {1, 0, 0}), {10, 2, 0});
@@ -52,7 +53,7 @@ TEST_CASE("a node scales, then rotates, then translates, and a parent comes last
     check_near(transformed(below, {0, 0, 1}), {10, -4, 5});
 }
 
-TEST_CASE("a matrix is taken as written, column by column, and a mirror stays one") {
+TEST_CASE("a matrix is read as written column by column and a mirroring one stays so") {
     const Json matrix{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, -10, 0, 11, 12, 13, 1};
     CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model ==
           strata::matrix_of(matrix.get<std::array<double, 16>>()));
@@ -62,7 +63,7 @@ TEST_CASE("a matrix is taken as written, column by column, and a mirror stays on
     CHECK(mirrored.bounds.hi == strata::Vec3d{0, 1, 0});
 }
 
-TEST_CASE("a mesh that two nodes show is stored once, and instances keep the order of the walk") {
+TEST_CASE("a mesh of two nodes is stored once and instances keep the order of the traversal") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     file.show_node({{"children", {2, 3}}});
     file.add("nodes", {{"mesh", 0}, {"translation", {2, 0, 0}}});
@@ -74,7 +75,7 @@ TEST_CASE("a mesh that two nodes show is stored once, and instances keep the ord
     for (std::size_t i = 0; i < 4; ++i) CHECK(list.instances[i].model[3][0] == static_cast<double>(i + 1));
 }
 
-TEST_CASE("nodes may nest 100,000 deep, and a transform that overflows is refused") {
+TEST_CASE("nodes may nest 100000 deep and a transform that overflows is rejected") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     for (int i = 1; i <= 100000; ++i) file.add("nodes", {{"children", {i - 1}}, {"translation", {1, 0, 0}}});
     file.json["scenes"][0]["nodes"] = {100000};
@@ -86,9 +87,7 @@ TEST_CASE("nodes may nest 100,000 deep, and a transform that overflows is refuse
           "test.gltf: /nodes/0: expected a finite world transform, found an overflow [VALUE_NOT_IN_RANGE]");
 }
 
-TEST_CASE(
-    "the option --scene chooses, the file's own scene comes next, then the first, and without scenes all nodes are "
-    "shown") {
+TEST_CASE("the scene is that of --scene or else the file's own or the first and without scenes all nodes are used") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     file.add("nodes", {{"mesh", 0}, {"translation", {2, 0, 0}}});
     file.add("scenes", {{"nodes", {1}}});
@@ -109,7 +108,7 @@ TEST_CASE(
     CHECK(file.load().warnings == std::vector<std::string>{"/scenes: the file has no scene: all its nodes are shown"});
 }
 
-TEST_CASE("a camera looks along its node's -z, whatever scale or mirror the node has") {
+TEST_CASE("a camera looks along its node's -z for any scale or mirroring of the node") {
     for (const Json& scale : {Json{1, 1, 1}, Json{2, 3, 4}, Json{-1, 1, 1}, Json{-2, -3, 5}}) {
         GltfFile file;
         file.add("cameras", {{"name", "front"},
@@ -122,14 +121,14 @@ TEST_CASE("a camera looks along its node's -z, whatever scale or mirror the node
             (camera.perspective && camera.yfov == 0.5 && camera.znear == 1 && camera.zfar == 0 && camera.aspect == 2));
         CHECK(determinant_of(camera.view) == Approx(1));
         check_near(transformed(camera.view, {1, 2, 3}), {0, 0, 0});
-        // Turned by a right angle about y, -z is -x; a negative scale of x turns "right" round, and with it "up".
+        // Rotated by a right angle about y, -z is -x. A negative scale of x reverses "right", and with it "up".
         const double side = scale[0] < 0 ? -1 : 1;
         check_near(transformed(camera.view, {-4, 2, 3}), {0, 0, -5});
         check_near(transformed(camera.view, {1, 2, 2}), {side, 0, 0});
     }
 }
 
-TEST_CASE("an orthographic camera keeps its magnifications, and names are made unique") {
+TEST_CASE("an orthographic camera keeps its magnifications and names are made unique") {
     GltfFile file;
     file.add("cameras",
              {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", -3}, {"znear", 0}, {"zfar", 9}}}});
@@ -144,7 +143,7 @@ TEST_CASE("an orthographic camera keeps its magnifications, and names are made u
     CHECK(cameras[2].name == "camera");
 }
 
-TEST_CASE("every camera has a name of its own, also where a file writes the name that another one was given") {
+TEST_CASE("every camera has a unique name even if a file uses a name that another one was given") {
     const auto names_of = [](const std::vector<std::string>& written) {
         GltfFile file;
         file.add("cameras",

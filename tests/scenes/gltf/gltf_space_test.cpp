@@ -1,5 +1,5 @@
-// Model: plain arrays, filled by a loop, for every type of component at every stride and offset; limits met to the
-// element.
+// Tests the layout of accessors against plain arrays filled by a loop, for every component type at every stride and
+// offset, and limits to the exact element.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
@@ -13,7 +13,7 @@ using namespace strata::scenes::test;
 using strata::scenes::GltfLimits;
 using Positions = std::vector<strata::pipeline::Vec3>;
 
-// Whether the file loads within `limits`; if not, its sentence ends in the code for a number out of range.
+// True if the file loads within `limits`; otherwise its message must end in the code for a number out of range.
 bool fits(const Json& document, const GltfLimits& limits) {
     try {
         static_cast<void>(strata::scenes::load_gltf_bytes(to_bytes(document.dump()), "f", {.light = false}, limits));
@@ -28,8 +28,8 @@ struct Layout {
     std::size_t stride, view_offset, offset, count;
 };
 
-// `count` positions of component T behind `offset` bytes, `stride` bytes apart (0: none is written); noise between
-// them.
+// `count` positions of component type T after `offset` bytes, `stride` bytes apart (0: no stride is written), with
+// random bytes between them.
 template <class T>
 Positions loaded(Component component, const Layout& layout, Positions& expected, std::mt19937& random) {
     const std::size_t step = layout.stride == 0 ? 3 * sizeof(T) : layout.stride;
@@ -67,7 +67,7 @@ int count_wrong(Component component) {
         for (const std::size_t view_offset : {0, 4, 28})
             for (const std::size_t offset : {0, 4, 12})
                 for (const std::size_t count : {3, 4, 9}) {
-                    if (stride == 0 && sizeof(T) < 4) continue;  // elements of an attribute begin at multiples of 4
+                    if (stride == 0 && sizeof(T) < 4) continue;  // elements of an attribute start at multiples of 4
                     if (stride != 0 && stride < 3 * sizeof(T)) continue;
                     Positions expected;
                     wrong += loaded<T>(component, {stride, view_offset, offset, count}, expected, random) == expected
@@ -77,7 +77,7 @@ int count_wrong(Component component) {
     return wrong;
 }
 
-// A file whose one mesh is a strip of `count` zeros; it names no bytes but its own.
+// A file whose one mesh is a strip of `count` zeros and which has no binary data.
 Json zeros(std::size_t count) {
     GltfFile file;
     file.add("accessors", {{"componentType", f32}, {"count", count}, {"type", "VEC3"}});
@@ -114,7 +114,7 @@ bool substitutes(Component component, const std::vector<Index>& changed, std::si
 
 }  // namespace
 
-TEST_CASE("positions of every component type are found at every stride and offset that their size allows") {
+TEST_CASE("positions of every component type are read at every stride and offset that their size allows") {
     CHECK(count_wrong<std::int8_t>(i8) == 0);
     CHECK(count_wrong<std::uint8_t>(u8) == 0);
     CHECK(count_wrong<std::int16_t>(i16) == 0);
@@ -122,7 +122,7 @@ TEST_CASE("positions of every component type are found at every stride and offse
     CHECK(count_wrong<float>(f32) == 0);
 }
 
-TEST_CASE("sparse elements are found wherever they stand, by indices of every type") {
+TEST_CASE("sparse elements are read at any position by indices of every type") {
     std::mt19937 random{23};
     int wrong = 0;
     for (int i = 0; i < 40; ++i) {
@@ -140,7 +140,7 @@ TEST_CASE("sparse elements are found wherever they stand, by indices of every ty
     CHECK(substitutes(u32, std::vector<std::uint32_t>{0, 65535, 65536}, 65537));
 }
 
-TEST_CASE("sparse indices increase strictly and stay below the count") {
+TEST_CASE("sparse indices must increase strictly and be below the count") {
     const auto said = [](const std::vector<std::uint8_t>& changed) {
         try {
             static_cast<void>(with_sparse(u8, changed, 5, true));
@@ -156,23 +156,23 @@ TEST_CASE("sparse indices increase strictly and stay below the count") {
     CHECK(said({3, 4}) == "");
 }
 
-TEST_CASE("a file's elements are as many as its limit and 16 for each of its bytes, and not one more") {
+TEST_CASE("a file may have as many elements as its limit plus 16 for each of its bytes and not one more") {
     const Json document = zeros(5000);
     const std::uint64_t free = 16 * document.dump().size();
     REQUIRE(free < 5000);
     CHECK(fits(document, {.elements = 5000 - free}));
     CHECK_FALSE(fits(document, {.elements = 4999 - free}));
-    Json twice = document;  // each primitive pays for itself
+    Json twice = document;  // each primitive counts separately
     twice["meshes"][0]["primitives"].push_back(twice["meshes"][0]["primitives"][0]);
     const std::uint64_t more = 16 * twice.dump().size();
     CHECK(fits(twice, {.elements = 10'000 - more}));
     CHECK_FALSE(fits(twice, {.elements = 9999 - more}));
 }
 
-TEST_CASE("corners over all instances are as many as their limit, and not one more") {
+TEST_CASE("the number of corners over all instances may reach its limit and not exceed it") {
     GltfFile file;
     file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
-    file.show({{"mode", 5}, {"attributes", {{"POSITION", 0}}}});  // two triangles
+    file.show({{"mode", 5}, {"attributes", {{"POSITION", 0}}}});  // a strip of two triangles
     for (int i = 0; i < 4; ++i) file.show_node({{"mesh", 0}});
     const Json document = file.document();
     CHECK(fits(document, {.instanced = 30}));
@@ -180,7 +180,7 @@ TEST_CASE("corners over all instances are as many as their limit, and not one mo
     CHECK_FALSE(fits(document, {.instanced = 5}));
 }
 
-TEST_CASE("texels of all textures are as many as their limit, and an image that two textures show counts twice") {
+TEST_CASE("the number of texels of all textures may reach its limit and an image of two textures counts twice") {
     GltfFile file = everything();
     file.json["images"][0]["uri"] = data_uri(png(3, 2, 8, 4, std::vector<std::uint8_t>(24, 128)), "image/png");
     CHECK(fits(file.document(), {.texels = 6}));

@@ -1,4 +1,4 @@
-// Model: the numbers as they were written into the files.
+// Tests model formats on files written here; the expected numbers are those in the files.
 #include "scenes/models/models.h"
 
 #include <catch2/catch.hpp>
@@ -30,14 +30,14 @@ const std::string stl =
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0.1\nvertex 1 -1 0\nvertex 0 1 "
     "0\nendloop\nendfacet\nendsolid a\n";
 
-// A material with a colour, one with opacity, one that is not lit and has a texture.
+// A material with a colour, one with opacity, one that is unlit and textured.
 const std::string mtl =
     "newmtl wall\nKd 0.2 0.4 0.6\nillum 2\nnewmtl pane\nKd 1 0 0\nd 0.25\nillum 2\nnewmtl sign\nKd 1 1 1\nillum "
     "0\nmap_Kd sign.bmp\n";
 
 }  // namespace
 
-TEST_CASE("one triangle as OBJ, OFF, PLY and STL has the positions of the file, from both sides, opaque and lit") {
+TEST_CASE("one triangle in any model format has the positions of the file and is opaque and lit and two-sided") {
     const strata::test::OwnFolder folder;
     for (const auto& [name, bytes] :
          {std::pair{"a.obj", obj}, {"a.off", off}, {"a.ply", ply}, {"a.stl", stl}, {"B.OBJ", obj}}) {
@@ -60,7 +60,7 @@ TEST_CASE("one triangle as OBJ, OFF, PLY and STL has the positions of the file, 
     }
 }
 
-TEST_CASE("polygons are cut into triangles, points and lines are left out, a mesh a material") {
+TEST_CASE("polygons are split into triangles with a mesh per material and points and lines are omitted") {
     const strata::test::OwnFolder folder;
     const Scene scene =
         load_scene(put(folder, "q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nl 1 5\np 5\n"), {});
@@ -69,8 +69,7 @@ TEST_CASE("polygons are cut into triangles, points and lines are left out, a mes
     CHECK(corners == 6);
 }
 
-TEST_CASE(
-    "materials of an OBJ file have their colour, their opacity and their name, and what cannot be drawn is told") {
+TEST_CASE("materials of an OBJ file keep their properties and unsupported features are reported") {
     const strata::test::OwnFolder folder;
     put(folder, "room.mtl", mtl);
     const Scene scene =
@@ -97,7 +96,7 @@ TEST_CASE(
     CHECK(wall->front[3] == 0.5f);
 }
 
-TEST_CASE("colours of a PLY file's vertices are drawn, and make it blended where one lets light through") {
+TEST_CASE("vertex colours of a PLY file are drawn and a colour with alpha below 1 makes it blended") {
     const strata::test::OwnFolder folder;
     std::string colored = ply;
     colored.replace(colored.find("element face"), 0,
@@ -113,7 +112,7 @@ TEST_CASE("colours of a PLY file's vertices are drawn, and make it blended where
     CHECK(scene.list.materials.at(0).alpha_mode == pipeline::AlphaMode::blend);
 }
 
-TEST_CASE("a model that is none, and one of another format, is refused in a sentence") {
+TEST_CASE("a file that is not a model or of another format is rejected with an error message") {
     const strata::test::OwnFolder folder;
     CHECK_THROWS_WITH(load_scene(put(folder, "a.ply", "ply\nnothing"), {}),
                       Contains("a.ply: content: expected a model that Assimp reads"));
@@ -128,8 +127,8 @@ TEST_CASE("a model that is none, and one of another format, is refused in a sent
                       Contains("--scene: expected 0, the only one"));
 }
 
-// A model names other files: those of its folder alone are read.
-TEST_CASE("what a model names outside of its folder is not opened") {
+// A model refers to other files: only those in its folder are read.
+TEST_CASE("files outside of its folder that a model names are not opened") {
     const strata::test::OwnFolder outside, folder;
     put(outside, "far.mtl", mtl);
     const std::string name = std::filesystem::relative(outside.path(), folder.path()).string() + "/far.mtl";
@@ -139,7 +138,7 @@ TEST_CASE("what a model names outside of its folder is not opened") {
     CHECK_THAT(scene.warnings[0], Contains("its materials are drawn white") && Contains("far.mtl'"));
 }
 
-TEST_CASE("what is wrong with a file that a model names is told, as of the model itself") {
+TEST_CASE("a fault of a file that a model names is reported as a fault of the model") {
     const strata::test::OwnFolder folder;
     put(folder, "walls.mtl", "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, 'a') + "\n");
     CHECK_THROWS_WITH(load_scene(put(folder, "a.obj", "mtllib walls.mtl\nusemtl wall\n" + obj), {}),

@@ -1,4 +1,5 @@
-// Model: symmetries, values that binary64 holds exactly, and MPFR with 60 digits where every base meets every exponent.
+// Tests the elementary functions at special values: symmetries, values that binary64 represents exactly, and MPFR with
+// 60 digits where every base is combined with every exponent.
 #include <bit>
 #include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
@@ -19,7 +20,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double least_normal = std::numeric_limits<double>::min();
 constexpr double greatest = std::numeric_limits<double>::max();
 
-// In units of the last place of `exact`, those of the smallest numbers being 2^-1074.
+// Error in units of the last place of `exact`, at least 2^-1074.
 double units_off(double answer, const WideNumber& exact) {
     const int exponent = std::max(std::ilogb(exact.convert_to<double>()), -1022);
     return abs((WideNumber{answer} - exact) / ldexp(WideNumber{1}, exponent - 52)).convert_to<double>();
@@ -29,7 +30,7 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 
 }  // namespace
 
-TEST_CASE("angles count up to 10^6 radians, the limit among them, in both directions") {
+TEST_CASE("angles are accepted up to 10^6 radians inclusive in both directions") {
     for (const double sign : {1.0, -1.0}) {
         const double last = sign * 1e6, beyond = std::nextafter(last, sign * endless);
         CHECK(units_off(elementary::sin(last), sin(WideNumber{last})) < 0.501);
@@ -41,7 +42,7 @@ TEST_CASE("angles count up to 10^6 radians, the limit among them, in both direct
     }
 }
 
-TEST_CASE("sine and tangent are odd and cosine is even, bit for bit") {
+TEST_CASE("sine and tangent are odd and cosine is even in every bit") {
     std::mt19937_64 random{5};
     std::uniform_real_distribution<double> exponent{-60, 19.9};
     double first_wrong = 0;
@@ -55,7 +56,7 @@ TEST_CASE("sine and tangent are odd and cosine is even, bit for bit") {
     CHECK(first_wrong == 0);
 }
 
-TEST_CASE("small angles are their own sine and tangent") {
+TEST_CASE("small angles are equal to their sine and tangent") {
     for (const double x : {0x1p-1074, least_normal, 0x1p-500, 0x1.8p-27}) {
         CHECK(elementary::sin(x) == x);
         CHECK(elementary::cos(x) == (x < 0x1p-27 ? 1 : 1 - 0x1.2p-54));
@@ -65,7 +66,7 @@ TEST_CASE("small angles are their own sine and tangent") {
     CHECK(same_bits(elementary::tan(0.0), 0.0));
 }
 
-TEST_CASE("every base to every exponent is right to half a unit, at the ends of the range too") {
+TEST_CASE("every base to every exponent is within half a unit and at the ends of the range too") {
     const double bases[] = {0x1p-1074,
                             0x1.8p-1073,
                             0x1.fffffffffffffp-1023,
@@ -113,7 +114,7 @@ TEST_CASE("every base to every exponent is right to half a unit, at the ends of 
     CHECK((in_range > 200 && small > 5 && above > 50 && below > 50));
 }
 
-TEST_CASE("a power that binary64 holds is found exactly: squares, cubes, their roots, powers of two") {
+TEST_CASE("a power that binary64 represents is exact") {
     int wrong = 0;
     for (int n = 1; n <= 2000; ++n) {
         const double x = n;
@@ -124,7 +125,7 @@ TEST_CASE("a power that binary64 holds is found exactly: squares, cubes, their r
     CHECK(wrong == 0);
 }
 
-TEST_CASE("powers of zero, of one, and to zero are what they are by definition, and what is left is NaN") {
+TEST_CASE("powers with base or exponent 0 or base 1 have their defined values and undefined ones are NaN") {
     for (const double exponent : {0.5, 1.0, 1e300}) {
         CHECK(same_bits(elementary::pow(0, exponent), 0.0));
         CHECK(elementary::pow(0, -exponent) == endless);
@@ -141,7 +142,7 @@ TEST_CASE("powers of zero, of one, and to zero are what they are by definition, 
     CHECK(std::isnan(elementary::pow(-0x1p-1074, 1)));
 }
 
-TEST_CASE("degrees become radians by one product and one quotient, each rounded") {
+TEST_CASE("degrees become radians by one product and one quotient that are each rounded") {
     CHECK(elementary::radians(180) == elementary::pi);
     CHECK(elementary::radians(0) == 0);
     int wrong = 0;
@@ -152,7 +153,7 @@ TEST_CASE("degrees become radians by one product and one quotient, each rounded"
     CHECK(wrong == 0);
 }
 
-TEST_CASE("sums, products and quotients of double-doubles lose no more than some of their last bits") {
+TEST_CASE("sums and products and quotients of double-doubles lose at most a few of their last bits") {
     std::mt19937_64 random{8};
     std::uniform_real_distribution<double> unit{1, 2};
     const auto next = [&] {

@@ -1,4 +1,5 @@
-// The model is MPFR with 60 decimal digits: the error of each answer in units of the last place of the exact value.
+// Tests the elementary functions against MPFR with 60 decimal digits; errors are in units of the last place of the
+// exact value.
 #include "scenes/numbers/elementary.h"
 
 #include <bit>
@@ -35,7 +36,7 @@ struct Worst {
     }
 };
 
-// Angles of every size up to the limit, and doubles next to multiples of pi/2, where all leading bits cancel.
+// Angles of every magnitude up to the limit, and doubles next to multiples of pi/2, where all leading bits cancel.
 double angle(std::mt19937_64& random, int i) {
     std::uniform_real_distribution<double> unit{-1, 1};
     const double signed_unit = unit(random);
@@ -49,7 +50,7 @@ double angle(std::mt19937_64& random, int i) {
 
 }  // namespace
 
-TEST_CASE("sin, cos and tan are within 0.501 ulp up to 10^6 radians and next to multiples of pi/2") {
+TEST_CASE("sin and cos and tan are within 0.501 ulp up to 10^6 radians and next to multiples of pi/2") {
     std::mt19937_64 random{1};
     Worst sine, cosine, tangent;
     for (int i = 0; i < points; ++i) {
@@ -84,7 +85,7 @@ TEST_CASE("pow is within 0.501 ulp wherever the result is a normal number") {
     CHECK(normal > points / 2);
 }
 
-TEST_CASE("the elementary functions give their exact values, and zero keeps its sign") {
+TEST_CASE("the elementary functions give exact values and preserve the sign of zero") {
     using namespace strata::scenes;
     CHECK(strata::scenes::cos(0) == 1);
     CHECK(std::signbit(strata::scenes::sin(-0.0)));
@@ -100,7 +101,7 @@ TEST_CASE("the elementary functions give their exact values, and zero keeps its 
     CHECK(strata::scenes::pow(2, -1100) == 0);
 }
 
-TEST_CASE("what the elementary functions do not promise is NaN") {
+TEST_CASE("the elementary functions are NaN outside of their specified domain") {
     const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     for (const double x : {infinity, -infinity, nan, 1.1e6}) {
         CHECK(std::isnan(strata::scenes::sin(x)));

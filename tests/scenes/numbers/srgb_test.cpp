@@ -1,4 +1,4 @@
-// The model: IEC 61966-2-1's formulas in 60 decimal digits (MPFR).
+// Tests the sRGB conversions against the formulas of IEC 61966-2-1 in 60 decimal digits (MPFR).
 #include "pipeline/formats/srgb.h"
 
 #include <array>
@@ -22,7 +22,7 @@ Wide encoded(const Wide& l) {
                                   : Wide(Wide{"1.055"} * pow(l, 1 / Wide{"2.4"}) - Wide{"0.055"});
 }
 
-// |answer - exact| is not above half the distance to either neighbour.
+// True if |answer - exact| is at most half the distance to either neighbour.
 bool is_nearest(float answer, const Wide& exact) {
     const Wide error = abs(Wide{answer} - exact);
     const Wide up = Wide{std::nextafter(answer, 2.0f)} - Wide{answer},
@@ -42,15 +42,15 @@ TEST_CASE("every entry of the sRGB table is the binary32 nearest to the standard
     CHECK(wrong == 0);
 }
 
-TEST_CASE("decoding an 8-bit code and encoding it again gives the code back") {
+TEST_CASE("decoding an 8-bit code and encoding it again gives the same code") {
     for (int k = 0; k < 256; ++k)
         CHECK(int{strata::scenes::encode_srgb8(strata::pipeline::srgb_to_linear[std::size_t(k)])} == k);
 }
 
-TEST_CASE("encode_srgb8 turns from one code to the next exactly where the encoding passes the half") {
+TEST_CASE("encode_srgb8 changes from one code to the next exactly where the encoding passes the half") {
     int wrong = 0;
     for (int k = 1; k < 256; ++k) {
-        float low = 0, high = 1;  // halve the interval that holds the turn, by the code under test
+        float low = 0, high = 1;  // bisects the interval that contains the change of the tested code
         while (std::bit_cast<std::uint32_t>(high) - std::bit_cast<std::uint32_t>(low) > 1) {
             const auto middle =
                 std::bit_cast<float>((std::bit_cast<std::uint32_t>(low) + std::bit_cast<std::uint32_t>(high)) / 2);
@@ -76,7 +76,7 @@ TEST_CASE("encode_srgb and decode_srgb are within 0.50001 units of the last plac
     CHECK(wrong_decode == 0);
 }
 
-TEST_CASE("encoding clamps: NaN and what is below 0 become 0, what is above 1 becomes 1") {
+TEST_CASE("encoding clamps so that NaN and values below 0 become 0 and values above 1 become 1") {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     for (const float x : {nan, -1.0f, -infinity, -0.0f, 0.0f}) {
         CHECK(strata::scenes::encode_srgb(x) == 0);
@@ -90,7 +90,7 @@ TEST_CASE("encoding clamps: NaN and what is below 0 become 0, what is above 1 be
     }
 }
 
-TEST_CASE("a colour changes only between spaces, and its alpha never") {
+TEST_CASE("a colour changes only between spaces and its alpha never") {
     using strata::pipeline::ColorSpace;
     const strata::pipeline::Rgba color{0.5f, 0.0f, 1.0f, 0.25f};
     CHECK(strata::scenes::from_encoded(color, ColorSpace::encoded) == color);
@@ -101,7 +101,7 @@ TEST_CASE("a colour changes only between spaces, and its alpha never") {
 }
 
 TEST_CASE("encode_srgb8 is the code of the exact encoding for every binary32 from 0 to 1", "[exhaustive]") {
-    std::array<float, 256> first{};  // the model's own turning points, by bisection on the exact encoding
+    std::array<float, 256> first{};  // the expected thresholds, by bisection on the exact encoding
     for (int k = 1; k < 256; ++k) {
         std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);
         while (high - low > 1) {

@@ -1,4 +1,4 @@
-// Model: IEEE-754 bits written by hand.
+// Tests the number fields of packs. The expected IEEE 754 bits are written by hand.
 #include "scenes/packs/json_fields.h"
 
 #include <bit>
@@ -29,7 +29,7 @@ std::vector<float> floats_of(const std::string& text, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("numbers stand as decimals and as bits, and come back bit by bit") {
+TEST_CASE("numbers are written as decimals and as bits and every bit is read back") {
     JsonWriter writer;
     const float singles[] = {0.1f, -0.0f, 0x1p-149f, 3.4028235e38f, std::numeric_limits<float>::infinity()};
     const double doubles[] = {0.1, 0x1p-1074};
@@ -50,7 +50,7 @@ TEST_CASE("numbers stand as decimals and as bits, and come back bit by bit") {
     CHECK((wide[0] == doubles[0] && wide[1] == doubles[1]));
 }
 
-TEST_CASE("decimals or bits are enough alone, and together they have to agree") {
+TEST_CASE("decimals or bits alone are sufficient and together they must agree") {
     CHECK(floats_of(R"({"x": {"bits": ["3f000000"]}})", 1)[0] == 0.5f);
     CHECK(floats_of(R"({"x": {"decimal": [0.5, 2]}})", 2)[1] == 2.0f);
     for (const char* wrong : {R"({"x": {"decimal": [0.5], "bits": ["3f000001"]}})", R"({"x": {"bits": ["3f00000"]}})",
@@ -62,7 +62,7 @@ TEST_CASE("decimals or bits are enough alone, and together they have to agree") 
     }
 }
 
-TEST_CASE("a field that is missing, unknown, of another kind or out of range is named with its place") {
+TEST_CASE("a field that is missing or unknown or of another type or out of range is rejected with its JSON pointer") {
     const json document =
         json::parse(R"({"n": 7, "f": true, "fruit": "peer", "list": [{"n": 1}, {"m": 2}], "big": 1e3})");
     JsonReader io{document, fields_file, ""};

@@ -1,4 +1,4 @@
-// Model: headers and elements written by hand after NumPy Enhancement Proposal 1.
+// Tests NumPy files. The expected headers and elements are written by hand after NumPy Enhancement Proposal 1.
 #include "scenes/packs/npy.h"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ std::string npy_by_hand(const std::string& dictionary, const std::string& data, 
 
 }  // namespace
 
-TEST_CASE("an array's file is NumPy's, and the numbers begin at byte 128") {
+TEST_CASE("an array is written as a NumPy file whose numbers begin at byte 128") {
     NumberArray array{.element = Element::u2, .shape = {2, 3}};
     for (const std::uint32_t word : {1u, 0x1234u, 0xffffu, 0u, 7u, 256u}) array.append(word);
     const std::string data{"\x01\x00\x34\x12\xff\xff\x00\x00\x07\x00\x00\x01", 12};
@@ -42,7 +42,7 @@ TEST_CASE("an array's file is NumPy's, and the numbers begin at byte 128") {
         }
 }
 
-TEST_CASE("arrays of NumPy's own are read, whatever the length and version of their header") {
+TEST_CASE("arrays that NumPy writes are read with any length and version of their header") {
     const std::string data{"\x00\x00\x80\x3f", 4};
     const std::string one = npy_by_hand("{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }", data, 70);
     CHECK(parse_npy(one, "one.npy").word(0) == 0x3f800000u);
@@ -52,7 +52,7 @@ TEST_CASE("arrays of NumPy's own are read, whatever the length and version of th
     CHECK(parse_npy(two, "two.npy").word(0) == 0x3f800000u);
 }
 
-TEST_CASE("what is no such array is refused with its place") {
+TEST_CASE("a file that is not such an array is rejected with its position") {
     const auto fails = [](const std::string& bytes, const std::string& sentence) {
         CHECK_THROWS_WITH(static_cast<void>(parse_npy(bytes, "x.npy")), Contains(sentence));
     };

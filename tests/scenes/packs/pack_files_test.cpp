@@ -1,4 +1,4 @@
-// Model: every change of one byte of a small file, one after the other.
+// Tests the checksums of pack files on every change of one byte of a small file.
 #include "scenes/packs/pack_files.h"
 
 #include <catch2/catch.hpp>
@@ -6,7 +6,7 @@
 
 using namespace strata::scenes;
 
-TEST_CASE("two sums tell which byte of a file has changed, and what it was") {
+TEST_CASE("two sums identify the byte of a file that changed and its old value") {
     std::mt19937 random{5};
     std::string file;
     for (int i = 0; i < 300; ++i) file += static_cast<char>(random() & 0xff);
@@ -28,7 +28,7 @@ TEST_CASE("two sums tell which byte of a file has changed, and what it was") {
     two[3] = static_cast<char>(two[3] ^ 1);
     two[250] = static_cast<char>(two[250] ^ 64);
     const auto guess = changed_byte(two, sums);
-    // Two changes may look like one: the digest then tells that the guess is none.
+    // The sums of two changes may look like those of one: the digest then shows that the guess is wrong.
     if (guess) {
         two[guess->position] = static_cast<char>(guess->was);
         CHECK(digest_of_bytes(two) != digest_of_bytes(file));

@@ -1,4 +1,4 @@
-// Model: the scene itself; what is read back has to be equal to it, NaN by its bits.
+// Tests scenes in packs: the scene that is read must equal the one that was written, NaN by its bits.
 #include "scenes/packs/pack_scene.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using namespace strata::scenes;
 
 namespace {
 
-// A folder with the scene's part of a pack, and nothing else.
+// Writes a folder with only the scene's part of a pack.
 void write_scene(const Scene& scene, pipeline::ColorSpace space, const std::string& folder) {
     const auto put = [&](const std::string& name, const std::string& bytes) {
         const std::filesystem::path path = std::filesystem::path(folder) / name;
@@ -53,7 +53,7 @@ void check_same(const Scene& a, const Scene& b) {
 
 }  // namespace
 
-TEST_CASE("every built-in scene comes back from a pack bit by bit") {
+TEST_CASE("every built-in scene is unchanged in every bit after a pack round trip") {
     std::vector<std::string> names{"teapot:tessellation=2", "volume-beam:slices=3", "random:triangles=40,seed=9",
                                    "planes:count=2,cells=2", "shadow-demo"};
     for (const HardCase& hard : hard_cases())
@@ -71,7 +71,7 @@ TEST_CASE("every built-in scene comes back from a pack bit by bit") {
     }
 }
 
-TEST_CASE("a pack is refused where it is damaged or asked for what it has not") {
+TEST_CASE("a pack is rejected where it is damaged or where something missing is requested") {
     const strata::test::OwnFolder folder;
     Scene scene = load_scene("planes:count=1,cells=1", {});
     scene.own_view = orbit_view(scene.bounds, 33, 21, 1);

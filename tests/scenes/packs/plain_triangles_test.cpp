@@ -1,4 +1,4 @@
-// Model: the numbers as they were written.
+// Tests triangles from plain files; the expected numbers are those written.
 #include "scenes/packs/plain_triangles.h"
 
 #include <bit>
@@ -28,7 +28,7 @@ std::string triangles_npy(std::vector<std::size_t> shape) {
 
 }  // namespace
 
-TEST_CASE("triangles come from a .npy file with their numbers as they stand there") {
+TEST_CASE("triangles are read from a .npy file with their numbers unchanged") {
     const strata::test::OwnFolder folder;
     const Scene plain = load_scene(written(folder, "a.npy", triangles_npy({2, 3, 3})), {});
     const pipeline::Mesh& mesh = plain.list.meshes.at(0);
@@ -46,7 +46,7 @@ TEST_CASE("triangles come from a .npy file with their numbers as they stand ther
                           Catch::Contains("d.npy: array: expected f4 of shape (triangles, 3, N), N 3 for x y z"));
 }
 
-TEST_CASE("triangles with w are those of clip space: they are drawn as they are unless a view is named") {
+TEST_CASE("triangles with w are in clip space and drawn unchanged unless a view is named") {
     const strata::test::OwnFolder folder;
     const Scene plain = load_scene(written(folder, "a.npy", triangles_npy({1, 3, 4})), {});
     const pipeline::Mesh& mesh = plain.list.meshes.at(0);
@@ -66,7 +66,7 @@ TEST_CASE("triangles with w are those of clip space: they are drawn as they are 
         Catch::Contains("/positions/1: expected an array of 4 numbers"));
 }
 
-TEST_CASE("triangles come from a .json file, with a view if it has one") {
+TEST_CASE("triangles are read from a .json file with a view if it has one") {
     const strata::test::OwnFolder folder;
     const Scene scene = load_scene(
         written(folder, "t.json",

@@ -1,5 +1,5 @@
-// The model: exact rational arithmetic over the case's own corners (tests/support/exact_fragments.h). It knows neither
-// snapping nor clipping nor formats.
+// Tests the hard cases against exact rational arithmetic over each case's own corners
+// (tests/support/exact_fragments.h), without snapping, clipping or formats.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -24,7 +24,7 @@ strata::testing::ExactPixels exact_pixels(const char* name) {
 
 }  // namespace
 
-TEST_CASE("every hard case has the fragments, layers and ties that it states, by exact arithmetic") {
+TEST_CASE("every hard case has the fragments and layers and ties that it states in exact arithmetic") {
     for (const HardCase& hard : hard_cases()) {
         INFO(hard.name);
         const auto scene = make_hard_case({}, hard);
@@ -32,7 +32,7 @@ TEST_CASE("every hard case has the fragments, layers and ties that it states, by
     }
 }
 
-TEST_CASE("hard cases have names of their own, sentences, and a scene of that name") {
+TEST_CASE("hard cases have unique names and sentences and a scene of that name") {
     std::set<std::string_view> names;
     CHECK(hard_cases().size() >= 50);
     for (const HardCase& hard : hard_cases()) {
@@ -48,7 +48,7 @@ TEST_CASE("hard cases have names of their own, sentences, and a scene of that na
                       Catch::Contains("did you mean 'planes-1-unit'?"));
 }
 
-TEST_CASE("planes through one line are in reversed order on its two sides, by exact arithmetic") {
+TEST_CASE("planes through one line are in reversed order on its two sides in exact arithmetic") {
     const auto pixels = exact_pixels("eight-through-a-line");
     int wrong = 0;
     for (const auto& [p, fragments] : pixels)
@@ -61,9 +61,10 @@ TEST_CASE("planes through one line are in reversed order on its two sides, by ex
     CHECK(wrong == 0);
 }
 
-TEST_CASE("in each corner of a cyclic overlap another one of two neighbouring bars is in front, by exact arithmetic") {
+TEST_CASE(
+    "in each corner of a cyclic overlap a different one of two neighbouring bars is in front in exact arithmetic") {
     const auto pixels = exact_pixels("cyclic-overlap");
-    // The corners' own pixels, row by row, with the bar that is in front there: bar i has triangles 2 i and 2 i + 1.
+    // The pixels at the corners, row by row, with the bar that is in front there: bar i has triangles 2 i and 2 i + 1.
     struct {
         std::size_t pixel;
         std::uint32_t front, behind;

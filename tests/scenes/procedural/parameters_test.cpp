@@ -1,4 +1,5 @@
-// Model: the sentences typed a second time; each limit from both of its sides.
+// Tests the parameters of scene names. The expected error messages are written by hand, and each limit is tested from
+// both sides.
 #include "scenes/procedural/parameters.h"
 
 #include <catch2/catch.hpp>
@@ -37,18 +38,18 @@ TEST_CASE("a scene's name ends at the first colon") {
     CHECK(strata::scenes::scene_name("") == "");
 }
 
-TEST_CASE("keys come in any order, each at most once, and what is absent has its default") {
+TEST_CASE("keys are accepted in any order and at most once and a missing key has its default") {
     const Parameters both{"s:b=20,a=10", ab}, one{"s:b=20", ab}, none{"s", ab};
     CHECK(both.integer("a", 0, 99, 7) == 10);
     CHECK(both.integer("b", 0, 99, 7) == 20);
     CHECK(one.integer("a", 0, 99, 7) == 7);
     CHECK(none.integer("b", 0, 99, 8) == 8);
-    CHECK(none.integer("b", 0, 5, 8) == 8);  // a default is not held against the range
+    CHECK(none.integer("b", 0, 5, 8) == 8);  // a default is not checked against the range
     CHECK(said_of("s:a=1,a=1") == "s:a=1,a=1: a: expected one value, found two");
     CHECK(said_of("s:b=1,a=1,b=2") == "s:b=1,a=1,b=2: b: expected one value, found two");
 }
 
-TEST_CASE("what is not key=value, or has an unknown key, is refused where it stands") {
+TEST_CASE("an item that is not key=value or has an unknown key is rejected with its position") {
     for (const char* spec : {"s:", "s:a=1,", "s:,a=1", "s:a=1,,b=2"})
         CHECK(said_of(spec) == std::string{spec} + ": parameters: expected key=value, found ''");
     CHECK(said_of("s:a=1,b") == "s:a=1,b: parameters: expected key=value, found 'b'");
@@ -59,7 +60,7 @@ TEST_CASE("what is not key=value, or has an unknown key, is refused where it sta
           "s:a=1: parameters: expected one of , found 'a'");
 }
 
-TEST_CASE("a whole number counts from its lowest to its highest value and nowhere else") {
+TEST_CASE("a whole number is accepted from its lowest to its highest value and no other") {
     const auto read = [](const std::string& text, std::uint64_t low, std::uint64_t high) {
         return Parameters{"s:a=" + text, ab}.integer("a", low, high, 0);
     };
@@ -86,7 +87,7 @@ TEST_CASE("a whole number counts from its lowest to its highest value and nowher
                   text + "'");
 }
 
-TEST_CASE("a choice is its place in the list, the first one where nothing is said") {
+TEST_CASE("a choice is its index in the list and the first one if nothing is given") {
     const KeyNames words{"far", "near", "middle"};
     CHECK(Parameters{"s", ab}.choice("a", words) == 0);
     for (std::size_t i = 0; i < words.size(); ++i)
@@ -97,9 +98,9 @@ TEST_CASE("a choice is its place in the list, the first one where nothing is sai
           "s:a=: a: expected one of far, near, middle, found ''");
 }
 
-TEST_CASE("each parameter of a built-in scene is taken at both of its ends and refused beyond them") {
+TEST_CASE("each parameter of a built-in scene is accepted at both of its limits and rejected beyond them") {
     struct Range {
-        const char *scene, *key, *lowest, *highest, *below, *above;  // "": nothing is below 0
+        const char *scene, *key, *lowest, *highest, *below, *above;  // below "": no value is below the lowest
     };
     const Range ranges[] = {{"teapot", "tessellation", "1", "64", "0", "257"},
                             {"volume-beam", "slices", "1", "4096", "0", "65537"},
@@ -121,7 +122,7 @@ TEST_CASE("each parameter of a built-in scene is taken at both of its ends and r
     }
 }
 
-TEST_CASE("a scene without parameters takes none, and the defaults are the ones that the list tells") {
+TEST_CASE("a scene without parameters takes none and the defaults are those in the list") {
     CHECK_THAT(said_by([] { static_cast<void>(load_scene("shadow-demo:size=1", {})); }),
                Catch::Contains("parameters: expected one of "));
     const std::pair<const char*, const char*> equal[] = {{"teapot", "teapot:tessellation=16"},

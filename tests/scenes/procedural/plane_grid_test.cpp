@@ -1,4 +1,5 @@
-// Model: the rule of plane_stack.h vertex by vertex, in binary64; hues by the C library's cosine.
+// Tests the plane stack vertex by vertex against the rule of plane_stack.h in binary64; hues use the C library's
+// cosine.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -9,7 +10,7 @@ namespace {
 using namespace strata::scenes;
 using strata::pipeline::Mesh;
 
-// What is wrong with plane i of a stack, whose first vertex is `first`; "" if nothing is.
+// Description of the first fault of plane i of a stack, whose first vertex is `first`; "" if there is none.
 std::string wrong_with_plane(const Mesh& mesh, const PlaneStack& stack, int i, std::size_t first) {
     const int cells = stack.cells + i;
     const double offset = (i - (stack.count - 1) / 2.0) * stack.gap / 1048576, two_pi = 2 * std::acos(-1.0);
@@ -32,7 +33,7 @@ std::string wrong_with_plane(const Mesh& mesh, const PlaneStack& stack, int i, s
 
 }  // namespace
 
-TEST_CASE("every vertex of every stack stands on its plane's grid, row by row, in its plane's hue") {
+TEST_CASE("every vertex of every stack is on its plane's grid row by row in its plane's hue") {
     for (const int count : {1, 2, 5})
         for (const int cells : {1, 3})
             for (const double gap : {0.0, 1.0, 1048576.0}) {
@@ -49,12 +50,12 @@ TEST_CASE("every vertex of every stack stands on its plane's grid, row by row, i
             }
 }
 
-TEST_CASE("each square of a grid is two triangles that share its rising diagonal and run counterclockwise") {
+TEST_CASE("each square of a grid is two triangles that share its rising diagonal and are counterclockwise") {
     const Mesh mesh = make_plane_stack({}, {.count = 2, .cells = 2, .gap = 0}).list.meshes.at(0);
     const std::vector<std::uint32_t> first(mesh.indices.begin(), mesh.indices.begin() + 12);
     CHECK(first == std::vector<std::uint32_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
     const std::vector<std::uint32_t> second(mesh.indices.begin() + 24, mesh.indices.begin() + 30);
-    CHECK(second == std::vector<std::uint32_t>{9, 10, 14, 9, 14, 13});  // the next grid, four vertices a row
+    CHECK(second == std::vector<std::uint32_t>{9, 10, 14, 9, 14, 13});  // the next grid has four vertices per row
     REQUIRE(mesh.indices.size() == 6 * (4 + 9));
     int clockwise = 0;
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
@@ -65,7 +66,7 @@ TEST_CASE("each square of a grid is two triangles that share its rising diagonal
     CHECK(clockwise == 0);
 }
 
-TEST_CASE("the plane farthest from an eye at +z is drawn first, and all are one unlit two-sided mesh that blends") {
+TEST_CASE("the plane farthest from an eye at +z is drawn first and all are one unlit two-sided mesh that blends") {
     const Scene scene = make_plane_stack({}, {.count = 4, .cells = 1, .gap = 4096});
     const Mesh& mesh = scene.list.meshes.at(0);
     std::size_t first = 0;

@@ -1,4 +1,5 @@
-// The model: the rule of plane_stack.h as equations of planes in binary64, with room for one rounding to binary32.
+// Tests the plane stack against plane equations from the rule of plane_stack.h in binary64, with a tolerance of one
+// rounding to binary32.
 #include "scenes/procedural/plane_stack.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +20,7 @@ Corner corner(const strata::pipeline::Mesh& mesh, std::size_t index) {
 
 }  // namespace
 
-TEST_CASE("the planes of a stack are parallel, as far apart as asked, and each covers its square once") {
+TEST_CASE("the planes of a stack are parallel at the requested distance and each covers its square once") {
     const PlaneStack stack{.count = 3, .cells = 4, .gap = 1024};
     const auto mesh = make_plane_stack({}, stack).list.meshes[0];
     std::size_t index = 0;
@@ -41,7 +42,7 @@ TEST_CASE("the planes of a stack are parallel, as far apart as asked, and each c
     CHECK(worst < 2e-7);
 }
 
-TEST_CASE("a stack's parameters are its scene's name") {
+TEST_CASE("the parameters of a stack are part of its scene name") {
     CHECK(load_scene("planes:count=2,gap=0,cells=1", {}).list.meshes[0].indices.size() == 6 * (1 + 4));
     CHECK(load_scene("planes", {}).list.meshes == load_scene("planes:count=6,cells=8,gap=65536", {}).list.meshes);
 }

@@ -1,3 +1,4 @@
+// Tests properties that all procedural scenes must have, and the error messages for their names.
 #include <catch2/catch.hpp>
 #include <cfenv>
 #include <cmath>
@@ -38,7 +39,8 @@ void check_is_sound(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("every listed procedural scene loads by its name alone, is sound, and has bounds that hold its vertices") {
+TEST_CASE(
+    "every listed procedural scene loads by its name alone and is valid and has bounds that contain its vertices") {
     for (const ProceduralScene& entry : procedural_scenes()) {
         INFO(entry.name);
         CHECK(is_procedural(entry.name));
@@ -61,7 +63,7 @@ TEST_CASE("without light every material of a procedural scene is unlit") {
         for (const auto& material : load_scene(entry.name, {.light = false}).list.materials) CHECK(material.unlit);
 }
 
-TEST_CASE("in the linear space a procedural scene's colours are decoded and nothing else changes") {
+TEST_CASE("in the linear space the colours of a procedural scene are decoded and nothing else changes") {
     for (const char* spec : {"teapot", "volume-beam:slices=3", "random:triangles=50"}) {
         const Scene a = load_scene(spec, {}),
                     b = load_scene(spec, {.color_space = strata::pipeline::ColorSpace::linear});
@@ -78,7 +80,7 @@ TEST_CASE("in the linear space a procedural scene's colours are decoded and noth
     }
 }
 
-TEST_CASE("every fault of a scene's name is one sentence, with the nearest name") {
+TEST_CASE("every fault of a scene name gives one error message with the nearest name") {
     CHECK(message("teapt") ==
           "teapt: scene: expected a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in .npy or "
           ".json, or one of teapot, "
@@ -102,7 +104,7 @@ TEST_CASE("every fault of a scene's name is one sentence, with the nearest name"
     CHECK(message("teapot", {.scene = 0}) == "accepted");
 }
 
-TEST_CASE("a procedural scene has the same bits when the host program rounds upwards or toward zero") {
+TEST_CASE("a procedural scene has the same bits if the host program rounds upwards or toward zero") {
     for (const char* spec : {"teapot:tessellation=5", "volume-beam:slices=9", "random:triangles=50"}) {
         const Scene before = load_scene(spec, {});
         for (const int mode : {FE_UPWARD, FE_TOWARDZERO}) {

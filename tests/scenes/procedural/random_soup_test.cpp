@@ -1,3 +1,4 @@
+// Tests the random soup against its rule, and its first triangles against a separate program.
 #include "scenes/procedural/random_soup.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +15,7 @@ Mesh soup(std::uint64_t seed, std::uint32_t triangles) { return make_random_soup
 
 }  // namespace
 
-TEST_CASE("a soup has as many triangles as asked for, in the unit cube, on a grid, with alpha above 0 and up to 1") {
+TEST_CASE("a soup has the requested number of triangles in the unit cube on a grid with alpha above 0 and up to 1") {
     for (const std::uint32_t count : {0u, 1u, 5000u}) {
         const Mesh mesh = soup(7, count);
         CHECK(mesh.indices.size() == 3 * count);
@@ -30,17 +31,17 @@ TEST_CASE("a soup has as many triangles as asked for, in the unit cube, on a gri
     }
 }
 
-TEST_CASE("a longer soup of the same seed begins with the shorter one, and another seed gives another soup") {
+TEST_CASE("a longer soup of the same seed begins with the shorter one and another seed gives another soup") {
     const Mesh a = soup(3, 100), b = soup(3, 1000), c = soup(4, 100);
     CHECK(std::equal(a.positions.begin(), a.positions.end(), b.positions.begin()));
     CHECK(std::equal(a.colors.begin(), a.colors.end(), b.colors.begin()));
     CHECK(a.positions != c.positions);
 }
 
-TEST_CASE("a soup is this one, today and on every machine") {
+TEST_CASE("a soup has these triangles on every machine") {
     const Mesh mesh = soup(1, 2);
-    // From a program of 40 lines in another language, written from the rule; its splitmix64 begins 0x910a2dec89025cc1
-    // for seed 1.
+    // From a separate 40-line program in another language, written from the rule; its splitmix64 begins
+    // 0x910a2dec89025cc1 for seed 1.
     constexpr int corners[6][3] = {{7740, 4384, 3760},   {6468, 3568, 2884},   {6202, 5890, 3018},
                                    {-7468, 5820, -5334}, {-7232, 5956, -5246}, {-7492, 6618, -5918}};
     for (std::size_t v = 0; v < 6; ++v)
@@ -49,7 +50,7 @@ TEST_CASE("a soup is this one, today and on every machine") {
     CHECK(mesh.colors[5] == strata::pipeline::Rgba{0x1.0f3c5cp-1f, 0x1.165c04p-1f, 0x1.7f18b2p-1f, 1});
 }
 
-TEST_CASE("about one triangle in eight repeats another exactly, in both facings, and others share planes") {
+TEST_CASE("about one triangle in eight repeats another exactly in both facings and others share planes") {
     const Mesh mesh = soup(11, 16000);
     using Point = std::array<float, 3>;
     const auto point = [](const strata::Vec3& p) { return Point{p.x, p.y, p.z}; };
@@ -61,5 +62,5 @@ TEST_CASE("about one triangle in eight repeats another exactly, in both facings,
         flat += p[0][2] == p[1][2] && p[1][2] == p[2][2] ? 1 : 0;
     }
     CHECK((repeated > 1600 && repeated < 2400));  // 2 in 16
-    CHECK((flat > 800 && flat < 2400));           // 1 in 16, and what repeats those
+    CHECK((flat > 800 && flat < 2400));           // 1 in 16, and those that repeat them
 }

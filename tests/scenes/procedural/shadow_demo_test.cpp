@@ -1,5 +1,5 @@
-// Model: the rule of shadow_demo.h: planes and directions by their equations, what the light sees by projecting every
-// vertex.
+// Tests the shadow demo against the rule of shadow_demo.h: planes and directions by their equations, and the light's
+// view by projecting every vertex.
 #include "scenes/procedural/shadow_demo.h"
 
 #include <catch2/catch.hpp>
@@ -29,7 +29,7 @@ bool is_in_view(const strata::pipeline::ShadowLight& light, const strata::pipeli
     return clip[3] > 0;
 }
 
-// The normal of a flat quad by its two sides, of unit length; NaN if its corners are not in one plane.
+// The unit normal of a flat quad from two of its sides; NaN if its corners are not in one plane.
 std::array<double, 3> normal_of(const Mesh& quad) {
     std::array<std::array<double, 3>, 3> side{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -44,7 +44,7 @@ std::array<double, 3> normal_of(const Mesh& quad) {
 
 }  // namespace
 
-TEST_CASE("the shadow demo draws a square ground, the pot, and last the pane that stands beside it") {
+TEST_CASE("the shadow demo draws a square ground and the pot and last the pane next to it") {
     const Scene scene = make_shadow_demo({});
     const auto& list = scene.list;
     REQUIRE(list.meshes.size() == 3);
@@ -71,7 +71,7 @@ TEST_CASE("the shadow demo draws a square ground, the pot, and last the pane tha
     }
 }
 
-TEST_CASE("ground and pane are rectangles, and the normals that light them are their own") {
+TEST_CASE("ground and pane are rectangles and have their own lighting normals") {
     const auto meshes = make_shadow_demo({}).list.meshes;
     const double sides[][2] = {{9, 9}, {std::hypot(2.0, 2.8), 2.2}};
     for (const std::size_t m : {std::size_t{1}, std::size_t{2}}) {
@@ -90,10 +90,11 @@ TEST_CASE("ground and pane are rectangles, and the normals that light them are t
     for (const auto& p : meshes[1].positions) CHECK(p[1] == -0.01f);
     float lowest = 9;
     for (const auto& p : meshes[2].positions) lowest = std::min(lowest, p[1]);
-    CHECK(lowest == 0);  // the pane stands above the ground
+    CHECK(lowest == 0);  // the pane is on the ground
 }
 
-TEST_CASE("the light stands where the rule says, looks at the pot, and its map holds all that casts a shadow") {
+TEST_CASE(
+    "the light is at the position of the rule and faces the pot and its map contains everything that casts a shadow") {
     const Scene scene = make_shadow_demo({});
     REQUIRE(scene.list.light);
     const auto& light = *scene.list.light;
@@ -118,7 +119,7 @@ TEST_CASE("the light stands where the rule says, looks at the pot, and its map h
     CHECK(outside == 0);
 }
 
-TEST_CASE("without light the demo's materials are unlit and its shadows stay") {
+TEST_CASE("without light the materials of the demo are unlit and its shadows remain") {
     const Scene lit = make_shadow_demo({}), unlit = make_shadow_demo({.light = false});
     for (const auto& material : unlit.list.materials) CHECK(material.unlit);
     CHECK(unlit.list.light == lit.list.light);

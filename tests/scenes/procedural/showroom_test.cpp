@@ -1,4 +1,5 @@
-// Model: scenes.md 12's table: corners projected by a division of our own land on the pixels and depths that it states.
+// Tests the showroom against the table of scenes.md 12: corners that a separate division projects are at the pixels and
+// depths that it states.
 #include "scenes/procedural/showroom.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ struct Extent {
     double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9, nearest = 1e9, farthest = -1e9;
 };
 
-// In pixels of a frame of 64 x 64, and depths: x / w and y / w, the near plane 1 away.
+// Extent of x / w and y / w in pixels of a 64 x 64 frame, and of the depth; the near plane is at distance 1.
 Extent extent_of(const pipeline::Mesh& mesh) {
     Extent e;
     for (const pipeline::Vec3& p : mesh.positions) {
@@ -33,7 +34,7 @@ bool is_near(double found, double wanted) { return std::fabs(found - wanted) < 1
 
 }  // namespace
 
-TEST_CASE("the showroom's objects stand where the specification says") {
+TEST_CASE("the objects of the showroom are at the positions of the specification") {
     const Scene scene = make_showroom({});
     struct Stated {
         const char* name;
@@ -61,7 +62,7 @@ TEST_CASE("the showroom's objects stand where the specification says") {
     }
 }
 
-TEST_CASE("the showroom's own view keeps x and y, and puts depth 1 - 1 / w at w") {
+TEST_CASE("the showroom's own view keeps x and y and maps w to depth 1 - 1 / w") {
     const Scene scene = make_showroom({});
     REQUIRE(scene.own_view);
     const Matrix& p = scene.own_view->projection;
@@ -74,7 +75,7 @@ TEST_CASE("the showroom's own view keeps x and y, and puts depth 1 - 1 / w at w"
     }
 }
 
-TEST_CASE("without light no material of the showroom is lit, and colours follow the colour space") {
+TEST_CASE("without light no material of the showroom is lit and colours follow the colour space") {
     const Scene lit = make_showroom({}), unlit = make_showroom({.light = false}),
                 linear = make_showroom({.color_space = pipeline::ColorSpace::linear});
     const auto is_lit = [](const pipeline::Material& m) { return !m.unlit; };

@@ -1,4 +1,5 @@
-// Model: what the rule of random_soup.h says of a triangle and the one before it, told from the soup alone.
+// Tests the kinds of triangles in a random soup against the rule of random_soup.h, which relates each triangle to the
+// one before it. The kinds are recognised from the soup alone.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,7 +11,7 @@ namespace {
 
 using namespace strata::scenes;
 using strata::pipeline::Mesh;
-using Grid = std::array<int, 3>;  // in 1/8192
+using Grid = std::array<int, 3>;  // in units of 1/8192
 using Corners = std::array<Grid, 3>;
 
 Corners corners_of(const Mesh& mesh, std::size_t triangle) {
@@ -21,7 +22,7 @@ Corners corners_of(const Mesh& mesh, std::size_t triangle) {
     return corners;
 }
 
-// The middle of two corners is on the grid.
+// True if the midpoint of two corners is on the grid.
 Corners halved(const Corners& t) {
     Corners half = t;
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
@@ -40,8 +41,8 @@ int longest_side(const Corners& t) {
 
 struct Kinds {
     int repeated = 0, turned = 0, halved = 0, flat = 0, fresh = 0, odd = 0, far_off = 0;
-    std::map<int, int> sizes;   // of new triangles: 0 for sides up to 1/32 of the cube's, 6 for up to all of it
-    std::map<int, int> planes;  // of flat ones, in eighths
+    std::map<int, int> sizes;   // sizes of new triangles: 0 for sides up to 1/32 of the cube's, 6 for up to all of it
+    std::map<int, int> planes;  // planes of flat triangles, in eighths
 };
 
 Kinds kinds_of(const Mesh& mesh) {
@@ -84,8 +85,7 @@ bool is_share(int count, int of, double share) {  // within five standard deviat
 
 }  // namespace
 
-TEST_CASE(
-    "a sixteenth of a soup each repeats the last new triangle, turns it over, and lies in it with half its sides") {
+TEST_CASE("one sixteenth each of a soup repeats the last new triangle or reverses it or halves it") {
     const Kinds kinds = kinds_of(large_soup());
     CHECK(is_share(kinds.repeated, soup_size, 1 / 16.0));
     CHECK(is_share(kinds.turned, soup_size, 1 / 16.0));
@@ -93,7 +93,7 @@ TEST_CASE(
     CHECK(is_share(kinds.flat + kinds.fresh, soup_size, 13 / 16.0));
 }
 
-TEST_CASE("new triangles have even coordinates in the cube and come in all of seven sizes") {
+TEST_CASE("new triangles have even coordinates in the cube and occur in all seven sizes") {
     const Kinds kinds = kinds_of(large_soup());
     CHECK(kinds.odd == 0);
     CHECK(kinds.far_off == 0);
@@ -103,7 +103,7 @@ TEST_CASE("new triangles have even coordinates in the cube and come in all of se
     for (const auto& [size, count] : kinds.sizes) CHECK(count > soup_size / 40);
 }
 
-TEST_CASE("a sixteenth of a soup is flat at a multiple of an eighth, each of the seventeen as often as the others") {
+TEST_CASE("one sixteenth of a soup is flat at a multiple of 1/8 and each of the 17 is equally frequent") {
     const Kinds kinds = kinds_of(large_soup());
     REQUIRE(kinds.planes.size() == 17);
     CHECK(kinds.planes.begin()->first == -8);
@@ -112,12 +112,12 @@ TEST_CASE("a sixteenth of a soup is flat at a multiple of an eighth, each of the
         INFO("plane " << plane);
         if (std::abs(plane) < 8)
             CHECK(is_share(count, soup_size, 1 / (16.0 * 17)));
-        else  // the cube's sides also flatten what would reach beyond them
+        else  // the cube's sides also flatten triangles that would extend beyond them
             CHECK(count > soup_size / (16 * 17));
     }
 }
 
-TEST_CASE("a quarter of the triangles have three colours, and one colour in eight is opaque") {
+TEST_CASE("a quarter of the triangles have three colours and one colour in eight is opaque") {
     const Mesh& mesh = large_soup();
     int one_color = 0, three_colors = 0, opaque = 0, chosen = 0;
     float least = 2;
@@ -137,7 +137,7 @@ TEST_CASE("a quarter of the triangles have three colours, and one colour in eigh
     CHECK((least > 0 && least < 0.001f));
 }
 
-TEST_CASE("the first triangle of a soup is a new one, whatever its seed, and seeds have nothing in common") {
+TEST_CASE("the first triangle of a soup is new for any seed and seeds have nothing in common") {
     int without_area = 0;
     std::map<Corners, int> first;
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
@@ -149,7 +149,7 @@ TEST_CASE("the first triangle of a soup is a new one, whatever its seed, and see
     CHECK(first.size() == 500);
 }
 
-TEST_CASE("a soup is unlit and two-sided, blends, and numbers its vertices in order") {
+TEST_CASE("a soup blends unlit on both sides and its vertices are numbered in order") {
     const Scene scene = make_random_soup({}, 5, 7);
     const Mesh& mesh = scene.list.meshes.at(0);
     REQUIRE(mesh.indices.size() == 21);

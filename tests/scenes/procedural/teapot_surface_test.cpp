@@ -1,4 +1,5 @@
-// Model: de Casteljau's construction in binary64, point by point; normals from the same construction's last edges.
+// Tests the teapot's surface against de Casteljau's construction in binary64, point by point; normals are from the last
+// edges of the same construction.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,7 +21,7 @@ Space between(const Space& a, const Space& b, double t) {
 }
 
 struct OnCurve {
-    Space point, along;  // `along`: the direction in which t grows
+    Space point, along;  // along: the direction of increasing t
 };
 
 OnCurve cast(Cubic c, double t) {
@@ -51,7 +52,7 @@ OnPatch on_patch(std::size_t patch, double u, double v) {
     return {down.point, down.along, across.along};
 }
 
-// The table's z is up.
+// True if `found` is close to a point of the table, whose z axis is up.
 bool is_close(const strata::pipeline::Vec3& found, const Space& table, double tolerance) {
     const double expected[3] = {table[0], table[2], -table[1]};
     for (std::size_t i = 0; i < 3; ++i)
@@ -71,7 +72,7 @@ bool is_zero(const Space& n) { return n[0] == 0 && n[1] == 0 && n[2] == 0; }
 
 }  // namespace
 
-TEST_CASE("each vertex of the teapot is its patch's point at (i / n, j / n), and its normal the surface's there") {
+TEST_CASE("each vertex of the teapot is its patch's point at i / n and j / n with the normal of the surface there") {
     for (const int n : {1, 2, 5}) {
         const Mesh pot = make_teapot({}, n).list.meshes.at(0);
         REQUIRE(pot.positions.size() == std::size_t(32 * (n + 1) * (n + 1)));
@@ -92,13 +93,11 @@ TEST_CASE("each vertex of the teapot is its patch's point at (i / n, j / n), and
                 }
         INFO("tessellation " << n);
         CHECK(wrong == "");
-        CHECK(collapsed == std::size_t(8 * (n + 1)));  // the first rows of the lid's top and of the bottom
+        CHECK(collapsed == std::size_t(8 * (n + 1)));  // first rows of the top of the lid and of the bottom
     }
 }
 
-TEST_CASE(
-    "each cell of a patch is two triangles from its first corner, and at a collapsed row one has no area and is left "
-    "out") {
+TEST_CASE("each cell of a patch is two triangles and at a degenerate row the one without area is omitted") {
     const int n = 3;
     const Mesh pot = make_teapot({}, n).list.meshes.at(0);
     std::vector<std::uint32_t> expected;
@@ -116,7 +115,7 @@ TEST_CASE(
     CHECK(expected.size() == std::size_t(3 * (2 * 9 * 32 - 8 * n)));
 }
 
-TEST_CASE("the ground is a square of 7.2, centred under the pot, that faces upwards") {
+TEST_CASE("the ground is a square of side 7.2 centred under the pot that faces upwards") {
     const Scene scene = make_teapot({}, 1);
     const Mesh& ground = scene.list.meshes.at(1);
     CHECK(ground.indices == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});

@@ -1,3 +1,4 @@
+// Tests the shape of the teapot: published extents, closed edges, orientation, normals and colours.
 #include "scenes/procedural/teapot.h"
 
 #include <array>
@@ -22,7 +23,7 @@ double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + 
 
 }  // namespace
 
-TEST_CASE("the teapot is as large as the published table says, stands upright and just above its plane") {
+TEST_CASE("the teapot has the extents of Newell's data set and is upright and rests just above the ground plane") {
     const Scene scene = make_teapot({}, 16);
     const Mesh& pot = scene.list.meshes[0];
     Point lo{9, 9, 9}, hi{-9, -9, -9};
@@ -32,19 +33,19 @@ TEST_CASE("the teapot is as large as the published table says, stands upright an
             hi[i] = std::max(hi[i], double{p[i]});
         }
     }
-    CHECK(lo[1] == 0);  // its bottom's middle
+    CHECK(lo[1] == 0);  // centre of the bottom
     CHECK(hi[1] == Approx(3.15));
     CHECK(hi[2] == Approx(2).margin(0.01));  // the belly
-    CHECK(lo[2] == -hi[2]);                  // mirrored, bit for bit
+    CHECK(lo[2] == -hi[2]);                  // mirrored exactly
     CHECK(lo[0] == Approx(-3).margin(0.01));
     CHECK((hi[0] > 3.4 && hi[0] < 3.525));  // the spout does not reach its control points
     for (const Vec3& p : scene.list.meshes[1].positions) CHECK((p[1] < 0 && p[1] > -0.05f));
 }
 
-TEST_CASE("neighbouring patches of the body, lid and bottom meet without cracks") {
-    // An edge is the set of its two ends, equal if all their coordinates are. Two triangles share it, save on the rims
-    // of body and lid (four patches each) and at both ends of handle and spout (two patches each): 4 + 4 + 2 * 2 + 2 *
-    // 2 = 16 rows of n open edges.
+TEST_CASE("neighbouring patches of the body and lid and bottom meet without cracks") {
+    // Edges are identified by the positions of their endpoints. Each is shared by two triangles, except the boundary
+    // edges: the rims of body and lid (4 patches each) and both ends of handle and spout (2 patches each), 4 + 4 + 2 *
+    // 2 + 2 * 2 = 16 patch sides of n edges.
     for (const int n : {4, 7, 16}) {
         const Mesh pot = make_teapot({}, n).list.meshes[0];
         std::map<std::set<Point>, int> edges;
@@ -62,7 +63,7 @@ TEST_CASE("neighbouring patches of the body, lid and bottom meet without cracks"
     }
 }
 
-TEST_CASE("front faces are the outside: triangles run counterclockwise about their normals, which point outwards") {
+TEST_CASE("triangles are counterclockwise seen from outside and normals point outward") {
     const Mesh pot = make_teapot({}, 16).list.meshes[0];
     int turned = 0;
     double volume = 0;
@@ -74,10 +75,10 @@ TEST_CASE("front faces are the outside: triangles run counterclockwise about the
         volume += dot(a, cross(b, c)) / 6;
     }
     CHECK(turned == 0);
-    CHECK(volume > 10);  // negative if the surface were inside out
+    CHECK(volume > 10);  // would be negative if the surface were inside out
 }
 
-TEST_CASE("every normal of the teapot is a unit vector, at the collapsed rows too, where it is vertical") {
+TEST_CASE("all normals of the teapot have unit length and are vertical at the degenerate poles of lid and bottom") {
     const Mesh pot = make_teapot({}, 16).list.meshes[0];
     int wrong = 0, poles = 0;
     for (std::size_t i = 0; i < pot.normals.size(); ++i) {
@@ -89,10 +90,11 @@ TEST_CASE("every normal of the teapot is a unit vector, at the collapsed rows to
         wrong += n[1] == (p[1] == 0 ? -1 : 1) ? 0 : 1;
     }
     CHECK(wrong == 0);
-    CHECK(poles == 8 * 17);  // a row of each of the lid's four and the bottom's four patches
+    CHECK(poles == 8 * 17);  // n + 1 = 17 vertices of one degenerate side, for 4 lid and 4 bottom patches
 }
 
-TEST_CASE("the teapot is red outside and green inside, its plane blue, all two-sided and half transparent") {
+TEST_CASE(
+    "the teapot is red outside and green inside on a blue plane and everything is two-sided and half transparent") {
     const auto materials = make_teapot({}, 2).list.materials;
     const auto is_mostly = [](const strata::pipeline::Rgba& color, std::size_t channel) {
         for (std::size_t c = 0; c < 3; ++c)

@@ -1,4 +1,4 @@
-// The model: scenes.md 3, formula by formula, in 60 decimal digits.
+// Tests the volume beam against the formulas of scenes.md 3 in 60 decimal digits.
 #include "scenes/procedural/volume_beam.h"
 
 #include <boost/math/constants/constants.hpp>
@@ -12,12 +12,12 @@ using Wide = boost::multiprecision::number<boost::multiprecision::mpfr_float_bac
 
 const Wide two_pi = 2 * boost::math::constants::pi<Wide>();
 
-// Within the rounding to binary32 of numbers up to 1.
+// True within the rounding to binary32 of numbers up to 1.
 bool close(float value, const Wide& exact) { return abs(Wide{value} - exact) < 6e-8; }
 
 }  // namespace
 
-TEST_CASE("slice i of N stands at z = -1 + 2 (i + 1/2) / N with the hue and the alphas of scenes.md 3") {
+TEST_CASE("slice i of N is at z = -1 + 2 (i + 1/2) / N with the hue and the alphas of scenes.md 3") {
     for (const int slices : {1, 2, 7, 256}) {
         const auto mesh = make_volume_beam({}, slices, BeamOrder::far).list.meshes[0];
         REQUIRE(mesh.positions.size() == std::size_t(4 * slices));
@@ -42,7 +42,7 @@ TEST_CASE("slice i of N stands at z = -1 + 2 (i + 1/2) / N with the hue and the 
     }
 }
 
-TEST_CASE("the order near is the order far from its other end") {
+TEST_CASE("the order near is the reverse of the order far") {
     const auto far = make_volume_beam({}, 5, BeamOrder::far).list.meshes[0];
     const auto near = make_volume_beam({}, 5, BeamOrder::near).list.meshes[0];
     CHECK(far.indices == near.indices);
@@ -53,7 +53,7 @@ TEST_CASE("the order near is the order far from its other end") {
     }
 }
 
-TEST_CASE("the cone has 5,000 triangles, 50 segments on each of 51 circles, and the normals of its shell") {
+TEST_CASE("the cone has 5000 triangles on 51 circles of 50 segments with the normals of its shell") {
     const auto mesh = make_volume_beam({}, 1, BeamOrder::far).list.meshes[1];
     CHECK(mesh.indices.size() == 3 * 5000);
     REQUIRE(mesh.positions.size() == 51 * 50);
