@@ -1,4 +1,5 @@
-// tests/pipeline/addressing_model.h - which texels a coordinate names, in rational arithmetic, from GL 2.1 3.8.8.
+// tests/pipeline/addressing_model.h - expected texels of a texture coordinate in rational arithmetic, from GL 2.1
+// 3.8.8.
 #pragma once
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -11,12 +12,12 @@ using Rational = boost::multiprecision::cpp_rational;
 using Integer = boost::multiprecision::cpp_int;
 
 struct Texels {
-    int first, second, weight;  // of the second, in 1/256
+    int first, second, weight;  // weight of the second texel in units of 1/256
 };
 
 [[nodiscard]] inline Integer floor(const Rational& x) {
     const Integer n = numerator(x), d = denominator(x);
-    Integer quotient = n / d;  // toward zero
+    Integer quotient = n / d;  // rounded toward zero
     if (quotient * d > n) --quotient;
     return quotient;
 }
@@ -29,7 +30,7 @@ struct Texels {
     return place < size ? place : period - 1 - place;
 }
 
-// `snaps`: nearest lookups round u to 1/256 first, ties to even.
+// `snaps`: nearest lookups round u to a multiple of 1/256 first, ties to even.
 [[nodiscard]] inline Texels texels(TextureTarget target, TextureWrap wrap, int size, TextureFilter filter, bool snaps,
                                    float coordinate) {
     const float limit = 2147483648.0f;
@@ -43,13 +44,13 @@ struct Texels {
         Rational place = u;
         if (snaps) {
             Integer k = floor(u * 256 + Rational{1, 2});
-            if (u * 256 + Rational{1, 2} == Rational{k} && k % 2 != 0) --k;  // a tie went up to an odd number
+            if (u * 256 + Rational{1, 2} == Rational{k} && k % 2 != 0) --k;  // a tie was rounded up to an odd number
             place = Rational{k, 256};
         }
         return {wrap_texel(wrap, size, floor(place)), wrap_texel(wrap, size, floor(place)), 0};
     }
     Rational centred = u;
-    if (wrap == TextureWrap::clamp_to_edge) {  // to [1/2, size - 1/2]
+    if (wrap == TextureWrap::clamp_to_edge) {  // clamped to [1/2, size - 1/2]
         const Rational low{1, 2}, high{2 * size - 1, 2};
         centred = u < low ? low : u > high ? high : u;
     }
@@ -59,7 +60,7 @@ struct Texels {
             static_cast<int>(Integer{position - first * 256})};
 }
 
-// Inside, outside, on texel borders and centres, next to them, and the hard ones.
+// A random coordinate: inside, outside, on texel borders and centres, next to them, or a special value.
 [[nodiscard]] inline float any_coordinate(Random& random, int size) {
     const auto border = [&] { return static_cast<float>(static_cast<int>(below(random, 100)) - 50); };
     switch (below(random, 6)) {

@@ -1,5 +1,6 @@
-// tests/pipeline/blend_model.h - random blend states, and one fragment blended on an 8-bit target in plain integers,
-// written from GL 2.1 4.1.8 and fragment-stages.md 8.1 and 8.2. blend_float_test.cpp has the float counterpart.
+// tests/pipeline/blend_model.h - random blend states, and the expected result of one fragment on an 8-bit target in
+// integers, written from GL 2.1 4.1.8 and fragment-stages.md 8.1 and 8.2. blend_float_test.cpp has the float
+// counterpart.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@ namespace strata::pipeline {
 using Codes = std::array<rasterizer::Lanes<std::uint32_t>, 4>;
 using Colors = std::array<rasterizer::Lanes<float>, 4>;
 
-// One state in two is a mode that papers use.
+// Half of the states are modes that the papers use.
 [[nodiscard]] inline BlendTerm any_term(Random& random) {
     using enum BlendFactor;
     using enum BlendEquation;
@@ -47,7 +48,7 @@ struct Fragment {
     std::array<T, 4> source, stored, constant;
 };
 
-// The factor of channel c. one: the number that means 1. complement(x): 1 - x. lesser(a, b): the smaller.
+// The factor of channel c. one: the number that represents 1. complement(x): 1 - x. lesser(a, b): the smaller of both.
 template <class T>
 [[nodiscard]] T model_factor(BlendFactor factor, const Fragment<T>& f, std::size_t c, T one, auto complement,
                              auto lesser) {
@@ -71,7 +72,7 @@ template <class T>
     return T{0};
 }
 
-// Channel c of an 8-bit target; everything as codes.
+// Expected code of channel c of an 8-bit target; all inputs are codes.
 [[nodiscard]] inline int model_unorm8(const Blend& state, BlendRounding rounding, const Fragment<int>& f,
                                       std::size_t c) {
     if (!state.enabled) return f.source[c];

@@ -1,4 +1,4 @@
-// tests/pipeline/exhaustive.h - a rule over all 2^32 float bit patterns, on all cores.
+// tests/pipeline/exhaustive.h - checks a rule for all 2^32 float bit patterns, on all cores.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace strata::pipeline {
 
 struct Exhausted {
     std::uint64_t wrong = 0;
-    std::uint32_t first = 0;  // the smallest pattern that is wrong
+    std::uint32_t first = 0;  // the smallest wrong bit pattern
 };
 
 template <class Rule>

@@ -1,4 +1,4 @@
-// tests/pipeline/frames.h - a frame around a test's draw list, for bodies and passes written against Region.
+// tests/pipeline/frames.h - a frame for a test's draw list, for bodies and passes written against Region.
 #pragma once
 #include <utility>
 
@@ -8,7 +8,7 @@
 
 namespace strata::testing {
 
-// Owns what its `frame` points to; stays where it was made.
+// Owns what its `frame` points to, so it can be neither copied nor moved.
 class TestFrame {
   public:
     TestFrame(pipeline::DrawList draws, const pipeline::View& view, int width, int height, const char* profile,

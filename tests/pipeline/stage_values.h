@@ -1,4 +1,5 @@
-// tests/pipeline/stage_values.h - random and awkward inputs for the stages, and one useful line for what went wrong.
+// tests/pipeline/stage_values.h - random and special inputs for the stages, and a count of failures with a description
+// of the first.
 #pragma once
 #include <fmt/format.h>
 
@@ -24,7 +25,7 @@ using Random = std::mt19937_64;
 [[nodiscard]] inline float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 [[nodiscard]] inline bool is_nan(float x) { return (bits_of(x) & 0x7fffffffu) > 0x7f800000u; }
 
-// Signed zeros, denormals, infinities, NaN with payloads (signalling ones too), limits, values round 1.
+// Signed zeros, denormals, infinities, NaN with payloads (also signalling), limits, values around 1.
 inline constexpr std::array<std::uint32_t, 30> hard_bits{
     0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007fffff, 0x807fffff, 0x00800000, 0x80800000,
     0x00800001, 0x33800000, 0x3effffff, 0x3f000000, 0x3f000001, 0x3f7fffff, 0x3f800000, 0xbf800000,
@@ -44,12 +45,12 @@ inline constexpr std::array<std::uint32_t, 30> hard_bits{
 [[nodiscard]] inline std::uint8_t any_byte(Random& random) { return static_cast<std::uint8_t>(below(random, 256)); }
 
 template <class Enum>
-[[nodiscard]] Enum any_of(Random& random, Enum last) {  // the enum starts at 0
+[[nodiscard]] Enum any_of(Random& random, Enum last) {  // requires an enum that starts at 0
     return static_cast<Enum>(below(random, static_cast<std::uint32_t>(last) + 1));
 }
 
 // The eight functions as sets of outcomes, from the table of GL 2.1 4.1.4: which of a < b, a == b, a > b pass.
-// Unordered operands are "not equal" and nothing else.
+// Unordered operands count as "not equal" only.
 [[nodiscard]] inline bool model_compare(CompareFunc func, double a, double b) {
     constexpr std::array<const char*, 8> passing{"", "<", "=", "<=", ">", "<>", ">=", "<=>?"};
     const char outcome = a < b ? '<' : a > b ? '>' : a == b ? '=' : '?';
@@ -58,7 +59,7 @@ template <class Enum>
     return set.find(outcome) != std::string::npos;
 }
 
-// Counts failures and keeps the first one's words.
+// Counts failures and keeps the description of the first.
 class Tally {
   public:
     void expect(bool holds, const std::function<std::string()>& words) {

@@ -1,3 +1,4 @@
+// Tests the feature checks of devices. The expected messages and the devices of each feature are written by hand.
 #include "pipeline/device/check.h"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace {
 
 const DeviceProfile& device(std::string_view name) { return *find_profile(name); }
 
-// The sentence of a refusal, or "" for what the device can do.
+// The message of a rejection, or "" if the device supports the state.
 std::string sentence(std::string_view name, const Verdict& verdict) {
     return verdict ? verdict->sentence(device(name)) : std::string{};
 }
@@ -28,7 +29,7 @@ std::string checked_targets(std::string_view name, const std::vector<Blend>& tar
 
 }  // namespace
 
-TEST_CASE("independent blending is refused with the feature, the extension and the way out") {
+TEST_CASE("independent blending is rejected with the feature and the extension and a workaround") {
     const std::vector<Blend> unequal{blend_mode::max, blend_mode::under};
     CHECK(checked_targets("geforce8", unequal) ==
           "profile geforce8 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal, "
@@ -47,7 +48,7 @@ TEST_CASE("targets that share a blend equation may differ in enable and write ma
     CHECK_FALSE(checked_targets("geforce8", {blend_mode::max, blend_mode::replace, tinted}).empty());
 }
 
-TEST_CASE("a blend of its own for alpha is refused where there is one function for all channels") {
+TEST_CASE("separate blending of alpha is rejected where there is one function for all channels") {
     CHECK(checked("geforce3", blend_mode::under) ==
           "profile geforce3 has no separate blend functions for alpha (EXT_blend_func_separate); use geforce8, "
           "geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader");
@@ -58,7 +59,7 @@ TEST_CASE("a blend of its own for alpha is refused where there is one function f
     CHECK(checked("geforce3", off).empty());
 }
 
-TEST_CASE("more render targets than the device has are refused") {
+TEST_CASE("more render targets than the device has are rejected") {
     CHECK(checked_targets("geforce3", {Blend{}, Blend{}}) ==
           "profile geforce3 has no 2 render targets in one pass (ARB_draw_buffers); use geforce8, geforce8_dx101, "
           "ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader");
@@ -67,7 +68,7 @@ TEST_CASE("more render targets than the device has are refused") {
           "profile ideal has no 9 render targets in one pass (ARB_draw_buffers)");
 }
 
-TEST_CASE("each device takes its own depth formats") {
+TEST_CASE("each device accepts its own depth formats") {
     CHECK(checked("geforce3", DepthFormat::d16).empty());
     CHECK(checked("geforce3", Format::d24s8).empty());
     CHECK(checked("geforce3", Format::d32f) ==
@@ -81,7 +82,7 @@ TEST_CASE("each device takes its own depth formats") {
         CHECK(checked("ideal", format).empty());
 }
 
-TEST_CASE("float render targets are refused on a device that has 8-bit ones alone") {
+TEST_CASE("float render targets are rejected on a device that has only 8-bit ones") {
     for (const Format format : {Format::rgba16f, Format::rgba32f, Format::r16f, Format::r32f, Format::rg32f}) {
         CHECK_FALSE(checked("geforce3", format).empty());
         CHECK(checked("geforce8", format).empty());
@@ -90,7 +91,7 @@ TEST_CASE("float render targets are refused on a device that has 8-bit ones alon
     CHECK(checked("geforce3", Format::s8).empty());
 }
 
-TEST_CASE("two-sided stencil and unclamped depth clears are refused where they are missing") {
+TEST_CASE("two-sided stencil and unclamped depth clears are rejected where they are missing") {
     CHECK(checked("geforce3", StencilTest{true, true, {}, {}}) ==
           "profile geforce3 has no two-sided stencil (EXT_stencil_two_side); use geforce8, geforce8_dx101, ideal, "
           "llvmpipe, "
@@ -101,11 +102,11 @@ TEST_CASE("two-sided stencil and unclamped depth clears are refused where they a
     clamping.has_unclamped_depth_clear = false;
     CHECK(check_depth_clear(clamping, DepthFormat::d32f, -1.0f));
     CHECK_FALSE(check_depth_clear(clamping, DepthFormat::d32f, 1.0f));
-    CHECK_FALSE(check_depth_clear(clamping, DepthFormat::d24, -1.0f));  // fixed formats clamp
+    CHECK_FALSE(check_depth_clear(clamping, DepthFormat::d24, -1.0f));  // fixed-point formats clamp
     CHECK_FALSE(check_depth_clear(device("geforce8"), DepthFormat::d32f, -1.0f));
 }
 
-TEST_CASE("sizes, samples and texture units beyond the device's are refused with the number") {
+TEST_CASE("sizes and samples and texture units beyond the device's are rejected with the number") {
     CHECK(sentence("geforce3", check_size(device("geforce3"), 4097, 10)) ==
           "profile geforce3 has no viewport of 4097 x 10 pixels; use geforce8, geforce8_dx101, ideal, llvmpipe, "
           "llvmpipe_sse, softpipe or swiftshader");
@@ -116,7 +117,7 @@ TEST_CASE("sizes, samples and texture units beyond the device's are refused with
     CHECK(check_texture_units(device("geforce3"), 5));
 }
 
-TEST_CASE("state of the era that no algorithm needs is refused by name on every profile") {
+TEST_CASE("contemporary state that no algorithm needs is rejected by name on every profile") {
     for (const DeviceProfile& profile : builtin_profiles()) {
         CHECK(check(profile, UnsupportedState::fog)->feature == "fog");
         CHECK(check(profile, UnsupportedState::color_sum)->feature == "colour sum");
@@ -127,7 +128,7 @@ TEST_CASE("state of the era that no algorithm needs is refused by name on every 
           "profile ideal has no dithering; disable it: no algorithm here needs it");
 }
 
-TEST_CASE("only texture shaders replace a depth, only programs write r/q, and every device compares it") {
+TEST_CASE("only texture shaders replace a depth and only programs write r/q and every device compares it") {
     using strata::rasterizer::DepthPath;
     for (const char* profile : {"geforce3", "geforce8", "ideal"}) {
         for (const DepthPath path : {DepthPath::float32, DepthPath::float32_plane, DepthPath::exact})
@@ -145,25 +146,25 @@ TEST_CASE("only texture shaders replace a depth, only programs write r/q, and ev
           "depth_replace, which writes the same depth");
 }
 
-TEST_CASE("of several missing features the first is named, and the ideal device misses none") {
+TEST_CASE("of several missing features the first is named and the ideal device misses none") {
     constexpr std::array needed{Feature::d24, Feature::fragment_programs, Feature::ordered_rmw};
     CHECK(check(device("geforce3"), needed)->extension == "ARB_fragment_program");
     CHECK(check(device("geforce8"), needed)->extension == "STRATA_ordered_rmw");
     CHECK_FALSE(check(device("ideal"), needed));
-    // NV2A's own blending and surfaces belong to no device of the others' kind.
+    // Features of the NV2A's own blending and surfaces, which no other device has.
     const std::set<Feature> nv2a{Feature::signed_blend, Feature::d16f, Feature::narrow_surfaces, Feature::d24f};
     for (const Feature feature : strata::enum_values<Feature>)
         CHECK(has(device("ideal"), feature) == !nv2a.contains(feature));
 }
 
-TEST_CASE("an extension of the emulator is there on every profile, ordered read-modify-write on ideal alone") {
+TEST_CASE("an extension of the emulator is available on every profile and ordered read-modify-write on ideal only") {
     for (const DeviceProfile& profile : builtin_profiles()) {
         CHECK(has(profile, Feature::sequential_depth_units));
         CHECK(has(profile, Feature::ordered_rmw) == (profile.name == "ideal"));
     }
 }
 
-TEST_CASE("a pass that is refused throws the refusal with its sentence") {
+TEST_CASE("a pass that is rejected throws Refused with its message") {
     const Refused refused{device("geforce8"), {"fog", "EXT_fog_coord", ""}};
     CHECK(std::string{refused.what()} == "profile geforce8 has no fog (EXT_fog_coord)");
     CHECK(refused.refusal.feature == "fog");

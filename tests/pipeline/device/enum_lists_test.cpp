@@ -1,5 +1,5 @@
-// Names of enums that users read tell their values apart, and every feature can be refused by its own. The names of a
-// profile's choices stand in profile_table_test.cpp.
+// Tests that the names of enums that users read are unique, and that every feature is rejected with its own name.
+// profile_table_test.cpp tests the names of a profile's choices.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -14,7 +14,7 @@ using strata::enum_values;
 
 namespace {
 
-// Names that differ from one another and from "".
+// Checks that the names differ from one another and from "".
 template <class Enum>
 bool names_differ(auto name_of) {
     std::set<std::string_view> seen{""};
@@ -25,7 +25,7 @@ bool names_differ(auto name_of) {
 
 }  // namespace
 
-TEST_CASE("every format, fault, vertex path and feature has a name of its own") {
+TEST_CASE("every format or fault or vertex path or feature has a unique name") {
     CHECK(names_differ<Format>([](Format f) { return info(f).name; }));
     CHECK(names_differ<Fault>([](Fault f) { return name(f); }));
     CHECK(names_differ<VertexPath>([](VertexPath p) { return vertex_path_names[static_cast<std::size_t>(p)]; }));

@@ -1,4 +1,5 @@
-// The model: the table of features, typed a second time: words, extension, and who has it.
+// Tests the checks of features against an independent table of features: description, extension, and the devices that
+// have it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +17,7 @@ using namespace strata::pipeline;
 struct FeatureOfDevices {
     Feature feature;
     std::string_view words, extension,
-        owners;  // of the profiles: 3, 8, 1 (dx101), i, l, s (llvmpipe_sse), p, w (swiftshader)
+        owners;  // one letter per profile: 3, 8, 1 (dx101), i, l, s (llvmpipe_sse), p, w (swiftshader)
 };
 
 constexpr FeatureOfDevices feature_table[] = {
@@ -45,7 +46,7 @@ constexpr std::array<std::string_view, 8> device_names{"geforce3", "geforce8",  
                                                        "llvmpipe", "llvmpipe_sse", "softpipe",       "swiftshader"};
 constexpr std::string_view device_marks = "381ilspw";
 
-// "use a, b or c": those of the devices whose mark is in `owners`.
+// "use a, b or c": the devices whose letter is in `owners`.
 [[nodiscard]] std::string way_to(std::string_view owners) {
     std::string text;
     for (std::size_t i = 0, left = owners.size(); i < device_names.size(); ++i) {
@@ -69,7 +70,7 @@ constexpr std::string_view device_marks = "381ilspw";
 
 }  // namespace
 
-TEST_CASE("each feature is had by its devices, and refused by the others with its words, extension and way out") {
+TEST_CASE("each feature is accepted on its devices and rejected on others with its extension and a workaround") {
     for (const FeatureOfDevices& row : feature_table)
         for (std::size_t i = 0; i < device_names.size(); ++i) {
             INFO(row.words << " on " << device_names[i]);
@@ -83,7 +84,7 @@ TEST_CASE("each feature is had by its devices, and refused by the others with it
         }
 }
 
-TEST_CASE("each format of a target asks for its own feature") {
+TEST_CASE("each format of a target requires its own feature") {
     using enum Format;
     for (std::size_t i = 0; i < device_names.size(); ++i) {
         const auto takes = [&](Format format, std::string_view owners) {
@@ -99,7 +100,7 @@ TEST_CASE("each format of a target asks for its own feature") {
     }
 }
 
-TEST_CASE("signed equations in colour or alpha, while blending is on, are GeForce3's alone") {
+TEST_CASE("signed equations in colour or alpha are accepted only on GeForce3 while blending is on") {
     for (const BlendEquation equation : {BlendEquation::signed_add, BlendEquation::signed_reverse_subtract}) {
         Blend blend = both_terms(equation);
         CHECK(runs("geforce3", blend));
@@ -119,7 +120,8 @@ TEST_CASE("signed equations in colour or alpha, while blending is on, are GeForc
         for (const std::string_view name : device_names) CHECK(runs(name, both_terms(equation)));
 }
 
-TEST_CASE("limits refuse the first number beyond them, whichever side of a viewport it is, and name who holds it") {
+TEST_CASE(
+    "limits reject the first number beyond them on either side of a viewport and name the devices that accept it") {
     struct Limits {
         std::string_view device;
         int targets, units, viewport, samples;
@@ -156,7 +158,7 @@ TEST_CASE("limits refuse the first number beyond them, whichever side of a viewp
     CHECK(check_size(geforce3, 20000, 7)->feature == "viewport of 20000 x 7 pixels");
 }
 
-TEST_CASE("a depth is cleared to a value outside 0 to 1, or to NaN, only where a float buffer may hold it") {
+TEST_CASE("clearing a float depth to NaN or a value outside 0 to 1 requires unclamped depth clears") {
     DeviceProfile clamping = device_named("ideal");
     clamping.has_unclamped_depth_clear = false;
     const float not_a_number = std::numeric_limits<float>::quiet_NaN();
@@ -170,7 +172,7 @@ TEST_CASE("a depth is cleared to a value outside 0 to 1, or to NaN, only where a
         CHECK_FALSE(check_depth_clear(clamping, DepthFormat::d32f, value));
 }
 
-TEST_CASE("several targets are checked one by one, and only those that blend must share their terms") {
+TEST_CASE("several targets are checked one by one and only those that blend must share their factors") {
     const DeviceProfile& p = device_named("geforce8");
     const auto verdict = [&](std::vector<Blend> targets) { return check(p, std::span<const Blend>{targets}); };
     Blend off = blend_mode::under;
@@ -186,7 +188,7 @@ TEST_CASE("several targets are checked one by one, and only those that blend mus
         check(device_named("geforce8_dx101"), std::span<const Blend>{std::vector{blend_mode::max, other_alpha}}));
 }
 
-TEST_CASE("state of the era is refused everywhere with its extension and the advice to disable it") {
+TEST_CASE("contemporary state is rejected everywhere with its extension and the advice to disable it") {
     const std::string advice = "disable it: no algorithm here needs it";
     for (const std::string_view name : device_names) {
         const DeviceProfile& p = device_named(name);

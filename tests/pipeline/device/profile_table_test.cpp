@@ -1,5 +1,5 @@
-// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal,
-// llvmpipe, llvmpipe_sse, softpipe, swiftshader.
+// Tests the built-in profiles against independent tables with a row per field; columns: geforce3, geforce8,
+// geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader.
 #include <catch2/catch.hpp>
 #include <string>
 #include <string_view>
@@ -139,10 +139,10 @@ constexpr FieldOfDevices device_table[] = {
 
 struct NamesOfField {
     std::string_view key;
-    std::vector<std::string_view> names;  // of values 0, 1, ...
+    std::vector<std::string_view> names;  // names of the values 0, 1, ...
 };
 
-// In the order of the enums, as their headers write them.
+// In the order of the enums in their headers.
 const std::vector<NamesOfField> choice_names{
     {"raster.snap", {"toward_zero", "nearest_even"}},
     {"raster.coverage", {"snapped_edges", "float_spans"}},
@@ -200,7 +200,7 @@ const std::vector<NamesOfField> choice_names{
 
 }  // namespace
 
-TEST_CASE("every field of every built-in device has the value of the devices' tables") {
+TEST_CASE("every field of every built-in device has the value in the table of devices") {
     REQUIRE(builtin_profiles().size() == 8);
     REQUIRE(std::size(device_table) == profile_fields().size());
     std::size_t at = 0;
@@ -214,7 +214,7 @@ TEST_CASE("every field of every built-in device has the value of the devices' ta
     }
 }
 
-TEST_CASE("every choice is written as its enum names it, value by value, and reads back from its name's place") {
+TEST_CASE("every choice has its enumerator's name value by value and is read back from that name") {
     std::size_t choices = 0;
     for (const ProfileField& field : profile_fields()) choices += field.kind == FieldKind::choice ? 1 : 0;
     CHECK(choices == choice_names.size());
@@ -232,7 +232,7 @@ TEST_CASE("every choice is written as its enum names it, value by value, and rea
     }
 }
 
-TEST_CASE("setting a choice sets the member that its key names, to the enumerator that its text names") {
+TEST_CASE("setting a choice sets the member that its key names to the enumerator that its text names") {
     using namespace strata::rasterizer;
     DeviceProfile p;
     const auto set = [&](std::string_view key, std::string_view text) {
@@ -303,7 +303,7 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
     CHECK((set("raster.subpixel_bits", "12") && p.raster.subpixel_bits == 12));
 }
 
-TEST_CASE("a device says for every number where it is from, in its own column of sources") {
+TEST_CASE("a device states the source of every number in its own column of sources") {
     const auto source = [](std::string_view device, std::string_view key) {
         for (const ProfileEntry& entry : describe(*find_profile(device)))
             if (entry.key == key) return entry.source;
@@ -320,7 +320,7 @@ TEST_CASE("a device says for every number where it is from, in its own column of
     CHECK(source("swiftshader", "raster.plane_anchor") == "[A] as geforce8_dx101");
     CHECK(source("ideal", limit) == "ideal: no device");
     DeviceProfile own = *find_profile("geforce8");
-    own.name = "mine";  // a file's profile of another name vouches for all of it
+    own.name = "mine";  // a profile file with another name is the source of all its values
     for (const ProfileEntry& entry : describe(own)) CHECK(entry.source == "the profile's own file");
     for (const DeviceProfile& profile : builtin_profiles())
         for (const ProfileEntry& entry : describe(profile)) CHECK(entry.source != "the profile's own file");

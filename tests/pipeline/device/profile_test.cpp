@@ -1,3 +1,4 @@
+// Tests the built-in profiles and the table of their fields against values written by hand from devices.md.
 #include "pipeline/device/profile.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +9,7 @@
 using namespace strata::pipeline;
 using namespace strata::rasterizer;
 
-TEST_CASE("the built-in profiles are three GeForces, ideal, three rasterizers of Mesa and SwiftShader") {
+TEST_CASE("the built-in profiles are three GeForces plus ideal plus three rasterizers of Mesa plus SwiftShader") {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles()) names.push_back(profile.name);
     CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
@@ -17,7 +18,7 @@ TEST_CASE("the built-in profiles are three GeForces, ideal, three rasterizers of
 }
 
 // devices.md 2.
-TEST_CASE("geforce3 has the numbers that captures of an NV2A prove") {
+TEST_CASE("geforce3 has the numbers that captures of an NV2A show") {
     const DeviceProfile& p = *find_profile("geforce3");
     CHECK(p.raster.subpixel_bits == 4);
     CHECK(p.raster.snap == Snap::toward_zero);
@@ -36,7 +37,7 @@ TEST_CASE("geforce3 has the numbers that captures of an NV2A prove") {
     CHECK(p.max_render_targets == 1);
 }
 
-TEST_CASE("geforce8 follows Direct3D 10.0 and shares one blend equation between its eight targets") {
+TEST_CASE("geforce8 follows Direct3D 10.0 and shares one blend equation among its eight targets") {
     const DeviceProfile& p = *find_profile("geforce8");
     CHECK(p.raster.subpixel_bits == 8);
     CHECK(p.raster.snap == Snap::nearest_even);
@@ -52,7 +53,7 @@ TEST_CASE("geforce8 follows Direct3D 10.0 and shares one blend equation between 
     CHECK(with_independent_blend == *find_profile("geforce8_dx101"));
 }
 
-TEST_CASE("ideal computes depth exactly, keeps denormals and holds every frame that rasterizes") {
+TEST_CASE("ideal computes depth exactly and keeps denormals and has room for every frame that rasterizes") {
     const DeviceProfile& p = *find_profile("ideal");
     CHECK(p.raster.depth_path == DepthPath::exact);
     CHECK(p.denormals == DenormalRule::keep);
@@ -61,7 +62,7 @@ TEST_CASE("ideal computes depth exactly, keeps denormals and holds every frame t
 }
 
 // The fragments themselves are compared with Mesa's by tools/bench/side_by_side.py.
-TEST_CASE("llvmpipe snaps 8 subpixel bits of x * (1 / w), and a bottom or left edge owns its ties") {
+TEST_CASE("llvmpipe snaps x * (1 / w) to 8 subpixel bits and ties belong to bottom and left edges") {
     const DeviceProfile& p = *find_profile("llvmpipe");
     CHECK(p.raster.subpixel_bits == 8);
     CHECK(p.raster.snap == Snap::nearest_even);
@@ -74,7 +75,7 @@ TEST_CASE("llvmpipe snaps 8 subpixel bits of x * (1 / w), and a bottom or left e
     for (const ProfileEntry& e : describe(p)) CHECK(e.source.starts_with("["));
 }
 
-TEST_CASE("each field of a profile has one row, a source on every device, and reads back what was set") {
+TEST_CASE("each field of a profile has one row with a source on every device and returns the value that was set") {
     std::set<std::string_view> keys;
     DeviceProfile profile;
     for (const ProfileField& field : profile_fields()) {
@@ -97,8 +98,8 @@ TEST_CASE("each field of a profile has one row, a source on every device, and re
     }
 }
 
-// A field that has no row would keep its default here.
-TEST_CASE("the rows of the table make the whole profile") {
+// A field without a row would keep its default here.
+TEST_CASE("the rows of the table make the complete profile") {
     for (const DeviceProfile& original : builtin_profiles()) {
         DeviceProfile copy;
         copy.name = original.name;
@@ -110,7 +111,7 @@ TEST_CASE("the rows of the table make the whole profile") {
           75);  // 26 rules of rasterization, 14 of its hypotheses, 35 fields of DeviceProfile
 }
 
-TEST_CASE("a description names each value's source, and a number that a user changed is the user's") {
+TEST_CASE("a description names the source of each value and a changed number is attributed to the user") {
     DeviceProfile profile = *find_profile("geforce3");
     const auto entry = [&](std::string_view key) {
         for (const ProfileEntry& e : describe(profile))

@@ -1,6 +1,6 @@
-// States that no algorithm sets: NV2A's signed blends, w buffers without a far plane, profiles that contradict
-// themselves, lookups in rectangles by dot products. Models: integers; matrices multiplied out; the tables, typed a
-// second time.
+// Tests states that no algorithm sets: NV2A's signed blends, w buffers without a far plane, profiles that contradict
+// themselves, rectangle lookups by dot products. The expected values are computed in integers, by multiplying matrices,
+// and from independent tables.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/profile_fields.h"
@@ -28,8 +28,9 @@ std::string profile_error(const DeviceProfile& profile) {
 
 }  // namespace
 
-TEST_CASE("every equation of every pair of 8-bit codes is that of integers, on every set and by every rounding",
-          "[slow]") {
+TEST_CASE(
+    "every equation of every pair of 8-bit codes is that of integers on every instruction set and for every rounding",
+    "[slow]") {
     using enum BlendEquation;
     static Colors src;
     static Codes codes;
@@ -75,8 +76,7 @@ TEST_CASE("every equation of every pair of 8-bit codes is that of integers, on e
     }
 }
 
-TEST_CASE(
-    "a w buffer's unit is such that the far plane's w is depth 1, or what it is told, or 1 without such a plane") {
+TEST_CASE("a w buffer's unit maps the far plane's w to depth 1 or is the given value or is 1 without such a plane") {
     const auto scale = [](const Matrix& projection, float given) {
         const strata::testing::TriangleScene scene = strata::testing::random_triangles(3, 4);
         View view;
@@ -87,21 +87,21 @@ TEST_CASE(
         raster.w_scale = given;
         return prepare(scene.list, view, raster, *find_profile("geforce3"), {.threads = 1}).geometry.state.w_scale;
     };
-    const Matrix to_five{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5, 0};  // near 1, far 5
+    const Matrix to_five{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5, 0};  // near plane 1, far plane 5
     CHECK(scale(to_five, 0.0f) == static_cast<float>(0xffffff / 5.0));
     CHECK(scale(to_five, 12.5f) == 12.5f);
     const Matrix no_plane{2, 0, 0,  0,  0, 2, 0,  0,
-                          0, 0, -1, -1, 0, 0, -2, 0};  // z = w nowhere: the far plane is infinite
+                          0, 0, -1, -1, 0, 0, -2, 0};  // z = w has no solution: the far plane is infinite
     CHECK(scale(no_plane, 0.0f) == 1.0f);
-    const Matrix behind{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -0.5, -1, 0, 0, -2.5, 0};  // z = w at w of -5
+    const Matrix behind{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -0.5, -1, 0, 0, -2.5, 0};  // z = w at w = -5
     CHECK(scale(behind, 0.0f) == 1.0f);
-    const Matrix tiny{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5e-40, 0};  // beyond binary32
+    const Matrix tiny{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5e-40, 0};  // overflows binary32
     CHECK(scale(tiny, 0.0f) == 1.0f);
-    const Matrix vast{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5e60, 0};  // 0 in binary32
+    const Matrix vast{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.5, -1, 0, 0, -2.5e60, 0};  // underflows to 0 in binary32
     CHECK(scale(vast, 0.0f) == 1.0f);
 }
 
-TEST_CASE("an alteration of vertices changes them or the corners, and one without functions neither") {
+TEST_CASE("an alteration of vertices changes vertices or corners and one without functions neither") {
     const strata::testing::TriangleScene scene = strata::testing::random_triangles(4, 4);
     strata::rasterizer::RasterState raster;
     raster.viewport = {0, 0, 8, 8};
@@ -124,7 +124,7 @@ TEST_CASE("an alteration of vertices changes them or the corners, and one withou
     CHECK(corners == 1);
 }
 
-TEST_CASE("a profile has the depth formats that it says, and rounds codes once by one of two rules") {
+TEST_CASE("a profile has the depth formats that it states and rounds codes once by one of two rules") {
     for (const bool has : {false, true}) {
         DeviceProfile profile;
         profile.has_d16f = profile.has_d24f = has;
@@ -147,7 +147,7 @@ TEST_CASE("a profile has the depth formats that it says, and rounds codes once b
     }
 }
 
-TEST_CASE("float spans stand beside no rule of the chip, and a field below its range is refused by both ends") {
+TEST_CASE("float spans exclude every rule of the chip and a field below its range is rejected with both limits") {
     DeviceProfile spans = *find_profile("geforce3");
     spans.raster.coverage = strata::rasterizer::CoverageRule::float_spans;
     spans.raster.color = strata::rasterizer::ColorInterpolation::exact_plane;
@@ -182,7 +182,7 @@ TEST_CASE("float spans stand beside no rule of the chip, and a field below its r
     CHECK(profile_error(*find_profile("geforce8")) == "accepted");
 }
 
-TEST_CASE("a dot product looks a rectangle up where two products and a rectangle's texture are there") {
+TEST_CASE("a rectangle lookup by a dot product requires two dot products and a rectangle texture") {
     const Texture flat{.name = "flat", .width = 1, .height = 1, .texels = {0, 0, 0, 255}};
     Texture rectangle = flat;
     rectangle.target = TextureTarget::rectangle;
@@ -195,6 +195,6 @@ TEST_CASE("a dot product looks a rectangle up where two products and a rectangle
         return consistent_operations(stages)[2];
     };
     CHECK(last_of(rectangle, 0) == ShaderOp::dot_product_texture_rectangle);
-    CHECK(last_of(flat, 0) == ShaderOp::none);       // another target
-    CHECK(last_of(rectangle, 1) == ShaderOp::none);  // a scalar is no input
+    CHECK(last_of(flat, 0) == ShaderOp::none);       // another texture target
+    CHECK(last_of(rectangle, 1) == ShaderOp::none);  // a scalar is not a valid input
 }

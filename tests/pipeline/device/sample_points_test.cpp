@@ -1,4 +1,5 @@
-// The model: the patterns as Direct3D 11 draws them, rows of sixteen characters typed by hand, and NV20's two modes.
+// Tests the sample patterns against those of Direct3D 11, written by hand as rows of sixteen characters, and against
+// NV20's two modes.
 #include "pipeline/device/sample_points.h"
 
 #include <catch2/catch.hpp>
@@ -28,7 +29,7 @@ using namespace strata::pipeline;
 
 }  // namespace
 
-TEST_CASE("standard samples lie where Direct3D has them, each in a row and a column of its own") {
+TEST_CASE("standard samples are at Direct3D's positions with one per row and column") {
     using Points = std::set<std::pair<int, int>>;
     CHECK(points_of(SamplePositions::standard, 2) == Points{{4, 4}, {12, 12}});
     CHECK(points_of(SamplePositions::standard, 4) == Points{{6, 2}, {14, 6}, {2, 10}, {10, 14}});
@@ -52,7 +53,7 @@ TEST_CASE("standard samples lie where Direct3D has them, each in a row and a col
     CHECK(sample_points(SamplePositions::standard, 16).empty());
 }
 
-TEST_CASE("NV20 has a corner and the centre, a square, and no eight samples") {
+TEST_CASE("NV20 has a pattern of corner and centre and a square but none of eight samples") {
     using Points = std::set<std::pair<int, int>>;
     CHECK(points_of(SamplePositions::nv20, 2) == Points{{0, 0}, {8, 8}});
     CHECK(points_of(SamplePositions::nv20, 4) == Points{{4, 4}, {12, 4}, {4, 12}, {12, 12}});
@@ -60,7 +61,7 @@ TEST_CASE("NV20 has a corner and the centre, a square, and no eight samples") {
     CHECK(sample_points(SamplePositions::nv20, 8).empty());
 }
 
-TEST_CASE("numbers of samples that a device has not are refused by name") {
+TEST_CASE("numbers of samples that a device lacks are rejected by name") {
     for (const DeviceProfile& profile : builtin_profiles()) {
         CHECK_FALSE(check_multisampling(profile, 1));
         for (const int samples : {2, 4, 8})

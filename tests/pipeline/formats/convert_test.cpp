@@ -1,3 +1,4 @@
+// Tests the batch conversions against the conversion of one value after the other.
 #include "pipeline/formats/convert.h"
 
 #include <catch2/catch.hpp>
@@ -10,9 +11,8 @@
 using namespace strata::pipeline;
 using strata::rasterizer::Lanes;
 
-// The loops of convert.h become vector code; the scalar rules are proved elsewhere, and here each lane of each
-// length.
-TEST_CASE("a batch converts like its fragments one by one, whatever its length, and leaves the vectors beyond alone") {
+// The loops of convert.h are vectorized; other tests prove the scalar rules, this one each lane at each length.
+TEST_CASE("a batch of any length converts like its fragments one by one and leaves the vectors beyond unchanged") {
     Random random{20};
     Tally tally;
     for (int count = 0; count <= strata::rasterizer::batch_capacity; ++count) {
@@ -25,7 +25,9 @@ TEST_CASE("a batch converts like its fragments one by one, whatever its length, 
         encode(ChannelType::half, HalfRounding::toward_zero, values, zero, count);
         encode(ChannelType::single, HalfRounding::nearest_even, values, words, count);
         for (int lane = 0; lane < strata::rasterizer::batch_capacity; ++lane) {
-            if (lane >= count && lane < (count + 15) / 16 * 16) continue;  // scratch
+            if (lane >= count && lane < (count + 15) / 16 * 16)
+                continue;  // lanes of the last vector may be
+                           // overwritten
             const auto i = static_cast<std::size_t>(lane);
             const std::uint32_t bits = bits_of(values[i]);
             const bool holds =

@@ -1,5 +1,5 @@
-// The model: the list of formats typed a second time; an image's codes counted one after the other; a digest of bytes
-// laid out here.
+// Tests the table of formats against an independent list. The expected codes of an image are counted up in order; the
+// bytes of a digest are laid out here.
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <random>
@@ -49,7 +49,7 @@ constexpr FormatRow format_rows[] = {
 
 }  // namespace
 
-TEST_CASE("each format has its name, channels and bytes a pixel, and is of colour, depth or stencil as its name says") {
+TEST_CASE("each format has the listed name and size and is of the kind that its name says") {
     std::set<std::string_view> names;
     int value = 0;
     for (const FormatRow& row : format_rows) {
@@ -68,7 +68,7 @@ TEST_CASE("each format has its name, channels and bytes a pixel, and is of colou
     }
 }
 
-TEST_CASE("a depth format and the target that holds it name each other, d24s8 being a d24") {
+TEST_CASE("a depth format and its target format refer to each other where d24s8 counts as d24") {
     for (const DepthFormat format :
          {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f, DepthFormat::d24f})
         CHECK(depth_format(target_format(format)) == format);
@@ -79,7 +79,7 @@ TEST_CASE("a depth format and the target that holds it name each other, d24s8 be
     CHECK(depth_format(Format::d24s8) == DepthFormat::d24);
 }
 
-TEST_CASE("an image numbers its codes by rows, pixels, samples and channels, without gaps, in every format") {
+TEST_CASE("the codes of an image are ordered by row then pixel then sample then channel without gaps in every format") {
     std::size_t wrong = 0;
     for (const FormatRow& row : format_rows)
         for (const int samples : {1, 2, 4}) {
@@ -97,8 +97,7 @@ TEST_CASE("an image numbers its codes by rows, pixels, samples and channels, wit
     CHECK(Image{}.size() == 0);
 }
 
-TEST_CASE(
-    "an image to be written over has the shape of any other, and images are equal if shape, format and codes are") {
+TEST_CASE("an image for overwriting has the requested shape and images are equal if shape format and codes are") {
     Image image = Image::for_overwrite(Format::rg32f, 7, 2);
     CHECK(image.samples == 1);
     REQUIRE(image.codes.size() == 28);
@@ -110,7 +109,7 @@ TEST_CASE(
     CHECK(image != Image{Format::rg32f, 7, 2});
 }
 
-TEST_CASE("a digest changes with any one code, its place and every number of the shape, in every format") {
+TEST_CASE("a digest changes with any code and its position and every number of the shape in every format") {
     std::mt19937 random{701};
     std::set<std::string> digests;
     std::size_t images = 0;
@@ -137,9 +136,7 @@ TEST_CASE("a digest changes with any one code, its place and every number of the
     }
 }
 
-TEST_CASE(
-    "of a code as many bytes count as its format stores: one of colours of 8 bits and stencil, two of halves, else "
-    "four") {
+TEST_CASE("a code contributes as many bytes to the digest as its format stores") {
     for (const FormatRow& row : format_rows) {
         INFO(row.name);
         const int bytes = row.type == ChannelType::half                                       ? 2
@@ -155,7 +152,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a mask is all ones or none, and selects whole words or floats with every bit kept") {
+TEST_CASE("a mask is all ones or zero and selects whole values with every bit unchanged") {
     CHECK(mask(true) == 0xffffffffu);
     CHECK(mask(false) == 0u);
     std::size_t wrong = 0;
@@ -172,7 +169,7 @@ TEST_CASE("a mask is all ones or none, and selects whole words or floats with ev
     CHECK(std::bit_cast<std::uint32_t>(select(mask(false), quiet, zero)) == 0x80000000u);
 }
 
-TEST_CASE("formats that store eight bits a channel or floats keep every code of every channel") {
+TEST_CASE("formats with eight bits per channel or floats keep every code of every channel") {
     std::size_t wrong = 0;
     for (const FormatRow& row : format_rows)
         for (int channel = 0; channel < 4; ++channel)

@@ -1,3 +1,4 @@
+// Tests the half conversions against the inequalities of tests/pipeline/format_models.h.
 #include "pipeline/formats/half.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +15,7 @@ namespace {
 std::uint16_t nearest(std::uint32_t bits) { return to_half<HalfRounding::nearest_even>(float_of(bits)); }
 std::uint16_t toward_zero(std::uint32_t bits) { return to_half<HalfRounding::toward_zero>(float_of(bits)); }
 
-// Each half's neighbourhood, and every 4,099th pattern (a prime).
+// Calls body with the neighbourhood of each half, and with every 4,099th bit pattern (a prime).
 template <class Body>
 void for_many_floats(Body&& body) {
     for (std::uint32_t half = 0; half < 0x10000; ++half)
@@ -27,7 +28,7 @@ void for_many_floats(Body&& body) {
 
 }  // namespace
 
-TEST_CASE("every half becomes the binary32 value of its definition, and a NaN keeps sign and payload") {
+TEST_CASE("every half becomes the binary32 value of its definition and a NaN keeps sign and payload") {
     int wrong = 0;
     for (std::uint32_t half = 0; half < 0x10000; ++half) {
         const float value = half_to_float(static_cast<std::uint16_t>(half));
@@ -45,7 +46,7 @@ TEST_CASE("every half becomes the binary32 value of its definition, and a NaN ke
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a half survives binary32 and both ways back, save that a signalling NaN becomes quiet") {
+TEST_CASE("a half is unchanged by a round trip through binary32 except that a signalling NaN becomes quiet") {
     int wrong = 0;
     for (std::uint32_t half = 0; half < 0x10000; ++half) {
         const bool is_nan_code = (half & 0x7fff) > 0x7c00;
@@ -56,7 +57,7 @@ TEST_CASE("a half survives binary32 and both ways back, save that a signalling N
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a float becomes the half nearest to it, the even one at a midpoint") {
+TEST_CASE("a float becomes the nearest half with ties to even") {
     Tally tally;
     for_many_floats([&](std::uint32_t bits) {
         tally.expect(model::is_nearest_half(bits, nearest(bits)),
@@ -66,7 +67,7 @@ TEST_CASE("a float becomes the half nearest to it, the even one at a midpoint") 
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("toward zero a float becomes the largest half not above its magnitude, and overflow stays at 65504") {
+TEST_CASE("toward zero a float becomes the largest half not above its magnitude and overflow gives 65504") {
     Tally tally;
     for_many_floats([&](std::uint32_t bits) {
         tally.expect(model::is_half_toward_zero(bits, toward_zero(bits)),
@@ -76,7 +77,7 @@ TEST_CASE("toward zero a float becomes the largest half not above its magnitude,
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("without infinity a float becomes the nearest of one binade more, and what is beyond it the largest code") {
+TEST_CASE("without infinity there is one more binade and a float beyond it becomes the largest code") {
     const auto without = [](std::uint32_t bits) { return to_half<HalfRounding::no_infinity>(float_of(bits)); };
     Tally tally;
     for_many_floats([&](std::uint32_t bits) {
@@ -90,7 +91,7 @@ TEST_CASE("without infinity a float becomes the nearest of one binade more, and 
     CHECK(without(0x7f800000) == 0x7fff);
     CHECK(without(0xffc00000) == 0xffff);
     CHECK(without(0x7fffffff) == 0xffff);
-    // The lowest digits of 2^-25 (1 + 2^-23) are lost before it is rounded: a midpoint.
+    // The lowest digits of 2^-25 (1 + 2^-23) are dropped before rounding, which makes it a midpoint.
     CHECK(without(bits_of(0x1.000002p-25f)) == 0);
     CHECK(nearest(bits_of(0x1.000002p-25f)) == 1);
     int wrong = 0;
@@ -104,7 +105,7 @@ TEST_CASE("without infinity a float becomes the nearest of one binade more, and 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("nearest overflows to infinity from 65520 on") {
+TEST_CASE("to nearest a float from 65520 on overflows to infinity") {
     CHECK(nearest(bits_of(65519.996f)) == 0x7bff);
     CHECK(nearest(bits_of(65520.0f)) == 0x7c00);
     CHECK(nearest(bits_of(-65520.0f)) == 0xfc00);
@@ -113,7 +114,7 @@ TEST_CASE("nearest overflows to infinity from 65520 on") {
     CHECK(toward_zero(0xff800000) == 0xfc00);
 }
 
-TEST_CASE("a fragment counter in fp16 sticks at 2048 under both roundings") {
+TEST_CASE("a fragment counter in fp16 stops at 2048 under both roundings") {
     for (const HalfRounding rounding : {HalfRounding::nearest_even, HalfRounding::toward_zero}) {
         std::uint16_t count = 0;
         for (int i = 0; i < 3000; ++i) count = to_half(half_to_float(count) + 1.0f, rounding);

@@ -1,4 +1,5 @@
-// Model: bytes of a word by division, what lies around the target unchanged.
+// Tests the conversion of bytes to codes. Expected bytes are computed by division; memory next to the target must be
+// unchanged.
 #include "pipeline/formats/image_texels.h"
 
 #include <catch2/catch.hpp>
@@ -10,8 +11,7 @@
 using namespace strata;
 using namespace strata::pipeline;
 
-TEST_CASE(
-    "words become codes at every length and alignment, and nothing beside them changes, on every instruction set") {
+TEST_CASE("packed values become codes at every length and alignment without changing neighbouring memory") {
     testing::Random random{17};
     std::vector<std::uint32_t> words(80);
     for (auto& word : words) word = static_cast<std::uint32_t>(random());

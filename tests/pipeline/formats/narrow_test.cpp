@@ -1,11 +1,11 @@
-// Surfaces without alpha or with fewer bits a channel (formats.md 4).
+// Tests surfaces without alpha or with fewer bits per channel (formats.md 4).
 #include "pipeline/formats/narrow.h"
 
 #include <catch2/catch.hpp>
 
 using namespace strata::pipeline;
 
-TEST_CASE("a narrow surface keeps the upper bits of a channel, and reads them with zeros below") {
+TEST_CASE("a narrow surface keeps the upper bits of a channel and reads zeros below") {
     for (std::uint32_t code = 0; code < 256; ++code) {
         CHECK(narrowed(Format::r5g6b5, 0, code) == code / 8 * 8);
         CHECK(narrowed(Format::r5g6b5, 1, code) == code / 4 * 4);
@@ -16,7 +16,7 @@ TEST_CASE("a narrow surface keeps the upper bits of a channel, and reads them wi
     }
 }
 
-TEST_CASE("destination alpha is 1 where none is stored, and seven bits widened where seven are") {
+TEST_CASE("destination alpha is 1 where none is stored and seven bits are expanded to eight where seven are") {
     for (std::uint32_t code = 0; code < 256; ++code) {
         for (const Format format : {Format::x8r8g8b8, Format::r5g6b5, Format::x1r5g5b5})
             CHECK(narrowed(format, 3, code) == 255);
@@ -25,7 +25,7 @@ TEST_CASE("destination alpha is 1 where none is stored, and seven bits widened w
     }
 }
 
-TEST_CASE("storing what was read back changes nothing") {
+TEST_CASE("storing a value that was read back changes nothing") {
     for (const Format format : {Format::rgba8, Format::x8r8g8b8, Format::x1a7r8g8b8, Format::r5g6b5, Format::x1r5g5b5})
         for (int channel = 0; channel < 4; ++channel)
             for (std::uint32_t code = 0; code < 256; ++code) {

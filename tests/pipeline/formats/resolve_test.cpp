@@ -1,4 +1,4 @@
-// The model: whole numbers for codes; rationals rounded once an operation for sums in binary32.
+// Tests resolves against integers for codes, and against rationals rounded once per operation for sums in binary32.
 #include "pipeline/formats/resolve.h"
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ using strata::rasterizer::Rounded;
 using strata::testing::Random;
 using strata::testing::random_int;
 
-constexpr int resolved_width = 37, resolved_height = 31;  // more codes than a block, and no whole number of blocks
+constexpr int resolved_width = 37, resolved_height = 31;  // more codes than a block, and not a multiple of a block
 
 [[nodiscard]] std::vector<Image> random_samples(Random& random, Format format, int samples, auto code) {
     std::vector<Image> images;
@@ -47,7 +47,7 @@ constexpr int resolved_width = 37, resolved_height = 31;  // more codes than a b
 
 }  // namespace
 
-TEST_CASE("8-bit samples resolve to the mean of their codes, half up") {
+TEST_CASE("8-bit samples resolve to the mean of their codes with ties up") {
     Random random{51};
     std::uint64_t wrong = 0, halves = 0;
     for (const int n : {1, 2, 4, 8}) {
@@ -66,7 +66,7 @@ TEST_CASE("8-bit samples resolve to the mean of their codes, half up") {
     CHECK(halves > 1000);
 }
 
-TEST_CASE("a resolve in binary32 adds values sample by sample and rounds each step, then as colours are rounded") {
+TEST_CASE("a resolve in binary32 adds values sample by sample with each step rounded and then rounds like colours") {
     Random random{52};
     std::uint64_t wrong = 0, unlike_codes = 0;
     for (const int n : {2, 4, 8}) {
@@ -127,7 +127,7 @@ TEST_CASE("float samples resolve in binary32 by every rule") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a sample that has no picture adds codes of 0, and narrow surfaces store the mean as they store any colour") {
+TEST_CASE("a sample without a picture adds codes of 0 and narrow surfaces store the mean like any colour") {
     Random random{54};
     const auto samples = random_samples(random, Format::rgba8, 3, random_code);
     ColorResolve resolve{4, ResolveRule::codes_half_up, HalfRounding::nearest_even};
@@ -146,7 +146,7 @@ TEST_CASE("a sample that has no picture adds codes of 0, and narrow surfaces sto
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the nearest depth of a pixel's samples is its least code, and its greatest under reversed depth") {
+TEST_CASE("the nearest depth of a pixel's samples is its least code or its greatest under reversed depth") {
     Random random{55};
     const auto samples = random_samples(random, Format::d24, 4, random_code);
     Image least, greatest;

@@ -1,3 +1,4 @@
+// Tests the UNORM8 conversions against the inequalities of tests/pipeline/format_models.h.
 #include "pipeline/formats/unorm8.h"
 
 #include <catch2/catch.hpp>
@@ -8,11 +9,12 @@
 
 using namespace strata::pipeline;
 
-TEST_CASE("every UNORM8 code is k/255 correctly rounded, and comes back as itself") {
+TEST_CASE("every UNORM8 code is k/255 correctly rounded and converts back to itself") {
     int wrong = 0;
     for (int k = 0; k < 256; ++k) {
         const float value = from_unorm8(static_cast<std::uint8_t>(k));
-        // |value - k/255| <= half a step to either neighbour, over 2^-150: 255 (2 v -+ ulp) against 510 k
+        // |value - k/255| is at most half a step to either neighbour, multiplied by 510 * 2^150: 255 (2 v -+ ulp)
+        // against 510 k.
         const model::Binary v = model::magnitude(bits_of(value));
         const model::Wide twice = model::Wide{2} * 255 * v.mantissa;
         const model::Wide target = k == 0 ? 0 : (model::Wide{2} * k) << -v.exponent;
@@ -26,7 +28,7 @@ TEST_CASE("every UNORM8 code is k/255 correctly rounded, and comes back as itsel
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a float becomes the UNORM8 code nearest to it: a half goes up, NaN is 0, the rest clamps") {
+TEST_CASE("a float becomes the nearest UNORM8 code with ties up and NaN as 0 and values outside of 0 to 1 clamped") {
     Tally tally;
     const auto check = [&](std::uint32_t bits) {
         const int code = to_unorm8(float_of(bits));
@@ -41,12 +43,12 @@ TEST_CASE("a float becomes the UNORM8 code nearest to it: a half goes up, NaN is
     CHECK(to_unorm8(0.5f) == 128);  // 127.5
 }
 
-TEST_CASE("product_even rounds 255 x in binary32 first, and its halves to the even code") {
+TEST_CASE("product_even rounds 255 x in binary32 first and then to the nearest code with ties to even") {
     Tally tally;
     std::uint64_t unlike_half_up = 0;
     const auto check = [&](float x) {
-        // 255 x has at most 32 bits: exact in binary64; the cast rounds it to binary32, and codes are found by
-        // comparison.
+        // 255 x has at most 32 bits, so it is exact in binary64; the cast rounds it to binary32, and the code is found
+        // by comparison.
         const double product = double{static_cast<float>(double{x} * 255.0)};
         int code = 0;
         while (code < 255 && (product > code + 0.5 || (product == code + 0.5 && code % 2 == 1))) ++code;

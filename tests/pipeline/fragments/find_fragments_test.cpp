@@ -1,4 +1,5 @@
-// Model: each fragment of a pixel asked by itself, in submission order, whether it is kept.
+// Tests which fragments a selection visits, against a loop that decides for each fragment of a pixel by itself, in
+// submission order, whether it is kept.
 #include "pipeline/fragments/find_fragments.h"
 
 #include <catch2/catch.hpp>
@@ -7,7 +8,7 @@
 
 #include "tests/pipeline/fragments/recorded_fragments.h"
 
-// A namespace of its own: names of the model are short.
+// The model's short names have a namespace of their own.
 namespace strata::testing::find_fragments_model {
 namespace {
 
@@ -29,7 +30,7 @@ struct Tile {
         for (auto* const plane : {&entries, &more, &stored})
             for (auto& entry : *plane) entry = static_cast<std::uint32_t>(random_int(random, 0, codes));
     }
-    // Places of a pixel's fragments that `holds`, as they came.
+    // Indices of a pixel's fragments for which `holds` is true, in submission order.
     template <class Holds>
     [[nodiscard]] std::vector<std::uint32_t> indices(std::uint32_t pixel, const Holds& holds) const {
         std::vector<std::uint32_t> found;
@@ -39,7 +40,7 @@ struct Tile {
     }
 };
 
-// What is visited at each pixel, wave after wave; a pixel has one of a wave at most.
+// The fragments visited at each pixel, wave after wave; a wave has at most one fragment per pixel.
 std::map<std::uint32_t, std::vector<std::uint32_t>> visited(const FragmentWaves& waves) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> all;
     for (std::size_t w = 0; w < waves.waves(); ++w) {
@@ -61,7 +62,8 @@ using Fragment = GivenRecord::Fragment;
 
 }  // namespace
 
-TEST_CASE("of nearest the first submitted of an interval's least key is visited, where it lies before what is stored") {
+TEST_CASE(
+    "nearest visits the first submitted fragment of the least key in an interval if it is before the stored depth") {
     Random random{2321};
     for (int round = 0; round < 60; ++round) {
         Tile tile{random, {}};
@@ -69,7 +71,7 @@ TEST_CASE("of nearest the first submitted of an interval's least key is visited,
         KeyIntervals intervals{.near = codes_in(tile.entries, includes)};
         if (has_far) intervals.far[0] = codes_in(tile.more, round % 5 == 0);
         if (round % 4 == 0) intervals.least = 3, intervals.end = 6;
-        for (int pass = 0; pass < 3; ++pass) {  // sought from where the pass before has found it
+        for (int pass = 0; pass < 3; ++pass) {  // later searches start where the previous pass found its fragment
             FragmentWaves waves;
             find_nearest(tile.sorted, intervals, {tile.stored.data(), false}, waves);
             auto found = visited(waves);
@@ -92,7 +94,7 @@ TEST_CASE("of nearest the first submitted of an interval's least key is visited,
     }
 }
 
-TEST_CASE("by a compared depth the nearest code of those behind a bound is visited, however the two differ") {
+TEST_CASE("by a compared depth the nearest code behind a bound is visited however much both depths differ") {
     Random random{2322};
     for (int round = 0; round < 120; ++round) {
         Tile tile{random, {}};
@@ -121,7 +123,7 @@ TEST_CASE("by a compared depth the nearest code of those behind a bound is visit
     }
 }
 
-TEST_CASE("a depth that is not quantised is asked of a fragment however far it parts from its code") {
+TEST_CASE("an unquantised compared depth is tested however far it is from the fragment's code") {
     GivenRecord given;
     given.record.start(all_values, std::uint64_t{1} << 20);
     const auto batch = std::make_unique<rasterizer::FragmentBatch>();
@@ -143,12 +145,12 @@ TEST_CASE("a depth that is not quantised is asked of a fragment however far it p
     }
 }
 
-TEST_CASE("of an interval all are visited in submission order, or nothing is said where they are more than half") {
+TEST_CASE("all fragments of an interval are visited in submission order unless they are more than half") {
     Random random{2323};
     int kept = 0, declined = 0;
     for (int round = 0; round < 120; ++round) {
         Tile tile{random, {}};
-        if (round % 5 == 0) std::ranges::fill(tile.entries, 1u);  // nearly all
+        if (round % 5 == 0) std::ranges::fill(tile.entries, 1u);  // nearly all entries
         if (round % 5 == 0) std::ranges::fill(tile.more, codes - 1u);
         const KeyIntervals intervals{.near = codes_in(tile.entries, true),
                                      .far = {codes_in(tile.more, round % 2 == 0), {}}};
@@ -171,7 +173,7 @@ TEST_CASE("of an interval all are visited in submission order, or nothing is sai
     CHECK(declined > 2);
 }
 
-TEST_CASE("bounds that are binary32 depths or values of codes leave no fragment out") {
+TEST_CASE("bounds that are binary32 depths or values of codes omit no fragment") {
     Random random{2324};
     constexpr auto value = [](std::uint32_t code) {
         return static_cast<float>(rasterizer::depth_value(code, DepthFormat::d24));
@@ -206,11 +208,11 @@ TEST_CASE("bounds that are binary32 depths or values of codes leave no fragment 
 namespace {
 
 struct Ends {
-    std::set<std::uint32_t> needed, may;  // what must be visited, and what may
+    std::set<std::uint32_t> needed, may;  // fragments that must be visited, and all that may be visited
 };
 
-// Of the ends all arrivals, of what lies between one of the least and of the greatest key, and where there is nothing
-// but one key one from outside.
+// All fragments at the ends must be visited, and of those in between one with the least and one with the greatest key.
+// If all fragments inside are at the near end and `one_outside`, exactly one fragment from outside is visited as well.
 template <class IsNear, class IsFar, class IsInside>
 Ends ends_at(const Tile& tile, std::uint32_t p, bool one_outside, const IsInside& is_inside, const IsNear& is_near,
              const IsFar& is_far) {
@@ -231,7 +233,8 @@ Ends ends_at(const Tile& tile, std::uint32_t p, bool one_outside, const IsInside
     const auto by_z = [&](std::uint32_t k) { return ordered_code(tile.given.living[k].shader_z); };
     if (!between.empty()) {
         ends.needed.insert(*std::ranges::min_element(between, {}, by_z));
-        ends.needed.insert(*std::ranges::max_element(between, std::ranges::less_equal{}, by_z));  // the last of them
+        // the last one with the greatest key
+        ends.needed.insert(*std::ranges::max_element(between, std::ranges::less_equal{}, by_z));
     }
     if (one_outside && between.empty() && is_near_alone) ends.may.insert(outside.begin(), outside.end());
     return ends;
@@ -244,7 +247,7 @@ bool is_right(const std::vector<std::uint32_t>& found, const Ends& ends) {
            std::ranges::all_of(all, [&](std::uint32_t k) { return ends.needed.contains(k) || ends.may.contains(k); });
 }
 
-// Ranges of shader depths that fragments have, empty ones among them, and surfaces.
+// Ranges of shader depths, some of them empty, and opaque surfaces.
 struct Ranges {
     std::vector<std::uint32_t> near = std::vector<std::uint32_t>(pixels), far = near, surface = near;
     Ranges(Random& random, const Tile& tile) {
@@ -267,7 +270,7 @@ struct Ranges {
 
 }  // namespace
 
-TEST_CASE("of a range the ends are visited, what lies next to them, and one from outside where there is one key") {
+TEST_CASE("for a range of depths both ends and their neighbours are visited") {
     Random random{2325};
     std::uint64_t wrong = 0, alone = 0;
     for (int round = 0; round < 60; ++round) {
@@ -290,7 +293,7 @@ TEST_CASE("of a range the ends are visited, what lies next to them, and one from
                 tile, p, round % 2 == 0, is_inside, [&](const Fragment& f) { return f.shader_z == first; },
                 [&](const Fragment& f) { return f.shader_z == last; });
             wrong += is_right(found[p], ends) ? 0 : 1;
-            for (const float end : {first, last}) {  // whose target keeps what comes last
+            for (const float end : {first, last}) {  // whose target keeps the last value
                 std::vector<std::uint32_t> tied = found[p];
                 std::erase_if(tied, [&](std::uint32_t k) { return tile.given.living[k].shader_z != end; });
                 wrong += std::ranges::is_sorted(tied) ? 0 : 1;
@@ -302,7 +305,7 @@ TEST_CASE("of a range the ends are visited, what lies next to them, and one from
     CHECK(alone > 50);
 }
 
-TEST_CASE("of a range of compared depths the ends are those that reach it, within an epsilon") {
+TEST_CASE("for a range of compared depths the ends are those that reach it within an epsilon") {
     Random random{2326};
     std::uint64_t wrong = 0;
     for (int round = 0; round < 60; ++round) {

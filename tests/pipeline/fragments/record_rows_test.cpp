@@ -1,4 +1,4 @@
-// Model: the scalar reference's batches, appended one after the other.
+// Tests fragments recorded from rows against the batches of the scalar reference, appended one after the other.
 #include "pipeline/fragments/record_rows.h"
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "tests/rasterizer/scene.h"
 
-// A namespace of its own: names of the model are short.
+// The model's short names have a namespace of their own.
 namespace strata::testing::record_rows_model {
 namespace {
 
@@ -53,11 +53,12 @@ const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = Pl
 
 }  // namespace
 
-TEST_CASE("rows record the fragments of batches, in their order and with their values, whatever is held of them") {
+TEST_CASE("rows record the fragments of batches with their order and values for any set of recorded values") {
     const std::vector<Device> devices{{{}, {DepthPath::float32, DepthFormat::d32f}},
                                       {{.subpixel_bits = 4}, {DepthPath::float32, DepthFormat::d16}},
                                       {unsnapped, {DepthPath::float32, DepthFormat::d24}}};
-    constexpr std::array<std::array<int, 2>, 4> sizes{{{3, 150}, {8, 80}, {30, 24}, {300, 16}}};  // pixels, triangles
+    // triangle size in pixels, number of triangles
+    constexpr std::array<std::array<int, 2>, 4> sizes{{{3, 150}, {8, 80}, {30, 24}, {300, 16}}};
     std::size_t wrong = 0, compared = 0;
     for (const Device& device : devices)
         for (const auto& [size, count] : sizes)
@@ -93,7 +94,7 @@ TEST_CASE("rows record the fragments of batches, in their order and with their v
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a record that rows outgrow forgets everything, and its memory does not grow further") {
+TEST_CASE("a record that rows exceed is emptied and its memory does not grow further") {
     if (chosen_simd() < Simd::avx2) return;
     const DepthRequest depth{DepthPath::float32, DepthFormat::d32f};
     const Geometry geometry = rasterizer::random_triangles(5, 400, 60, {{}, depth});

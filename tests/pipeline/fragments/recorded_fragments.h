@@ -1,5 +1,5 @@
-// tests/pipeline/fragments/recorded_fragments.h - the record of some batches, and beside it the same fragments one by
-// one as they came.
+// tests/pipeline/fragments/recorded_fragments.h - a record of random batches, and the same fragments one by one in
+// submission order.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -25,7 +25,7 @@ struct GivenRecord {
 inline constexpr rasterizer::FragmentNeeds all_values{
     .shader_z = true, .code = true, .exact_code = true, .color = true, .reference = true};
 
-// Batches of distinct pixels in no order; `codes`: how many different ones there are.
+// Batches of distinct pixels in random order; `codes`: number of different codes.
 inline void fill_record(Random& random, int batches, std::uint32_t pixels, int codes,
                         const rasterizer::FragmentNeeds& needs, GivenRecord& to,
                         std::uint64_t limit = std::uint64_t{64} << 20) {

@@ -1,4 +1,4 @@
-// Model: std::sort of each list on its own.
+// Tests the sorting of sixteen lists against std::sort of each list.
 #include "pipeline/fragments/sort_levels.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ enum class Heights { equal, any };
 
 using List = std::vector<std::uint64_t>;
 
-// Sixteen lists in submission order, ~0 above their ends.
+// Sixteen lists in submission order, padded with ~0.
 std::vector<List> columns_of(Random& random, std::size_t height, Order order, Heights heights) {
     std::vector<List> lists(block_lanes);
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
@@ -47,7 +47,7 @@ std::vector<std::uint64_t> levels_of(const std::vector<List>& lists, std::size_t
 
 }  // namespace
 
-TEST_CASE("lists of any height and order are sorted, each on its own, on every instruction set") {
+TEST_CASE("lists of any height and order are sorted independently on every instruction set") {
     Random random{91};
     std::uint64_t wrong = 0;
     for (const Simd simd : available_simd()) {

@@ -1,4 +1,4 @@
-// Model: std::stable_sort of each pixel's fragments as they came.
+// Tests sorted per-pixel lists against std::stable_sort of each pixel's fragments in submission order.
 #include "pipeline/fragments/sorted_lists.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ std::uint32_t key_by(const SortRequest& request, const GivenRecord::Fragment& f)
     return request.key == DepthKey::shader_z ? strata::rasterizer::ordered_code(f.shader_z) : f.code;
 }
 
-// (key, index) of the fragments that the request takes, pixel by pixel, near to far.
+// Expected (key, index) of the fragments that the request selects, pixel by pixel, near to far.
 std::vector<std::vector<std::uint64_t>> model(const GivenRecord& given, const SortRequest& request,
                                               std::uint32_t pixels, const std::uint32_t* surface) {
     std::vector<std::vector<std::uint64_t>> lists(pixels);
@@ -57,7 +57,8 @@ std::uint64_t differing(const SortedLists& sorted, const std::vector<std::vector
 
 }  // namespace
 
-TEST_CASE("lists hold what a request takes of a record, near to far and by submission where keys are equal") {
+TEST_CASE(
+    "lists contain the requested fragments of a record from near to far and in submission order where keys are equal") {
     Random random{2311};
     const AlphaTest bright{.enabled = true, .func = CompareFunc::greater, .ref = 0.25f};
     const std::vector<SortRequest> requests{{},
@@ -84,7 +85,7 @@ TEST_CASE("lists hold what a request takes of a record, near to far and by submi
             }
 }
 
-TEST_CASE("depths without an order are not sorted, and the request is not tried again") {
+TEST_CASE("depths without an order are not sorted and the request is not tried again") {
     const auto sorts = [](float z, std::uint32_t code, const SortRequest& request) {
         TileFragments record;
         record.start({}, enough);
@@ -111,7 +112,7 @@ TEST_CASE("depths without an order are not sorted, and the request is not tried 
     CHECK(sorts(0, 0x7f800001u, {.is_float = false}));
 }
 
-TEST_CASE("lists that would take more than their limit are not sorted") {
+TEST_CASE("lists that would exceed their limit are not sorted") {
     Random random{2312};
     GivenRecord given;
     fill_record(random, 10, 40, 12, all_values, given);
@@ -127,7 +128,7 @@ TEST_CASE("lists that would take more than their limit are not sorted") {
     CHECK_FALSE(sorted.is_sorted());
 }
 
-TEST_CASE("the number of keys below a bound is found from wherever it is sought") {
+TEST_CASE("the number of keys below a bound is found from any starting point of the search") {
     Random random{2313};
     GivenRecord given;
     fill_record(random, 60, 5, 40, all_values, given);

@@ -1,5 +1,5 @@
-// Blends that a cache of tiles keeps in binary32: a model that knows one fragment at a time, and no batches, lists or
-// planes.
+// Tests blends in the tile cache of softpipe, which keeps binary32 values. The model processes one fragment at a time,
+// without batches, lists or planes.
 #include "pipeline/fragments/tile_cache.h"
 
 #include <algorithm>
@@ -17,15 +17,15 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::rasterizer::Rect;
 
-// The cache as its pages tell it: 50 places, each with the number of a tile; pixels of tiles that have a place hold a
-// float.
+// The cache as its specification describes it: 50 slots, each with the position of a tile. Pixels of cached tiles hold
+// a float.
 struct FragmentModel {
     int width, height;
     ChannelType type;
     std::vector<std::uint32_t> codes =
         std::vector<std::uint32_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    std::map<int, std::pair<int, int>> place{};  // who has it: column and row of tiles
-    std::map<int, float> held{};                 // by pixel
+    std::map<int, std::pair<int, int>> place{};  // tile column and row in each occupied slot
+    std::map<int, float> held{};                 // value by pixel index
     int thrown_out = 0;
 
     [[nodiscard]] float value(std::uint32_t code) const {
@@ -34,7 +34,7 @@ struct FragmentModel {
     }
     [[nodiscard]] std::uint32_t code(float v) const {
         if (type == ChannelType::half) return to_half(v, HalfRounding::toward_zero);
-        // No product lies half way between codes in these tests: the nearest is that of rounding by hand.
+        // In these tests no product is half way between codes, so adding 1/2 and truncating gives the nearest code.
         return static_cast<std::uint32_t>(v * 255.0f + 0.5f);
     }
     void put_back(int column, int row) {
@@ -79,7 +79,7 @@ struct CachedFrame {
 
 }  // namespace
 
-TEST_CASE("sums in cached tiles are those of a model of one fragment at a time, whatever throws a tile out") {
+TEST_CASE("sums in cached tiles are those of a model of one fragment at a time for any sequence of evictions") {
     Random random{301};
     const DeviceProfile& device = *find_profile("softpipe");
     for (const CachedFrame& size : {CachedFrame{320, 200, false}, {400, 130, true}, {70, 705, true}})
@@ -88,7 +88,7 @@ TEST_CASE("sums in cached tiles are those of a model of one fragment at a time, 
             TargetStorage target{format, 1, frame.area()};
             FragmentModel model{size.width, size.height, info(format).type};
             TileCache cache{frame, frame};
-            // Few pixels, so that they meet again; neighbours in the tiles of place 5 and others.
+            // Few pixels, so that they recur; their neighbours are in tiles of slot 5 and others.
             std::vector<int> pixels;
             for (int i = 0; i < 12; ++i) pixels.push_back(random_int(random, 0, size.width * size.height - 1));
             if (size.width > 324) pixels.insert(pixels.end(), {321, 322, 65 * size.width + 3, 66 * size.width + 4});
@@ -134,7 +134,7 @@ TEST_CASE("sums in cached tiles are those of a model of one fragment at a time, 
         }
 }
 
-TEST_CASE("only blends that round are cached: no minima, no binary32, no narrow surfaces, nothing without blending") {
+TEST_CASE("only blends that round are cached") {
     CHECK(TileCache::knows(blend_mode::sum, Format::rgba8));
     CHECK(TileCache::knows(blend_mode::over, Format::rgba16f));
     CHECK(TileCache::knows(blend_mode::under, Format::r16f));
@@ -146,7 +146,7 @@ TEST_CASE("only blends that round are cached: no minima, no binary32, no narrow 
 
 namespace {
 
-// Ten fragments of red `value` on each of the listed pixels, at depths that come nearer.
+// Ten fragments of red `value` on each of the listed pixels, each nearer than the one before.
 FragmentScene ten_on_each(int width, int height, float value, const std::vector<int>& pixels) {
     FragmentScene scene{width, height};
     for (const int pixel : pixels)
@@ -156,7 +156,7 @@ FragmentScene ten_on_each(int width, int height, float value, const std::vector<
     return scene;
 }
 
-// Sums into rgba8 and half floats, in two passes; the second begins with what the first left in the target's codes.
+// Sums into rgba8 and half floats, in two passes; the second starts from the codes that the first stored.
 void add_twice(Region& region) {
     PassState state;
     state.color = {region.make(Format::rgba8), region.make(Format::rgba16f)};
@@ -173,7 +173,7 @@ void add_twice(Region& region) {
 }  // namespace
 
 TEST_CASE(
-    "a pass rounds once at its end, where other devices round after each blend, and the next pass starts from codes") {
+    "a cached pass rounds once at its end and other devices after each blend and the next pass starts from codes") {
     const FragmentScene scene = ten_on_each(8, 4, 0.34f / 255.0f, {5});
     const auto red_on = [&](const char* profile) {
         TestFrame test{scene, profile};
@@ -187,8 +187,8 @@ TEST_CASE(
     CHECK(red_on("softpipe") == 6);  // 3.4 becomes 3, and 3 + 3.4 becomes 6
 }
 
-TEST_CASE("tiles leave what the frame leaves, though what throws a cached tile out lies in another region") {
-    // Pixels of the tiles (5, 0) and (0, 1), which share a place, and of one that shares none.
+TEST_CASE("rendering by tiles gives the frame's result even if a cached tile is evicted by a tile of another region") {
+    // Pixels of the tiles (5, 0) and (0, 1), which share a slot, and of one that shares none.
     const int width = 512;
     const std::vector<int> pixels{321, 330, 70, 65 * width + 3, 66 * width + 9};
     for (const char* profile : {"softpipe", "geforce8"}) {
@@ -201,7 +201,7 @@ TEST_CASE("tiles leave what the frame leaves, though what throws a cached tile o
     }
 }
 
-TEST_CASE("a fragment that its program discards fetches its tile, unless the pass has a test") {
+TEST_CASE("a fragment that its program discards fetches its tile unless the pass has a test") {
     constexpr int width = 512;
     const FragmentScene scene =
         ten_on_each(width, 128, 0.34f / 255.0f, {321, 65 * width + 3});  // tiles (5, 0) and (0, 1)

@@ -1,4 +1,4 @@
-// Model: the fragments themselves, one by one, kept by the test.
+// Tests the record of a tile's fragments against the fragments themselves, which the test keeps one by one.
 #include "pipeline/fragments/tile_fragments.h"
 
 #include <catch2/catch.hpp>
@@ -33,7 +33,7 @@ bool is_lane(const FragmentBatch& batch, std::size_t i, const GivenRecord::Fragm
     return same;
 }
 
-// One fragment of this colour.
+// True if a fragment of this colour is plain.
 bool is_plain(const std::array<float, 4>& color) {
     TileFragments record;
     record.start({}, 1 << 10);
@@ -48,7 +48,7 @@ bool is_plain(const std::array<float, 4>& color) {
 
 }  // namespace
 
-TEST_CASE("a record gives back, at each place, the values of the living fragment that came as that number") {
+TEST_CASE("a record returns at each index the values of the living fragment with that submission number") {
     Random random{2301};
     const auto batch = std::make_unique<FragmentBatch>();
     for (unsigned bits = 0; bits < 32; ++bits) {
@@ -72,7 +72,7 @@ TEST_CASE("a record gives back, at each place, the values of the living fragment
     }
 }
 
-TEST_CASE("a record serves those who look at no more than it holds, and coordinates and facing it never holds") {
+TEST_CASE("a record serves requests for values that it holds and never texture coordinates or facing") {
     Random random{2302};
     for (unsigned held = 0; held < 32; ++held) {
         GivenRecord given;
@@ -86,7 +86,7 @@ TEST_CASE("a record serves those who look at no more than it holds, and coordina
     }
 }
 
-TEST_CASE("a record that would outgrow its limit forgets everything until it is forgotten itself") {
+TEST_CASE("a record that would exceed its limit stays empty until it is reset") {
     Random random{2303};
     GivenRecord given;
     fill_record(random, 20, 200, 50, all_values, given);
@@ -105,7 +105,7 @@ TEST_CASE("a record that would outgrow its limit forgets everything until it is 
     }
 }
 
-TEST_CASE("all places are read once, in submission order, and no batch of them holds a pixel twice") {
+TEST_CASE("all fragments are read once in submission order and no batch of them has a pixel twice") {
     Random random{2304};
     for (const std::uint32_t pixels : {1u, 7u, 300u, 5000u}) {
         GivenRecord given;
@@ -127,7 +127,7 @@ TEST_CASE("all places are read once, in submission order, and no batch of them h
     }
 }
 
-TEST_CASE("the lead of compared codes is the most by which one exceeds its fragment's own") {
+TEST_CASE("the lead of compared codes is the most by which one exceeds the code of its fragment") {
     Random random{2305};
     for (const int batches : {0, 1, 6}) {
         GivenRecord given;
@@ -139,7 +139,7 @@ TEST_CASE("the lead of compared codes is the most by which one exceeds its fragm
     }
 }
 
-TEST_CASE("colours are plain from 0 to 1024, alphas from 0 to 1, and -0 and NaN are not") {
+TEST_CASE("colours are plain from 0 to 1024 and alphas from 0 to 1 but not -0 and NaN") {
     constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t channel = 0; channel < 4; ++channel)
         for (const auto& [value, plain] : {std::pair{0.0f, true},
@@ -158,7 +158,7 @@ TEST_CASE("colours are plain from 0 to 1024, alphas from 0 to 1, and -0 and NaN 
         }
 }
 
-TEST_CASE("a record that is filled again knows nothing of the tile before") {
+TEST_CASE("a record that is filled again has nothing of the previous tile") {
     TileFragments record;
     const auto batch = std::make_unique<FragmentBatch>();
     batch->count = 1;

@@ -1,4 +1,4 @@
-// Model: the fragments of a scene, given pixel by pixel.
+// Tests the division of tiles into parts, against the fragments of a scene given pixel by pixel.
 #include "pipeline/fragments/tile_parts.h"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::rasterizer::Rect;
 
-// Pixels with few fragments, and some with many.
+// Most pixels have few fragments and some have many.
 FragmentScene uneven_scene(Random& random) {
     FragmentScene made{32, 16};
     for (auto& pixel : made.pixels)
@@ -31,7 +31,7 @@ struct Room {
                 deepest = std::max(deepest, own);
             }
     }
-    // Sixteen columns as tall as the tallest, at most.
+    // Bound on the 32-bit values: sixteen lists as long as the longest.
     [[nodiscard]] std::uint64_t words(const Rect& rect) const {
         return std::min(16 * all, (rect.area() + 15) / 16 * 16 * deepest);
     }
@@ -47,7 +47,7 @@ Rect tile_of(const Rect& part, int tile_side) {
 
 }  // namespace
 
-TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits is cut") {
+TEST_CASE("tiles are divided into parts that fit or are single pixels and no part that fits is divided") {
     Random random{2086};
     std::size_t cut = 0, whole = 0, pixels = 0;
     for (int round = 0; round < 40; ++round) {
@@ -79,7 +79,7 @@ TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits i
     CHECK(pixels > 10);
 }
 
-TEST_CASE("tiles are not cut where nothing is said of a fragment, or of less than 512 KiB of memory") {
+TEST_CASE("tiles are not divided without fragment statistics or with less than 512 KiB of memory") {
     Random random{2087};
     TestFrame test{uneven_scene(random), "ideal", 16};
     const auto parts_with = [&](const Replay& replay) {
@@ -93,7 +93,7 @@ TEST_CASE("tiles are not cut where nothing is said of a fragment, or of less tha
     CHECK(parts_with({.bytes = 0, .bytes_a_fragment = 1}) == 2);
 }
 
-TEST_CASE("halves are of the longer side, and make up the whole") {
+TEST_CASE("a part is halved along its longer side and both halves make up the whole") {
     for (int width = 1; width <= 9; ++width)
         for (int height = 1; height <= 9; ++height) {
             if (width * height == 1) continue;

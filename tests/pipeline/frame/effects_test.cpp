@@ -1,4 +1,4 @@
-// Model: hand-made lists whose tiles are known, and the rule of effects.h read the other way round.
+// Tests the effects that passes need on small lists whose tiles are known, against the rule of effects.h.
 #include "pipeline/frame/effects.h"
 
 #include <catch2/catch.hpp>
@@ -26,10 +26,10 @@ PreparedDraw squares(const std::vector<float>& xs) {
 
 }  // namespace
 
-TEST_CASE("a tile is empty, opaque alone, single or layered by the fragments of its own pixels") {
+TEST_CASE("a tile is empty or opaque only or single or layered according to the fragments of its own pixels") {
     const TileCensus nothing = count_tiles(squares({}), squares({}));
     CHECK(nothing == TileCensus{.tiles = 2, .empty = 2, .transparent_fragments = {0}, .opaque_fragments = {0}});
-    // Beside each other in one tile: two fragments, but no pixel has both.
+    // Next to each other in one tile: two fragments, but no pixel has both.
     const TileCensus single = count_tiles(squares({0, 4}), squares({8}));
     CHECK(single == TileCensus{.tiles = 2,
                                .opaque_only = 1,
@@ -42,7 +42,7 @@ TEST_CASE("a tile is empty, opaque alone, single or layered by the fragments of 
           TileCensus{.tiles = 2, .single = 1, .layered = 1, .transparent_fragments = {48}, .opaque_fragments = {0}});
 }
 
-TEST_CASE("a pass needs what its program, its tests and its materials look at, and under Effects::all everything") {
+TEST_CASE("a pass needs the values that it uses and under Effects::all everything") {
     const MaterialNeeds plain;
     PassState state;
     state.needs = {.shader_z = false, .code = false, .exact_code = false, .color = false};
@@ -60,7 +60,7 @@ TEST_CASE("a pass needs what its program, its tests and its materials look at, a
     testing.stencil = {.enabled = true, .two_sided = true, .front = {}, .back = {}};
     CHECK(pass_needs(testing, plain, Effects::needed).facing);
     const MaterialNeeds textured{.texcoord = true};
-    CHECK_FALSE(pass_needs(state, textured, Effects::needed).texcoord);  // its colour is not read
+    CHECK_FALSE(pass_needs(state, textured, Effects::needed).texcoord);  // its colour is not used
     const MaterialNeeds masked{.texcoord = true, .color = true};
     CHECK(pass_needs(state, masked, Effects::needed).color);
     CHECK(pass_needs(state, masked, Effects::needed).texcoord);
@@ -68,8 +68,8 @@ TEST_CASE("a pass needs what its program, its tests and its materials look at, a
     CHECK((all.shader_z && all.code && all.color && all.texcoord && all.facing && !all.exact_code));
 }
 
-TEST_CASE("a tile's materials call for no more than the list's, and for nothing where no triangle has them") {
-    PreparedDraw list = squares({0, 8});  // a square a tile
+TEST_CASE("a tile's materials need no more than the list's and nothing if no triangle has them") {
+    PreparedDraw list = squares({0, 8});  // one square per tile
     for (std::uint32_t t = 0; t < list.geometry.triangles.size(); ++t)
         list.geometry.triangles[t].material = list.geometry.bin(1).front() <= t ? 1 : 0;
     const Texture texture;

@@ -1,5 +1,5 @@
-// What a combiner refuses, sentence by sentence, and the parts of its state that no random stage reaches. Model: the
-// rules' own words, and integers worked out by hand.
+// Tests the states that register combiners reject, message by message, and parts of their state that no random test
+// reaches. Expected messages are written by hand, expected codes are integers worked out by hand.
 #include <catch2/catch.hpp>
 #include <memory>
 #include <stdexcept>
@@ -11,7 +11,7 @@ namespace {
 using namespace strata::pipeline;
 using In = CombinerRegister;
 
-// The sentence with which a state is refused, or "".
+// The message with which a state is rejected, or "".
 [[nodiscard]] std::string refusal_of(const auto& change) {
     Combiners state{{CombinerStage{}}, {}};
     change(state);
@@ -23,7 +23,7 @@ using In = CombinerRegister;
     return "";
 }
 
-// Codes of one fragment after `state`; the texture is unit 0's, and what is not given is left out.
+// Codes of one fragment after `state`. The texture belongs to unit 0; arguments that are not given are absent.
 [[nodiscard]] std::array<int, 4> combined_codes(const Combiners& state, const std::array<int, 4>& primary,
                                                 const std::array<int, 4>* texture0 = nullptr) {
     const auto lanes = std::make_unique<std::array<ColorLanes, 3>>();
@@ -50,7 +50,7 @@ constexpr CombinerInput one_input{In::zero, CombinerMapping::unsigned_invert};
 
 }  // namespace
 
-TEST_CASE("a state that no machine could run is refused in one sentence, which names what is wrong") {
+TEST_CASE("an invalid state is rejected with one message that names the fault") {
     CHECK(refusal_of([](Combiners&) {}).empty());
     CHECK(refusal_of([](Combiners& s) { s.stages.resize(8); }).empty());
     CHECK(refusal_of([](Combiners& s) { s.stages.resize(9); }) == "combiner state: at most eight general stages");
@@ -77,7 +77,7 @@ TEST_CASE("a state that no machine could run is refused in one sentence, which n
         }
 }
 
-TEST_CASE("dot products are of colours alone and leave no sum") {
+TEST_CASE("dot products exist only for colours and have no sum") {
     for (CombinerProduct CombinerPortion::*product : {&CombinerPortion::ab_product, &CombinerPortion::cd_product}) {
         CHECK(refusal_of([&](Combiners& s) { s.stages[0].rgb.*product = CombinerProduct::dot; }).empty());
         CHECK(refusal_of([&](Combiners& s) { s.stages[0].alpha.*product = CombinerProduct::dot; }) ==
@@ -89,7 +89,7 @@ TEST_CASE("dot products are of colours alone and leave no sum") {
     }
 }
 
-TEST_CASE("the final stage takes unsigned inputs, and E, F and G plain registers") {
+TEST_CASE("the final stage takes unsigned inputs and its inputs E F G are plain registers") {
     using enum CombinerMapping;
     for (CombinerInput FinalCombiner::*input :
          {&FinalCombiner::a, &FinalCombiner::b, &FinalCombiner::c, &FinalCombiner::d, &FinalCombiner::e,
@@ -109,7 +109,7 @@ TEST_CASE("the final stage takes unsigned inputs, and E, F and G plain registers
     }
 }
 
-TEST_CASE("spare0 starts with texture 0's alpha, and sources that are not there are 0") {
+TEST_CASE("spare0 starts with the alpha of texture 0 and missing sources are 0") {
     const std::array<int, 4> primary{10, 20, 30, 40}, texture{50, 60, 70, 80};
     CHECK(combined_codes(showing(In::spare0), primary, &texture) == std::array{0, 0, 0, 80});
     CHECK(combined_codes(showing(In::spare0), primary) == std::array{0, 0, 0, 0});
@@ -120,7 +120,7 @@ TEST_CASE("spare0 starts with texture 0's alpha, and sources that are not there 
     CHECK(combined_codes(showing(In::primary_color), primary) == primary);
 }
 
-TEST_CASE("every stage has its own two constants, and the final stage those of its own") {
+TEST_CASE("every stage has its own two constants and the final stage has separate ones") {
     const auto constants = [](float first, float second) {
         return std::array{strata::Rgba(first), strata::Rgba(second)};
     };
@@ -139,8 +139,8 @@ TEST_CASE("every stage has its own two constants, and the final stage those of i
     CHECK(combined_codes(state, {1, 2, 3, 4}) == std::array{100, 100, 100, 90});
 }
 
-TEST_CASE("both portions of a stage read what stood before it, whatever the other writes") {
-    CombinerStage swap;  // colour takes alpha, alpha takes blue
+TEST_CASE("both portions of a stage read the registers before it regardless of what the other writes") {
+    CombinerStage swap;  // colour reads alpha, alpha reads blue
     swap.rgb.a = {In::primary_color, CombinerMapping::unsigned_identity, CombinerComponent::alpha};
     swap.alpha.a = {In::primary_color, CombinerMapping::unsigned_identity, CombinerComponent::blue};
     swap.rgb.b = swap.alpha.b = one_input;
@@ -149,7 +149,7 @@ TEST_CASE("both portions of a stage read what stood before it, whatever the othe
     CHECK(combined_codes(showing(In::primary_color, {swap, swap}), {1, 2, 3, 4}) == std::array{3, 3, 3, 4});
 }
 
-TEST_CASE("a negative spare0 counts as 0 in the final stage's sum, inverted as 1") {
+TEST_CASE("a negative spare0 counts as 0 in the final stage's sum and as 1 if inverted") {
     CombinerStage negate;
     negate.rgb.a = {In::primary_color, CombinerMapping::signed_negate};
     negate.rgb.b = one_input;
@@ -159,7 +159,7 @@ TEST_CASE("a negative spare0 counts as 0 in the final stage's sum, inverted as 1
     CHECK(combined_codes(state, {100, 50, 0, 0}) == std::array{0, 0, 0, 0});
     state.final_stage.inverts_spare0 = true;
     CHECK(combined_codes(state, {100, 50, 0, 0}) == std::array{255, 255, 255, 0});
-    CombinerStage lend = negate;  // and a secondary colour of 60 beside it
+    CombinerStage lend = negate;  // with a secondary colour of 60
     lend.rgb.c = {In::zero, CombinerMapping::unsigned_invert};
     lend.rgb.d = {In::constant_color0};
     lend.rgb.cd = In::secondary_color;
@@ -168,11 +168,11 @@ TEST_CASE("a negative spare0 counts as 0 in the final stage's sum, inverted as 1
     added.final_stage.d = {In::spare0_plus_secondary_color};
     CHECK(combined_codes(added, {100, 50, 0, 0}) == std::array{60, 60, 60, 0});
     state.final_stage.inverts_spare0 = false;
-    state.final_stage.d = {In::spare0};  // and as an input of its own
+    state.final_stage.d = {In::spare0};  // and as a separate input
     CHECK(combined_codes(state, {100, 50, 0, 0}) == std::array{0, 0, 0, 0});
 }
 
-TEST_CASE("a choice by the lowest bit takes the second product for every odd alpha of spare0, colour and alpha alike") {
+TEST_CASE("selection by the lowest bit takes the second product for every odd alpha of spare0 in colour and alpha") {
     CombinerStage choose;
     for (CombinerPortion* portion : {&choose.rgb, &choose.alpha}) {
         portion->a = {In::primary_color};

@@ -1,4 +1,5 @@
-// The combiners against a scalar model of one fragment in rational arithmetic, and against values read off an NV2A.
+// Tests the register combiners against a scalar model of one fragment in rational arithmetic, and against values read
+// from captures of an NV2A.
 #include "pipeline/geforce3/combiner.h"
 
 #include <algorithm>
@@ -23,13 +24,13 @@ struct Fragment {
     std::array<Color, 4> texture{};
 };
 
-constexpr int lanes_used = 19;  // whole vectors and a rest, whatever the instruction set
+constexpr int lanes_used = 19;  // full vectors and a remainder on every instruction set
 
 void put(ColorLanes& lanes, const Color& c) {
     for (std::size_t k = 0; k < 4; ++k) std::fill_n(lanes[k].begin(), lanes_used, static_cast<float>(c[k]) / 255.0f);
 }
 
-// The fragment in every lane, by every instruction set: all must give the same.
+// Runs the fragment in every lane on every instruction set; all results must be equal.
 Color run(const Combiners& state, const Fragment& f) {
     const auto lanes = std::make_unique<std::array<ColorLanes, 7>>();
     put((*lanes)[0], f.primary);
@@ -54,7 +55,7 @@ Color run(const Combiners& state, const Fragment& f) {
     return out;
 }
 
-// The final stage that shows one register.
+// A final stage that outputs one register.
 FinalCombiner show(Reg r) {
     FinalCombiner f;
     f.d = {r};
@@ -62,7 +63,7 @@ FinalCombiner show(Reg r) {
     return f;
 }
 
-// The model: registers hold rationals; NV_register_combiners' tables.
+// The model: registers hold rationals; the rules are the tables of NV_register_combiners.
 using Values = std::array<Rational, 4>;
 struct Machine {
     std::array<Values, combiner_registers> reg{};
@@ -81,7 +82,7 @@ struct Machine {
         }
         return 0;
     }
-    // To the nearest 255th.
+    // Rounds to the nearest multiple of 1/255.
     static Rational stored(const Rational& x) {
         const model::Integer k = model::floor((x < 0 ? -x : x) * 255 + Rational{1, 2});
         return (x < 0 ? Rational{-k} : Rational{k}) / 255;
@@ -134,7 +135,7 @@ CombinerInput any_input(Random& random) {
 }
 
 Reg any_output(Random& random) {
-    return one_in(random, 3) ? Reg::discard : static_cast<Reg>(3 + below(random, 8));  // primary_color .. spare1
+    return one_in(random, 3) ? Reg::discard : static_cast<Reg>(3 + below(random, 8));  // primary_color to spare1
 }
 
 CombinerPortion any_portion(Random& random, bool alpha) {
@@ -143,7 +144,7 @@ CombinerPortion any_portion(Random& random, bool alpha) {
     p.b = any_input(random);
     p.c = any_input(random);
     p.d = any_input(random);
-    // Distinct outputs: what two of them write to one register is undefined.
+    // The outputs must be distinct: two writes to one register are undefined.
     p.ab = any_output(random);
     do p.cd = any_output(random);
     while (p.cd != Reg::discard && p.cd == p.ab);
@@ -171,7 +172,7 @@ Color values(const Values& v) {
 
 }  // namespace
 
-TEST_CASE("general combiners compute what the tables of the extension say, one rounding a sum", "[slow]") {
+TEST_CASE("general combiners compute the tables of the extension with one rounding per sum", "[slow]") {
     Random random{321};
     Tally tally;
     for (int round = 0; round < 3000; ++round) {
@@ -205,7 +206,7 @@ TEST_CASE("general combiners compute what the tables of the extension say, one r
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("bias, scale and their orders give what captures of the chip show") {
+TEST_CASE("bias and scale and their order give the values in captures of the chip") {
     const auto through = [](int code, CombinerScale scale, CombinerBias bias) {
         CombinerStage stage;
         stage.rgb.a = {Reg::primary_color};
@@ -224,7 +225,7 @@ TEST_CASE("bias, scale and their orders give what captures of the chip show") {
     CHECK(through(255, CombinerScale::by_half, CombinerBias::none) == 128);
 }
 
-TEST_CASE("the selector of a choice is the upper bit of spare0's alpha, or the lowest one where the chip is told so") {
+TEST_CASE("selection is by the upper bit of spare0's alpha or by the lowest bit in the chip's other mode") {
     struct Case {
         CombinerSum rule;
         int alpha, expected;
@@ -251,7 +252,7 @@ TEST_CASE("the selector of a choice is the upper bit of spare0's alpha, or the l
     }
 }
 
-TEST_CASE("the final stage's sum of colours is not clamped unless it is asked to be, and may be inverted by operand") {
+TEST_CASE("the final stage's sum of colours is clamped only if requested and may be inverted per operand") {
     CombinerStage copy;
     copy.rgb.a = {Reg::primary_color};
     copy.rgb.b = {Reg::zero, Map::unsigned_invert};
@@ -275,7 +276,7 @@ TEST_CASE("the final stage's sum of colours is not clamped unless it is asked to
     CHECK(run(state, white)[0] == 127);
 }
 
-TEST_CASE("the final stage's product and mixture round to nearest") {
+TEST_CASE("the final stage's product and mixture are rounded to nearest") {
     Combiners state;
     state.final_stage.d = {Reg::e_times_f};
     state.final_stage.e = {Reg::primary_color};
@@ -295,7 +296,7 @@ TEST_CASE("the final stage's product and mixture round to nearest") {
     CHECK(run(state, f) == expected);
 }
 
-TEST_CASE("combiner state that no machine could run is refused") {
+TEST_CASE("invalid combiner state is rejected") {
     const auto wrong = [](auto change) {
         Combiners state{{CombinerStage{}}, {}};
         change(state);

@@ -1,5 +1,6 @@
-// Texture shader stages where a texture's shape, a device's depth or a rule for divides decides. Models: the texel's
-// place by integers, the extension's formulas, and divide rules by neighbours of the quotient.
+// Tests texture shader stages whose result depends on a texture's shape, a device's depth or its rule for divisions.
+// Expected texels are found in integers, expected values by the extension's formulas, and division rules are checked on
+// the neighbours of the quotient.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -53,7 +54,7 @@ struct ReplaceRun : ShaderRun {
 
 [[nodiscard]] float neighbour_toward_zero(float v) { return std::nextafter(v, 0.0f); }
 
-// 1 / d cut toward zero: the largest binary32 whose product with d is not beyond 1.
+// 1 / d rounded toward zero: the largest binary32 whose product with d is at most 1.
 [[nodiscard]] float cut_one_over(float d) {
     const float near = 1.0f / d;
     return Rational{near} * Rational{d} > 1 ? neighbour_toward_zero(near) : near;
@@ -70,7 +71,7 @@ struct ReplaceRun : ShaderRun {
 
 }  // namespace
 
-TEST_CASE("a HILO texture is read at its own width and height and wrapped by its own two modes") {
+TEST_CASE("a HILO texture is read with its own width and height and wrapped by its own two modes") {
     HiloTexture texture;
     texture.width = 4, texture.height = 3;
     for (int y = 0; y < 3; ++y)
@@ -109,7 +110,7 @@ TEST_CASE("a HILO texture is read at its own width and height and wrapped by its
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("the divides of lookups, comparisons and replaced depths follow the device's hypothesis") {
+TEST_CASE("the divisions of lookups and comparisons and replaced depths follow the device's hypothesis") {
     Random random{731};
     Tally tally;
     std::uint64_t unlike = 0;
@@ -145,7 +146,7 @@ TEST_CASE("the divides of lookups, comparisons and replaced depths follow the de
     CHECK(unlike > 500);
 }
 
-TEST_CASE("a replaced depth is rounded as its device rounds depth writes, in every fixed format and unit") {
+TEST_CASE("a replaced depth is rounded like the device's depth writes in every fixed format and unit") {
     Random random{732};
     Tally tally;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24})
@@ -171,7 +172,8 @@ TEST_CASE("a replaced depth is rounded as its device rounds depth writes, in eve
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("a reversed depth range is the same range, and with depth clamp a replaced depth comes to its nearer end") {
+TEST_CASE(
+    "a reversed depth range is the same range and with depth clamp a replaced depth is clamped to its nearer end") {
     ReplaceRun shader{"ideal", DepthFormat::d32f};
     shader.machine.depth_near = 0.75f, shader.machine.depth_far = 0.25f;
     const auto outcome = [&](float z) {
@@ -190,7 +192,7 @@ TEST_CASE("a reversed depth range is the same range, and with depth clamp a repl
     CHECK(outcome(std::numeric_limits<float>::quiet_NaN()) == -1.0f);
 }
 
-TEST_CASE("a fragment that one stage culls stays dead, whatever later stages say") {
+TEST_CASE("a fragment that one stage culls stays dead in later stages") {
     ShaderRun shader{"geforce3"};
     shader.stages[0].op = shader.stages[2].op = ShaderOp::cull_fragment;
     int wrong = 0;
@@ -204,7 +206,7 @@ TEST_CASE("a fragment that one stage culls stays dead, whatever later stages say
     CHECK(wrong == 0);
 }
 
-TEST_CASE("each operation alone asks for its own coordinates, in whichever stage it stands") {
+TEST_CASE("each operation requests only its own coordinates in any stage") {
     const auto asked = [](ShaderOp op, std::size_t stage) {
         ShaderOps ops{};
         ops[stage] = op;

@@ -1,4 +1,4 @@
-// Each function of the texture environment against its formula in rational arithmetic, rounded once to 8 bits.
+// Tests each function of the texture environment against its formula in rational arithmetic, rounded once to 8 bits.
 #include "pipeline/geforce3/texture_environment.h"
 
 #include <catch2/catch.hpp>
@@ -79,7 +79,7 @@ int combined(const CombineState& s, const Inputs& in, std::size_t k) {
     if (s.func == CombineFunc::add || s.func == CombineFunc::add_signed) v = a + b;
     if (s.func == CombineFunc::interpolate) v = a * c + b * (1 - c);
     if (s.func == CombineFunc::subtract) v = a - b;
-    // The rounding of a product comes before bias and scale; 1/2 is 128/255 on this machine.
+    // A product is rounded before bias and scale; 1/2 is 128/255 on this chip.
     Rational stored =
         Rational{model::floor((v < 0 ? Rational{-v} : v) * 255 + Rational{1, 2})} / 255 * (v < 0 ? -1 : 1);
     if (s.func == CombineFunc::add_signed) stored -= Rational{128, 255};
@@ -98,7 +98,7 @@ CombineState any_combine(Random& random, bool alpha) {
 
 }  // namespace
 
-TEST_CASE("every mode of the texture environment gives its formula, rounded once to 8 bits") {
+TEST_CASE("every mode of the texture environment gives its formula rounded once to 8 bits") {
     Random random{331};
     Tally tally;
     for (int round = 0; round < 4000; ++round) {
@@ -115,7 +115,7 @@ TEST_CASE("every mode of the texture environment gives its formula, rounded once
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("COMBINE gives its formulas with any argument, operand and scale", "[slow]") {
+TEST_CASE("COMBINE gives its formulas with any argument and operand and scale", "[slow]") {
     Random random{332};
     Tally tally;
     for (int round = 0; round < 4000; ++round) {
@@ -134,18 +134,18 @@ TEST_CASE("COMBINE gives its formulas with any argument, operand and scale", "[s
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("a further unit continues from what the one before left, clamped") {
+TEST_CASE("a further unit continues from the clamped result of the previous one") {
     std::array<TexEnv, 2> env{};
     env[0].mode = TexEnvMode::add;
     env[1].mode = TexEnvMode::modulate;
     const Inputs in{{200, 100, 0, 255}, {200, 100, 9, 255}, {}};
     const auto state = texture_environment(env);
     CHECK(state.stages.size() == 2);
-    CHECK(run(state, 0, in) == Color{0, 0, 0, 0});  // texture 1 is not there: 0
+    CHECK(run(state, 0, in) == Color{0, 0, 0, 0});  // texture 1 is absent: 0
     CHECK(run(texture_environment({}), 0, in) == in.f);
 }
 
-TEST_CASE("the peel combiner keeps the colour and carries the comparison into alpha") {
+TEST_CASE("the peel combiner keeps the colour and copies the comparison into alpha") {
     Random random{333};
     std::size_t wrong = 0;
     for (int round = 0; round < 500; ++round) {

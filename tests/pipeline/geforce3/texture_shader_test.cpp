@@ -1,4 +1,4 @@
-// Each operation on batches made by hand, against rational arithmetic or a table of what the extension says.
+// Tests each texture shader operation on batches made by hand, against rational arithmetic or a table of the extension.
 #include "pipeline/geforce3/texture_shader.h"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
 using Coordinate = std::array<float, 4>;
 
-// Four stages and the results of one fragment after the other.
+// Runs four stages on one fragment after the other and holds the results.
 struct Bench {
     ShaderStages stages{};
     ShaderMachine machine;
@@ -49,7 +49,7 @@ struct Bench {
     }
 };
 
-// A texture whose texels tell where they are: red the column, green the row.
+// A texture whose texels encode their position: red the column, green the row.
 Texture place_texture(TextureTarget target, int width, int height) {
     Texture texture{.name = "place",
                     .target = target,
@@ -90,7 +90,7 @@ struct DepthReplaceBench : Bench {
 
 }  // namespace
 
-TEST_CASE("a lookup is at s/q and t/q: normalised in a 2D texture, in texels in a rectangle") {
+TEST_CASE("a lookup is at s/q and t/q in normalised coordinates in a 2D texture and in texels in a rectangle") {
     Random random{311};
     Tally tally;
     for (const TextureTarget target : {TextureTarget::two_d, TextureTarget::rectangle}) {
@@ -99,7 +99,7 @@ TEST_CASE("a lookup is at s/q and t/q: normalised in a 2D texture, in texels in 
         bench.stages[2] = {.op = target == TextureTarget::two_d ? ShaderOp::texture_2d : ShaderOp::texture_rectangle,
                            .texture = {.color = &texture}};
         for (int round = 0; round < 4000; ++round) {
-            // Sixteenths of a texel over a power of two: the quotient is exact, and so is its texel.
+            // Multiples of 1/16 texel divided by a power of two: the quotient is exact, and so is its texel.
             const float q = one_in(random, 2) ? 4.0f : 0.125f;
             const auto coordinate = [&] {
                 return static_cast<float>(static_cast<int>(below(random, 400)) - 50) / 16.0f;
@@ -120,7 +120,7 @@ TEST_CASE("a lookup is at s/q and t/q: normalised in a 2D texture, in texels in 
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("pass-through cuts coordinates to 8 bits on a device with 8-bit textures and clamps them on another") {
+TEST_CASE("pass-through truncates coordinates to 8 bits on a device with 8-bit textures and otherwise clamps them") {
     Random random{312};
     Tally tally;
     Bench cuts{"geforce3"}, keeps{"ideal"};
@@ -144,7 +144,7 @@ TEST_CASE("pass-through cuts coordinates to 8 bits on a device with 8-bit textur
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("a fragment is culled if any coordinate is on the wrong side of zero, and zero is not negative") {
+TEST_CASE("a fragment is culled if any coordinate has the wrong sign and zero is not negative") {
     const std::array<float, 8> values{-1.0f, -0x1p-149f, -0.0f, 0.0f, 0x1p-149f, 1.0f, infinity, not_a_number};
     std::size_t wrong = 0;
     for (std::size_t component = 0; component < 4; ++component)
@@ -152,7 +152,7 @@ TEST_CASE("a fragment is culled if any coordinate is on the wrong side of zero, 
             for (const float value : values) {
                 Bench bench;
                 bench.stages[3].op = ShaderOp::cull_fragment;
-                bench.stages[3].cull[component] = mode;  // the others: gequal, of 0
+                bench.stages[3].cull[component] = mode;  // the other stages cull by gequal on 0
                 Coordinate c{0, 0, 0, 0};
                 c[component] = value;
                 bench.put(3, c);
@@ -164,7 +164,7 @@ TEST_CASE("a fragment is culled if any coordinate is on the wrong side of zero, 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a dot product multiplies s, t, r with HI, LO and 1, or with red, green and blue, and is not divided by q") {
+TEST_CASE("a dot product multiplies s t r with HI LO 1 or with a colour and is not divided by q") {
     Random random{313};
     Tally tally;
     const Texture color = place_texture(TextureTarget::two_d, 16, 8);
@@ -184,8 +184,8 @@ TEST_CASE("a dot product multiplies s, t, r with HI, LO and 1, or with red, gree
         const Coordinate c{any_float(random), any_float(random), any_float(random), any_float(random)};
         bench.put(1, c);
         static_cast<void>(bench.run());
-        // Binary32 operations, each by binary64 and one rounding: exact products, and sums of two that round
-        // innocuously.
+        // Binary32 operations, each computed in binary64 and rounded once: products are exact, and the double rounding
+        // of sums of two values is innocuous.
         const auto rounded = [](double x) { return static_cast<float>(x); };
         const std::array<float, 3> colour{static_cast<float>(column) / 255.0f, static_cast<float>(line) / 255.0f, 1.0f};
         const std::array<float, 3> pair{static_cast<float>(high) / 65535.0f, static_cast<float>(low) / 65535.0f, 1.0f};
@@ -221,7 +221,7 @@ TEST_CASE("a signed HILO texel is a vector of length one whose third component i
     }
 }
 
-TEST_CASE("replaced depth is the quotient of two dot products in depth units, floored") {
+TEST_CASE("replaced depth is the quotient of two dot products in depth units rounded down") {
     Random random{314};
     Tally tally;
     DepthReplaceBench bench;
@@ -236,12 +236,12 @@ TEST_CASE("replaced depth is the quotient of two dot products in depth units, fl
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("a replaced depth outside the depth range rejects the fragment, zero divisors and NaN among them") {
+TEST_CASE("a replaced depth outside the depth range rejects the fragment as do zero divisors and NaN") {
     DepthReplaceBench bench;
     const auto lives = [&](float r, float q) { return bench.divide(r, q), bench.alive(); };
     CHECK(lives(0.0f, 1.0f));
     CHECK(lives(65535.0f, 1.0f));
-    CHECK(lives(-65535.0f, -1.0f));  // the quotient is what counts
+    CHECK(lives(-65535.0f, -1.0f));  // only the quotient counts
     CHECK_FALSE(lives(65536.0f, 1.0f));
     CHECK_FALSE(lives(-1.0f, 1.0f));
     CHECK_FALSE(lives(1.0f, 0.0f));
@@ -264,7 +264,7 @@ TEST_CASE("a replaced depth outside the depth range rejects the fragment, zero d
     CHECK_FALSE(lives(0.0f, 0.0f));  // NaN cannot be clamped
 }
 
-TEST_CASE("a device with depths in [0,1] replaces by a quotient in [0,1], converted like a depth write") {
+TEST_CASE("a device with depths in 0 to 1 replaces by a quotient in that range and converts it like a depth write") {
     DepthReplaceBench bench;
     bench.machine.profile = find_profile("ideal");
     bench.machine.depth.format = DepthFormat::d32f;
@@ -276,10 +276,10 @@ TEST_CASE("a device with depths in [0,1] replaces by a quotient in [0,1], conver
     CHECK_FALSE(bench.alive());
     bench.machine.depth.format = DepthFormat::d24;
     bench.divide(1.0f, 2.0f);
-    CHECK(bench.code() == 0x800000u);  // 8,388,607.5 to nearest, a half up
+    CHECK(bench.code() == 0x800000u);  // 8,388,607.5 to nearest, ties up
 }
 
-TEST_CASE("dependent lookups take the dot product before as s and their own as t") {
+TEST_CASE("dependent lookups take the previous dot product as s and their own as t") {
     const HiloTexture one = hilo(0, 0);
     const Texture target = place_texture(TextureTarget::two_d, 128, 128);
     Bench bench;
@@ -315,7 +315,7 @@ TEST_CASE("a depth texture compares r/q in the three-dimensional stage and 0 in 
         return bench.rgba(3)[0] == 1.0f;
     };
     CHECK(passes(0.5f, 2000.0f, 2.0f));        // R = 1000
-    CHECK(passes(0.5f, 2001.0f, 2.0f));        // 1000.5 is cut like a depth write
+    CHECK(passes(0.5f, 2001.0f, 2.0f));        // 1000.5 is truncated like a depth write
     CHECK_FALSE(passes(0.5f, 2002.0f, 2.0f));  // 1001 <= 1000 is false
     CHECK_FALSE(passes(1.5f, 1.0f, 1.0f));
     bench.stages[3].texture.reference = CompareReference::zero;
@@ -323,7 +323,7 @@ TEST_CASE("a depth texture compares r/q in the three-dimensional stage and 0 in 
     CHECK(passes(0.5f, 5000.0f, 1.0f));
 }
 
-TEST_CASE("a stage that is not consistent does nothing, and so does what depends on it") {
+TEST_CASE("an inconsistent stage does nothing and neither do stages that depend on it") {
     const HiloTexture zero = hilo(0, 0);
     const Texture flat = place_texture(TextureTarget::two_d, 1, 1),
                   rectangle = place_texture(TextureTarget::rectangle, 1, 1);
@@ -336,9 +336,9 @@ TEST_CASE("a stage that is not consistent does nothing, and so does what depends
 
     CHECK(ops({look, dot, replace, none})[2] == ShaderOp::dot_product_depth_replace);
     CHECK(last({look, none, dot, replace}) == ShaderOp::dot_product_depth_replace);
-    CHECK(last({look, dot, none, replace}) == ShaderOp::none);     // the stage before is no dot product
-    CHECK(last({look, dot, replace, replace}) == ShaderOp::none);  // a depth is no first dot product
-    CHECK(ops({dot, replace, none, none}) == ShaderOps{});         // nothing to multiply with, in units 0 and 1
+    CHECK(last({look, dot, none, replace}) == ShaderOp::none);     // the previous stage is not a dot product
+    CHECK(last({look, dot, replace, replace}) == ShaderOp::none);  // a depth stage cannot be the first dot product
+    CHECK(ops({dot, replace, none, none}) == ShaderOps{});         // no texture to multiply with in units 0 and 1
     CHECK(ops({none, dot, replace, none}) == ShaderOps{});         // NONE has no texel
     CHECK(ops({look, {.op = ShaderOp::dot_product, .previous = 1, .texture = {}}, none, none})[1] == ShaderOp::none);
     CHECK(ops({look, {.op = ShaderOp::dot_product, .previous = -1, .texture = {}}, none, none})[1] == ShaderOp::none);
@@ -355,12 +355,12 @@ TEST_CASE("a stage that is not consistent does nothing, and so does what depends
     DepthReplaceBench bench;
     bench.stages[1].op = ShaderOp::none;
     bench.divide(0.0f, 0.0f);
-    CHECK(bench.alive());  // depth is not replaced, so nothing rejects it
+    CHECK(bench.alive());  // depth is not replaced, so the fragment is not rejected
     CHECK_FALSE(replaces_depth(consistent_operations(bench.stages)));
     CHECK(bench.rgba(2) == Coordinate{});
 }
 
-TEST_CASE("a pass computes the coordinates that its operations look at and no others") {
+TEST_CASE("a pass computes only the coordinates that its operations use") {
     const HiloTexture zero = hilo(0, 0);
     Image depth{Format::d16, 1, 1};
     ShaderStages stages{};
@@ -377,8 +377,8 @@ TEST_CASE("a pass computes the coordinates that its operations look at and no ot
     CHECK(coordinates_of({}, {}) == 0);
 }
 
-// 4 bits of exponent, 12 of mantissa: (1 + m / 4096) 2^(e - 7), in units of which depth 1 is 511.9375.
-TEST_CASE("a replaced depth of a 16-bit float buffer is cut to the buffer's 4 bits of exponent and 12 of mantissa") {
+// 4 bits of exponent, 12 of mantissa: (1 + m / 4096) 2^(e - 7), in units in which depth 1 is 511.9375.
+TEST_CASE("a replaced depth of a 16-bit float buffer is truncated to 4 bits of exponent and 12 of mantissa") {
     DepthReplaceBench bench;
     bench.machine.depth.format = DepthFormat::d16f;
     const auto code_of = [&](float depth) {

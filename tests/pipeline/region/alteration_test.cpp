@@ -1,5 +1,5 @@
-// Model: what a step would have left without the change, and with it, in numbers that a reader works out: a few
-// fragments a pixel, MAX and replacement.
+// Tests alterations of passes on small cases with a few fragments per pixel, MAX and replacement, whose results with
+// and without the change are worked out by hand.
 #include "pipeline/frame/alteration.h"
 
 #include <catch2/catch.hpp>
@@ -56,12 +56,12 @@ const std::vector<float> unaltered_reds{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 
 
 }  // namespace
 
-TEST_CASE("an alteration without functions leaves every step as it is") {
+TEST_CASE("an alteration without functions changes no step") {
     CHECK(reds_after_pass({}) == unaltered_reds);
     CHECK(reds_after_pass({}, true) == std::vector<float>(8, 0.75f));
 }
 
-TEST_CASE("a pass takes the state that its alteration leaves, geometry and quads alike") {
+TEST_CASE("a pass uses the state that its alteration returns for geometry and quads") {
     int geometry = 0, quads = 0;
     const Alteration changed{.pass = [&](Region&, PassState& state, PassKind kind) {
         ++(kind == PassKind::geometry ? geometry : quads);
@@ -73,7 +73,7 @@ TEST_CASE("a pass takes the state that its alteration leaves, geometry and quads
     CHECK(quads == 1);
 }
 
-TEST_CASE("an alteration hears how many fragments got through a pass") {
+TEST_CASE("an alteration gets the number of fragments that passed in each pass") {
     std::vector<std::pair<PassKind, std::uint64_t>> heard;
     const Alteration listens{.program =
                                  [](const ProgramCall& call, const std::function<void()>& run) {
@@ -89,7 +89,7 @@ TEST_CASE("an alteration hears how many fragments got through a pass") {
           std::vector<std::pair<PassKind, std::uint64_t>>{{PassKind::geometry, 5}, {PassKind::full_screen, 0}});
 }
 
-TEST_CASE("an alteration stands in for a program, around it or without it") {
+TEST_CASE("an alteration can replace a program or run code around it") {
     const Alteration behind{.program = [](const ProgramCall& call, const std::function<void()>& run) {
         run();
         for (std::size_t i = 0; i < static_cast<std::size_t>(call.in.count); ++i)
@@ -102,7 +102,7 @@ TEST_CASE("an alteration stands in for a program, around it or without it") {
     CHECK(reds_after_pass(unused) == std::vector<float>(8, 0.0625f));
 }
 
-TEST_CASE("a clear and a copy may be changed, turned elsewhere or left out") {
+TEST_CASE("a clear and a copy may be changed or redirected or skipped") {
     for (const bool is_left_out : {false, true}) {
         const Alteration changed{.clear =
                                      [&](Region&, Target&, ClearValue& value) {
@@ -128,7 +128,7 @@ TEST_CASE("a clear and a copy may be changed, turned elsewhere or left out") {
     CHECK(m.region.targets().color(hit, 0)[0] == 1.0f);
 }
 
-TEST_CASE("an alteration answers queries, hears names, and sees nothing of the emulator's own work") {
+TEST_CASE("an alteration answers queries and receives names and sees nothing of the emulator's internal work") {
     std::uint64_t asked = 0;
     std::string names;
     int clears = 0;
@@ -144,7 +144,7 @@ TEST_CASE("an alteration answers queries, hears names, and sees nothing of the e
                                       return false;
                                   }};
     AlteredMachine m{stubborn};
-    CHECK(clears == 0);  // the opaque targets have been cleared by then
+    CHECK(clears == 0);  // the opaque targets were cleared before
     const Target target = m.region.make_color();
     m.region.call(target, "layer");
     RegionShortcuts{m.region}.uncounted([&] { m.region.clear(target, {}); });
@@ -159,7 +159,7 @@ TEST_CASE("an alteration answers queries, hears names, and sees nothing of the e
     CHECK(names == "layer");
 }
 
-TEST_CASE("an altered run is literal, whatever execution is asked for") {
+TEST_CASE("an altered run is literal for any requested execution") {
     TestFrame test{ramp_of_reds(), "geforce8"};
     int regions = 0, copies = 0;
     const Body body = [&](Region& region) {

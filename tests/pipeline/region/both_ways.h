@@ -1,5 +1,6 @@
-// tests/pipeline/region/both_ways.h - one body run literally, which never selects a fragment and never walks a row, and
-// tile by tile: what each leaves in all of its targets, what it counts and reports, or the words with which it refuses.
+// tests/pipeline/region/both_ways.h - runs one body literally, which never selects a fragment and never walks a row,
+// and by tiles. Returns for each the codes in all of its targets, its diagnostics, or the message with which it was
+// rejected.
 #pragma once
 #include <functional>
 #include <stdexcept>
@@ -12,13 +13,13 @@
 namespace strata::testing {
 
 struct WhatIsLeft {
-    std::vector<std::uint32_t> codes;  // of the frame, target after target, channel after channel, sample after sample
+    std::vector<std::uint32_t> codes;  // of the whole frame, ordered by target, channel and sample
     std::vector<pipeline::Diagnostic> diagnostics;
     std::uint64_t visited = 0;
     std::string refusal;
 };
 
-// Puts the codes of a region's targets where the frame has its pixels.
+// Copies the codes of a region's targets to their positions in the frame.
 inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes) {
     const auto& whole = region.frame().rect();
     const auto& own = region.rect();
@@ -55,7 +56,7 @@ inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes)
     return left;
 }
 
-// What tiles leave otherwise than the definition does: a word, or nothing.
+// Name of the first result in which tiled execution differs from literal execution; empty if there is none.
 [[nodiscard]] inline std::string difference_of(const WhatIsLeft& literal, const WhatIsLeft& tiled) {
     if (literal.refusal != tiled.refusal) return "'" + literal.refusal + "' against '" + tiled.refusal + "'";
     if (!literal.refusal.empty()) return {};

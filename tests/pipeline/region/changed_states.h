@@ -1,5 +1,5 @@
-// tests/pipeline/region/changed_states.h - one piece of a pass's state after the other, changed: for passes that a fast
-// way may take only while nothing stands in its way.
+// tests/pipeline/region/changed_states.h - changes of a pass's state, one setting at a time, for passes whose fast path
+// requires that the setting has its default.
 #pragma once
 #include <array>
 #include <functional>
@@ -21,12 +21,12 @@ struct Change {
     Changed make;
 };
 
-// A stencil target of its own where the pass has none.
+// Adds a stencil target if the pass has none.
 inline void give_stencil(pipeline::PassState& state, pipeline::Region& region) {
     if (!state.stencil_target.exists()) state.stencil_target = region.make(pipeline::Format::s8);
 }
 
-// The first changes nothing.
+// The list of changes; the first changes nothing.
 inline const std::vector<Change>& changes() {
     using namespace pipeline;
     using enum CompareFunc;

@@ -1,5 +1,5 @@
-// Bodies that a careless executor gets wrong: literal execution is the definition, and what each must show is worked
-// out beside it.
+// Tests bodies that an incorrect executor gets wrong. Literal execution is the definition; the expected result of each
+// body is also worked out here.
 #include "pipeline/region/executor.h"
 
 #include <bit>
@@ -19,7 +19,7 @@ constexpr int slots = 12;
 
 float slot_depth(int slot) { return static_cast<float>(slot + 1) / 16.0f; }
 
-// The fragments that lie at the depth of `slot`, optionally those of alpha 1 alone.
+// Counts the fragments at the depth of `slot`; with `opaque_only` those of alpha 1 only.
 Count count_slot(Region& region, int slot, bool opaque_only = false) {
     const std::uint32_t code = std::bit_cast<std::uint32_t>(slot_depth(slot));
     return region
@@ -31,7 +31,7 @@ Count count_slot(Region& region, int slot, bool opaque_only = false) {
         .passed;
 }
 
-// One code more in `channel` of every pixel.
+// Adds one code to `channel` of every pixel.
 void add_one(Region& region, Target sum, std::size_t channel) {
     PassState state;
     state.color[0] = sum;
@@ -41,7 +41,7 @@ void add_one(Region& region, Target sum, std::size_t channel) {
     }));
 }
 
-// A code more of red where a fragment lies in `slot`.
+// Adds one code of red where there is a fragment in `slot`.
 void add_found(Region& region, Target sum, int slot) {
     PassState state;
     state.color[0] = sum;
@@ -57,7 +57,7 @@ void add_found(Region& region, Target sum, int slot) {
 
 struct Spot {
     std::size_t pixel;
-    std::vector<int> slots;  // a fragment in each
+    std::vector<int> slots;  // one fragment in each slot
     float alpha = 0.5f;
 };
 
@@ -69,7 +69,7 @@ FragmentScene spots(const std::vector<Spot>& all) {
     return scene;
 }
 
-// (a) and (d): red counts the frame's iterations at every pixel, whatever the pixel itself has left.
+// (a) and (d): red counts the frame's iterations at every pixel, including pixels without fragments left.
 void count_iterations(Region& region) {
     const Target sum = region.make_color();
     for (int slot = 0; slot < slots && !region.limit_reached(); ++slot) {
@@ -81,7 +81,7 @@ void count_iterations(Region& region) {
     region.publish(sum);
 }
 
-// (c): two questions an iteration; green counts the iterations that found alpha 1, blue those that did not.
+// (c): two queries per iteration. Green counts the iterations that found alpha 1, blue those that did not.
 template <Idle promise>
 void branch(Region& region) {
     const Target sum = region.make_color();
@@ -89,14 +89,14 @@ void branch(Region& region) {
         region.begin_iteration();
         const bool opaque = region.any(count_slot(region, slot, true), Idle::no);
         if (opaque || promise == Idle::no) add_one(region, sum, opaque ? 1 : 2);
-        if (!opaque) static_cast<void>(count_slot(region, slots));  // a pass that finds nothing, but costs
+        if (!opaque) static_cast<void>(count_slot(region, slots));  // finds nothing, but is counted
         if (!region.any(count_slot(region, slot), promise)) break;
     }
-    static_cast<void>(count_slot(region, 0));  // what follows the loop
+    static_cast<void>(count_slot(region, 0));  // a pass after the loop
     region.publish(sum);
 }
 
-// A loop from each of these slots. A tile that has found all of a loop's fragments leaves it.
+// One loop from each of these slots. A tile that has found all of a loop's fragments leaves the loop.
 template <int... starts>
 void loops_from(Region& region) {
     const Target sum = region.make_color();
@@ -116,8 +116,8 @@ FrameResult execute(const TestFrame& test, const Body& body, Execution execution
     return run(test.frame, body, execution, 2);
 }
 
-// Replay of the test's tiles, with memory for every fragment, for one byte and for none, equals literal, which is
-// returned.
+// Checks that replay of the test's tiles, with memory for every fragment, for one byte and for none, equals literal
+// execution; returns the literal result.
 FrameResult both(const TestFrame& test, const Body& body) {
     FrameResult literal = execute(test, body, Execution::literal);
     constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
@@ -135,7 +135,7 @@ FrameResult both(const TestFrame& test, const Body& body) {
     return literal;
 }
 
-// Two codes that tell every pixel of these frames from every other.
+// Two codes that identify each pixel of these frames.
 void write_place(Region& region, Target target) {
     PassState state;
     state.color[0] = target;
@@ -148,7 +148,7 @@ void write_place(Region& region, Target target) {
     }));
 }
 
-// Loads must be of the fragment's own place: red counts the fragments and the screen's pixels of which they are.
+// Loads must be of the fragment's own pixel: red counts the fragments and full-screen pixels for which they are.
 void read_place(Region& region) {
     const Target places = region.make(Format::rgba8), sum = region.make_color();
     write_place(region, places);
@@ -164,12 +164,12 @@ void read_place(Region& region) {
             for (std::size_t c = 1; c < 4; ++c) out.color[0][c][i] = 0;
         }
     };
-    for (int pass = 0; pass < 2; ++pass) static_cast<void>(region.draw(state, program));  // the second may be recalled
+    for (int pass = 0; pass < 2; ++pass) static_cast<void>(region.draw(state, program));  // the second may be replayed
     static_cast<void>(region.full_screen(state, program));
     region.publish(sum);
 }
 
-// Every pixel's code in `channel`, if they are all the same; else -1.
+// The code of every pixel in `channel` if they are all equal; else -1.
 int everywhere(const FrameResult& result, std::size_t channel) {
     const auto& codes = result.color.codes;
     for (std::size_t i = channel; i < codes.size(); i += 4)
@@ -179,7 +179,7 @@ int everywhere(const FrameResult& result, std::size_t channel) {
 
 }  // namespace
 
-// A layer from the far and one from the near end an iteration, in this order; green where a fragment lies in the slot.
+// One layer from the far and one from the near end per iteration; green where there is a fragment in the slot.
 void keep_both_ends(Region& region) {
     const Target layer = region.make_color(), depth = region.make_depth();
     const auto keep = [&](int slot, Side side) {
@@ -201,13 +201,13 @@ void keep_both_ends(Region& region) {
     region.publish(layer);
 }
 
-TEST_CASE("layers keep the end that they were taken from, whichever tile stops first") {
-    // Five, one and two slots in the first tile, in one between and in the last.
+TEST_CASE("layers keep the end from which they were peeled whichever tile stops first") {
+    // Five, one and two slots in the first tile, in a middle one and in the last.
     for (const std::size_t deepest : {std::size_t{1}, std::size_t{260}, std::size_t{511}}) {
         TestFrame test{spots({{1, {0}}, {260, {0, 11}}, {511, {0, 1}}, {deepest, {0, 1, 2, 3, 4, 7}}}), "geforce8"};
         test.frame.keep_layers = true;
         const FrameResult literal = execute(test, keep_both_ends, Execution::literal);
-        // Slots 0 to 4 hold fragments and slot 5 none: six iterations of two layers, and one that shows nothing more.
+        // Slots 0 to 4 have fragments and slot 5 has none: six iterations of two layers, and a last one without.
         REQUIRE(literal.layers.size() == 12);
         for (std::size_t i = 0; i < 12; ++i) CHECK(literal.layers[i].side == (i % 2 == 0 ? Side::back : Side::front));
         const FrameResult tiled = execute(test, keep_both_ends, Execution::replay);
@@ -231,7 +231,7 @@ TEST_CASE("a body that changes finished pixels runs every tile to the frame's en
     CHECK(result.counters->blended == 5);
 }
 
-TEST_CASE("a tile whose count is zero and later is not goes on with the frame") {
+TEST_CASE("a tile whose count is zero and is nonzero later continues with the frame") {
     // Tile 0 has nothing in slots 1 and 3, tile 2 fills these gaps; slot 4 is empty everywhere, so slot 5 is never
     // reached.
     const TestFrame test{spots({{5, {0, 2, 5}}, {20, {1}}, {300, {3}}}), "geforce8"};
@@ -241,7 +241,7 @@ TEST_CASE("a tile whose count is zero and later is not goes on with the frame") 
     CHECK(result.counters->blended == 4);
 }
 
-TEST_CASE("a tile leaves each of several loops by itself, and counts what the frame's loops cost") {
+TEST_CASE("a tile leaves each of several loops by itself and counts the cost of the frame's loops") {
     // Loop 1 finds slots 0 to 3 and not 4, loop 2 slots 6 and 7 and not 8; tile 3 has nothing, others less.
     const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0, 6}}, {300, {6, 7}}, {301, {0, 1}}}), "geforce8"};
     const FrameResult result = both(test, loops_from<0, 6>);
@@ -253,8 +253,8 @@ TEST_CASE("a tile leaves each of several loops by itself, and counts what the fr
     CHECK(result.color.codes[4 * 300] == 2);
 }
 
-TEST_CASE("a limit cuts the third loop where the frame's passes end, whichever tile left the first two early") {
-    // Slots 0 to 2, 4 to 6 and 8 to 10 hold fragments, in tile 0 alone or in others: four iterations of two passes.
+TEST_CASE("a limit ends the third loop where the frame's passes end even if tiles left the first two early") {
+    // Slots 0 to 2, 4 to 6 and 8 to 10 have fragments, in tile 0 alone or in others: four iterations of two passes.
     const std::vector<Spot> all{
         {1, {0, 1, 2, 4, 8, 9}}, {28, {0, 4, 5, 6}}, {260, {8}}, {511, {0, 1, 8, 9, 10}}, {300, {4}}};
     std::set<int> iterations;
@@ -267,7 +267,7 @@ TEST_CASE("a limit cuts the third loop where the frame's passes end, whichever t
     CHECK(iterations.size() >= 10);
 }
 
-TEST_CASE("a ratio is of the frame's pixels, and stops tiles that would go on by their own count") {
+TEST_CASE("a ratio is of the frame's pixels and stops tiles that would continue by their own count") {
     TestFrame test{spots({{0, {0, 1, 2, 3, 4, 5}}, {1, {0, 1, 2}}, {40, {0, 1}}, {100, {0}}, {500, {0, 1, 2, 3}}}),
                    "geforce8"};
     // Counts 5, 4, 3, 2, 1 and 1 of 512 pixels.
@@ -279,7 +279,7 @@ TEST_CASE("a ratio is of the frame's pixels, and stops tiles that would go on by
     }
 }
 
-TEST_CASE("two queries an iteration, one for a branch, are answered by the whole frame") {
+TEST_CASE("two queries per iteration and one for a branch are answered for the whole frame") {
     // Alpha 1 is found in slots 0 (tile 0), 2 (tile 3) and 3 (tile 7); no fragment at all in slot 5.
     const TestFrame test{spots({{1, {0}, 1}, {2, {1, 2, 3, 4}}, {28, {2}, 1}, {511, {3}, 1}, {260, {0, 4, 6}}}),
                          "geforce8"};
@@ -290,7 +290,7 @@ TEST_CASE("two queries an iteration, one for a branch, are answered by the whole
     CHECK(result.passes == PassCount{2 * 6 + 3 + 1, 6, 0});
 }
 
-TEST_CASE("passes behind a branch's answer are the frame's, whichever tile is idle") {
+TEST_CASE("passes after a branch are those of the frame whichever tile is idle") {
     const auto scene = [](int first, float alpha) {
         return spots({{static_cast<std::size_t>(first), {0}, alpha}, {3, {0, 1, 2, 3, 4}}, {28, {0, 1}}, {300, {0}}});
     };
@@ -307,8 +307,8 @@ TEST_CASE("passes behind a branch's answer are the frame's, whichever tile is id
     }
 }
 
-// Every iteration adds to all pixels, so that a tile with nothing left is not idle.
-TEST_CASE("a promise that is not kept shows where no promise is trusted") {
+// Every iteration adds to all pixels, so a tile with nothing left is not idle.
+TEST_CASE("a broken promise is detected where promises are not trusted") {
     const TestFrame test{spots({{1, {0}}, {28, {0, 1, 2}}}), "geforce8"};
     const Body broken = [](Region& region) {
         const Target sum = region.make_color();
@@ -328,15 +328,15 @@ TEST_CASE("a promise that is not kept shows where no promise is trusted") {
     CHECK_FALSE(left_by(Execution::replay, true) == literal);
 }
 
-TEST_CASE("what a program loads is its own pixel's, wherever its region lies and wherever its fragments come from") {
+TEST_CASE("a program loads only its own pixel in any region for fragments of any source") {
     std::vector<Spot> everywhere_once;
     for (std::size_t pixel = 0; pixel < 32 * 16; ++pixel)
         everywhere_once.push_back({pixel, {static_cast<int>(pixel % slots)}});
     const TestFrame test{spots(everywhere_once), "geforce8"};
-    CHECK(everywhere(both(test, read_place), 0) == 3);  // two draws and one screen
+    CHECK(everywhere(both(test, read_place), 0) == 3);  // two draws and one full-screen pass
 }
 
-TEST_CASE("max_passes and fixed:N count geometry passes in every region alike") {
+TEST_CASE("max_passes and fixed:N count geometry passes equally in every region") {
     TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0}}}), "geforce8"};
     for (int passes = 1; passes <= 8; ++passes) {
         test.frame.termination = {};
@@ -350,7 +350,7 @@ TEST_CASE("max_passes and fixed:N count geometry passes in every region alike") 
     }
 }
 
-TEST_CASE("a body without a query runs once, and its fragments are counted once") {
+TEST_CASE("a body without a query runs once and its fragments are counted once") {
     const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0}}, {511, {2}}}), "geforce8", 16};
     const FrameResult result = both(test, [](Region& region) {
         const Target color = region.make_color();
@@ -363,7 +363,7 @@ TEST_CASE("a body without a query runs once, and its fragments are counted once"
     CHECK(result.counters->discarded == 4);
 }
 
-TEST_CASE("a pass that the profile lacks is refused out of every execution") {
+TEST_CASE("a pass that the profile lacks throws Refused from every execution") {
     const TestFrame test{spots({{5, {0}}}), "geforce8"};
     const Body body = [](Region& region) {
         const Target color = region.make_color();
@@ -385,7 +385,7 @@ TEST_CASE("a pass that the profile lacks is refused out of every execution") {
     }
 }
 
-TEST_CASE("faults of tiles add up to the frame's, the first pixel in row-major order") {
+TEST_CASE("faults of tiles add up to those of the frame with the first pixel in row-major order") {
     const TestFrame test{spots({{5, {0}}, {300, {0}}, {14, {0}}}), "geforce8"};
     const FrameResult result = both(test, [](Region& region) {
         std::uint64_t pixels = 0;

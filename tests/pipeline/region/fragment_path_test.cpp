@@ -1,4 +1,5 @@
-// GeForce3's fragment path in a pass: replaced depths, depth textures of the region, lookups that leave it.
+// Tests GeForce3's fragment path in a pass: replaced depths, depth textures of the region, and lookups outside of the
+// region.
 #include "pipeline/region/fragment_path.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +20,7 @@ using strata::rasterizer::Rect;
 constexpr int width = 16, height = 8;
 constexpr std::uint32_t last_code = 0xffffff;
 
-// s and t of a unit are the window position, y up, moved by (dx, dy) texels; r and q as given by rows of the clip
+// s and t of a unit are the window position with y up, offset by (dx, dy) texels; r and q are given by rows of the clip
 // position.
 CoordinateUnit screen_aligned(double dx, double dy, const Plane4& r) {
     CoordinateUnit unit{.enabled = true, .gen = eye_position()};
@@ -28,7 +29,7 @@ CoordinateUnit screen_aligned(double dx, double dy, const Plane4& r) {
     return unit;
 }
 
-// A few layers on every pixel, window depth k / 64.
+// A few layers on every pixel, at window depths k / 64.
 FragmentScene layers(std::uint64_t seed) {
     FragmentScene scene{width, height};
     Random random{seed};
@@ -38,7 +39,7 @@ FragmentScene layers(std::uint64_t seed) {
     return scene;
 }
 
-// R = z of the clip position in [-1, 1], to depth units.
+// r is z of the clip position in [-1, 1], scaled to depth units.
 Plane4 depth_row() { return {0, 0, last_code * 0.5, last_code * 0.5}; }
 
 // Scale and offset of the vertex's z in buffer units are rounded to binary32 one after the other.
@@ -66,7 +67,8 @@ PassState peel_state(Target layer, Target depth) {
     return state;
 }
 
-// Peels through the state: the second layer's depth is left in `second`. The comparison keeps what is behind layer one.
+// Peels through the state and leaves the second layer's depth in `second`. The comparison keeps what is behind layer
+// one.
 struct Peel {
     Target first, second;
     explicit Peel(Region& region, std::size_t unit = 3) {
@@ -98,7 +100,8 @@ TestFrame frame_of(const FragmentScene& scene, double dx, double dy, std::size_t
 
 }  // namespace
 
-TEST_CASE("a screen-aligned depth texture of any unit peels: the second pass keeps what is behind the first layer") {
+TEST_CASE(
+    "a screen-aligned depth texture of any unit peels so that the second pass keeps what is behind the first layer") {
     const std::size_t unit = GENERATE(as<std::size_t>{}, 0, 1, 2, 3);
     const FragmentScene scene = layers(341);
     TestFrame test = frame_of(scene, 0, 0, unit);
@@ -120,13 +123,14 @@ TEST_CASE("a screen-aligned depth texture of any unit peels: the second pass kee
     CHECK(second_layers > 30);
 }
 
-TEST_CASE("a lookup that leaves its region runs the frame literally, one that stays does not, with the same bits") {
+TEST_CASE(
+    "a lookup outside of its region runs the frame literally and one inside does not and both have the same bits") {
     const FragmentScene scene = layers(342);
     for (const double shift : {0.0, 3.0, 9.0}) {
         TestFrame test = frame_of(scene, shift, 0);
         const Body body = [](Region& region) { Peel{region}; };
         const FrameResult literal = run(test.frame, body, Execution::literal, 1);
-        // Coordinates are not recorded, whether or not the frame has said before that its passes look at them.
+        // Coordinates are not recorded, whether or not the frame declares that its passes use them.
         const Replay unsaid{1 << 20, {.shader_z = false, .code = true, .color = true}};
         Replay said = unsaid;
         said.needs.units = 0xf000;
@@ -140,19 +144,19 @@ TEST_CASE("a lookup that leaves its region runs the frame literally, one that st
     }
 }
 
-TEST_CASE("a frame that says that it needs the whole runs literally") {
+TEST_CASE("a frame that declares that it needs all of its pixels runs literally") {
     TestFrame test = frame_of(layers(343), 0, 0);
     test.frame.needs_frame = true;
     const Body body = [](Region& region) { Peel{region}; };
     CHECK(run(test.frame, body, Execution::replay, 1).work.regions == 1);
 }
 
-TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fragment leaves nothing") {
+TEST_CASE("a replaced depth is used by depth test and buffer and a rejected fragment leaves nothing") {
     FragmentScene scene{width, height};
     for (GivenPixel& pixel : scene.pixels) pixel.fragments.push_back({0.05f, {1, 1, 1, 1}});
     CoordinateUnits units{};
     for (const std::size_t u : {0u, 1u, 2u}) units[u] = {.enabled = true, .gen = eye_position()};
-    units[1].matrix = Matrix(0.0);  // r1 = 2^20 (x + 1/2) of the clip position: below 0 on the left quarter
+    units[1].matrix = Matrix(0.0);  // r1 = 2^20 (x + 1/2) of the clip position, negative on the left quarter
     units[1].matrix[0][2] = 0x1p20;
     units[1].matrix[3][2] = 0x1p19;
     units[2].matrix = Matrix(0.0);  // r2 = w
@@ -197,7 +201,7 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
     }
 }
 
-TEST_CASE("texture shaders are refused by name where the device has none") {
+TEST_CASE("texture shaders are rejected by name where the device has none") {
     TestFrame test{layers(344), "geforce8"};
     RegionStatistics statistics;
     Region region{test.frame, {test.frame.rect()}, statistics};
@@ -214,7 +218,7 @@ TEST_CASE("a depth texture that is written by its own pass is a feedback loop") 
     FragmentPathProgram program{region, compare_with(depth, CompareFunc::lequal)};
     program.apply(state);
     CHECK_THROWS_AS(region.draw(state, program), std::logic_error);
-    // A stage that is off looks at nothing, whatever texture it is left with.
+    // A stage that is off reads nothing, whatever texture is set.
     FragmentPath off = compare_with(depth, CompareFunc::lequal);
     off.shader[3].op = ShaderOp::none;
     off.combiners = texture_environment({});
@@ -224,8 +228,7 @@ TEST_CASE("a depth texture that is written by its own pass is a feedback loop") 
     CHECK_NOTHROW(region.draw(state, blind));
 }
 
-TEST_CASE(
-    "a copied rectangle lands where it was moved, counts its bytes, and stays within its region or needs the frame") {
+TEST_CASE("a copied rectangle is moved and its bytes counted and it stays within its region or needs the whole frame") {
     const FragmentScene scene = layers(346);
     TestFrame test = frame_of(scene, 0, 0);
     RegionStatistics statistics;
@@ -263,7 +266,7 @@ TEST_CASE(
     CHECK_THROWS_AS(tile.targets().copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);
 }
 
-TEST_CASE("combiners have the primary colour, whether or not the pass asked for colours") {
+TEST_CASE("combiners have the primary colour even if the pass did not request colours") {
     const FragmentScene scene = layers(342);
     TestFrame test = frame_of(scene, 0, 0);
     RegionStatistics statistics;

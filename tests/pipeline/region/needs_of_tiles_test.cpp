@@ -1,5 +1,5 @@
-// What the passes of one tile have computed, read from their log; which primitives they draw; and what a region's
-// pixels are read back as.
+// Tests which values the passes of one tile compute, read from their log; which primitives they draw; and how a
+// region's pixels are read back.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <vector>
@@ -14,7 +14,7 @@ using namespace strata::pipeline;
 
 constexpr int tile_side = 8;
 
-// Two tiles beside each other with a fragment each; the right one's has a texture if `is_textured`.
+// Two adjacent tiles with a fragment each; that of the right one has a texture if `is_textured`.
 DrawList two_tiles(bool is_textured) {
     FragmentScene left{2 * tile_side, tile_side};
     left.pixels[3].fragments = {{0.5f, {1, 1, 1, 0.5f}}};
@@ -52,7 +52,7 @@ std::vector<PassRecord> logged_passes(const DrawList& list, const Body& body) {
 
 }  // namespace
 
-TEST_CASE("a tile takes coordinates for its own triangles' textures, not for those of another tile") {
+TEST_CASE("a tile computes coordinates for the textures of its own triangles only") {
     for (const bool is_textured : {false, true}) {
         const auto passes = logged_passes(two_tiles(is_textured), [](Region& region) {
             const PassState state = colors_before_surface(region);
@@ -67,8 +67,7 @@ TEST_CASE("a tile takes coordinates for its own triangles' textures, not for tho
     }
 }
 
-TEST_CASE(
-    "before a cleared surface no pass computes a depth for its test, however often it is made, until one writes it") {
+TEST_CASE("before a cleared surface no pass computes a depth for its test until one writes the depth") {
     const auto passes = logged_passes(two_tiles(false), [](Region& region) {
         PassState state = colors_before_surface(region);
         draw_colors(region, state);
@@ -86,8 +85,8 @@ TEST_CASE(
     }
 }
 
-// The first pass's test can fail nowhere and is left out; a quad at the depth of the cleared surface is not before it.
-TEST_CASE("a test that one pass need not make is made by the quad behind it") {
+// The first pass's test cannot fail and is skipped; a quad at the depth of the cleared surface must fail it.
+TEST_CASE("a test that one pass may skip is made by the following quad") {
     const TestFrame test{two_tiles(false), {}, 2 * tile_side, tile_side, "geforce8", tile_side};
     const Body body = [](Region& region) {
         PassState state = colors_before_surface(region);
@@ -108,7 +107,7 @@ TEST_CASE("a test that one pass need not make is made by the quad behind it") {
 }
 
 // Of two fragments on pixel 3 the nearer one is of the other primitive. Depths are exact, and so are their codes.
-TEST_CASE("a pass of depth alone draws the primitives that it names, by rows as by batches") {
+TEST_CASE("a depth-only pass draws the named primitives by rows and by batches") {
     FragmentScene scene{tile_side, tile_side};
     scene.pixels[3].fragments = {{0.5f, {1, 1, 1, 0.5f}}, {0.25f, {1, 1, 1, 0.5f}}};
     const std::vector<PrimitiveRange> named{{0, 1}};
@@ -132,8 +131,8 @@ TEST_CASE("a pass of depth alone draws the primitives that it names, by rows as 
         }
 }
 
-// Pixel p of a row of two and a half batches gets red p; sample 0 alone is drawn to, the others keep green 1.
-TEST_CASE("an image of rows that are longer than a batch has every pixel, sample and channel in its place") {
+// Pixel p of a row of two and a half batches gets red p; only sample 0 is drawn to, the others keep green 1.
+TEST_CASE("an image of rows that are longer than a batch has every pixel and sample and channel at its position") {
     constexpr int row_px = 1024;
     FragmentScene scene{row_px, 1};
     for (std::size_t p = 0; p < row_px; ++p)

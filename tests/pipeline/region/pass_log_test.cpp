@@ -1,4 +1,4 @@
-// Model: a body that marks every pass with the number of its tile, so that the log of a frame is known beforehand.
+// Tests the pass log with a body that marks every pass with the number of its tile, so the expected log is known.
 #include <catch2/catch.hpp>
 
 #include "pipeline/region/region.h"
@@ -22,7 +22,7 @@ float tile_of(const strata::rasterizer::Rect& rect) {
     return static_cast<float>(rect.y0 / tile * (side / tile) + rect.x0 / tile);
 }
 
-// The tile stands in the alpha test's reference value, the pass in the record's iteration.
+// The tile is stored in the alpha test's reference value, the pass in the record's iteration.
 void marked_passes(Region& region) {
     PassState state;
     state.color[0] = region.make_color();
@@ -42,7 +42,7 @@ FrameResult logged(const TestFrame& test, Execution execution, int threads) {
 
 }  // namespace
 
-TEST_CASE("a pass log holds every region's passes in the order of the regions, whatever threads ran them", "[slow]") {
+TEST_CASE("a pass log has every region's passes in the order of the regions for any number of threads", "[slow]") {
     const TestFrame test{one_fragment_a_pixel(), "ideal", tile};
     for (const int threads : {1, 2, 8}) {
         const PassLog log = logged(test, Execution::replay, threads).pass_log;
@@ -65,7 +65,7 @@ TEST_CASE("literal execution logs the frame's passes once") {
     CHECK(log.queries == draws / 4);
 }
 
-TEST_CASE("a run without logging keeps no log") {
+TEST_CASE("a run without logging has no log") {
     const TestFrame test{one_fragment_a_pixel(), "ideal", tile};
     const FrameResult result = run(test.frame, marked_passes, Execution::replay, 2);
     CHECK(result.pass_log.passes.empty());

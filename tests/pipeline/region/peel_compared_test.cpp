@@ -1,27 +1,27 @@
-// Peels by a depth that is not rounded like the stored one, whose fragments may lie behind themselves: passes that go
-// on from the one before, and passes with another bound, surface, target or program. Model: literal execution, which
-// visits every fragment.
+// Tests peels by a compared depth that is rounded differently from the stored one, so that fragments may be behind
+// themselves: passes that continue from the previous one, and passes with another bound, surface, target or program.
+// The reference is literal execution, which visits every fragment.
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/region/both_ways.h"
 #include "tests/pipeline/region/put_pixel.h"
 #include "tests/pipeline/region/random_walk.h"
 
-// A namespace of its own: names of the bodies are short.
+// The short names of the bodies have a namespace of their own.
 namespace strata::testing::peel_compared {
 namespace {
 
 using namespace pipeline;
 
-// Up to six layers a pixel in any order, one code apart or equal, half of them behind their own code; opaque surfaces
-// at a layer's depth; pixels without any.
+// Up to six layers per pixel in random order, one code apart or equal, half of them behind their own code; some opaque
+// surfaces at a layer's depth; some empty pixels.
 FragmentScene any_layers(Random& random) {
     FragmentScene made{16, 16};
     for (auto& pixel : made.pixels) {
         for (int n = random_int(random, 0, 6); n-- > 0;) {
             const float depth = static_cast<float>(random_int(random, 0, 15)) / 16.0f;
-            const float part =
-                static_cast<float>(random_int(random, -3, 3)) * 0x1p-25f;  // of a code of D24, which is 2^-24
+            // In steps of half a code of D24: a code is 2^-24.
+            const float part = static_cast<float>(random_int(random, -3, 3)) * 0x1p-25f;
             pixel.fragments.push_back({std::max(depth + part, 0.0f), random_color(random)});
         }
         if (random_int(random, 0, 3) == 0)
@@ -31,21 +31,21 @@ FragmentScene any_layers(Random& random) {
     return made;
 }
 
-// What may be different in one pass of a peel.
+// How one pass of a peel differs from the regular one.
 enum class Step {
-    next,           // as a peel goes on
-    again,          // with the bound of the pass before
-    first,          // without a bound
-    other_bound,    // at one pixel
-    other_surface,  // at one pixel
-    other_clear,    // of the colour
-    other_format,   // of the colour
-    by_alpha,       // a fragment outside ends by the alpha test, or not
-    other_compare,  // an epsilon
-    two_targets,    // the second as the first
+    next,           // regular
+    again,          // the bound of the previous pass
+    first,          // no bound
+    other_bound,    // another bound at one pixel
+    other_surface,  // another surface at one pixel
+    other_clear,    // another clear colour
+    other_format,   // another colour format
+    by_alpha,       // fragments outside end by the alpha test, or not
+    other_compare,  // another epsilon
+    two_targets,    // a second target like the first
     masked,         // without alpha
     between,        // after a pass that keeps something else
-    part,           // of the list
+    part,           // only part of the list
     other_colors
 };
 
@@ -105,7 +105,7 @@ class Peel {
         }));
     }
 
-    // What the frame's own codes find at one depth.
+    // A pass by the frame's own codes at one depth.
     void keep_others() {
         PassState state;
         state.color[0] = sum_;
@@ -119,7 +119,7 @@ class Peel {
         }));
     }
 
-    // No pass's colours are lost.
+    // Adds the pass's colours to the sum, so that none is lost.
     void add() {
         PassState state;
         state.color[0] = sum_;
@@ -140,7 +140,7 @@ class Peel {
     bool by_alpha_ = walk_.seed % 3 != 0;
 };
 
-// Runs `walk` tile by tile.
+// Runs `walk` by tiles.
 struct Compared {
     explicit Compared(const FragmentScene& scene, const char* profile = "ideal", bool quantizes = false)
         : test{scene, profile} {
@@ -159,7 +159,7 @@ struct Compared {
 
 }  // namespace
 
-TEST_CASE("a peel whose fragments lie behind themselves leaves what visiting everything does") {
+TEST_CASE("a peel whose fragments are behind themselves gives the same result as visiting every fragment") {
     Random random{2211};
     for (int round = 0; round < 300; ++round) {
         const Compared peel{any_layers(random), round % 4 == 0 ? "softpipe" : "ideal", round % 5 == 0};
@@ -172,7 +172,7 @@ TEST_CASE("a peel whose fragments lie behind themselves leaves what visiting eve
     }
 }
 
-TEST_CASE("what a region's only pass left is no other region's, though their bounds are the same") {
+TEST_CASE("the result of a region's only pass is not reused for another region with the same bounds") {
     Random random{2213};
     FragmentScene scene = any_layers(random);
     for (auto& pixel : scene.pixels) pixel.opaque.reset();

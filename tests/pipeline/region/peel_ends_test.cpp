@@ -1,5 +1,5 @@
-// Peels from both ends whose passes go on from range to range, and peels that do not: another range, another surface,
-// another clear, a pass twice. Model: literal execution, which visits every fragment.
+// Tests peels from both ends whose passes continue from range to range, and peels that do not: another range, another
+// surface, another clear, a repeated pass. The reference is literal execution, which visits every fragment.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -7,14 +7,14 @@
 #include "tests/pipeline/region/put_pixel.h"
 #include "tests/pipeline/region/random_walk.h"
 
-// A namespace of its own: names of the bodies are short.
+// The short names of the bodies have a namespace of their own.
 namespace strata::testing::peel_ends {
 namespace {
 
 using namespace pipeline;
 
-// Up to eleven depths a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without
-// any. `rare` depths are 0 or denormal.
+// Up to eleven depths per pixel in random order, with ties and some opaque surfaces at a layer's depth; some empty
+// pixels. `rare` depths are 0 or denormal.
 FragmentScene any_depths(Random& random, bool has_rare) {
     FragmentScene made{16, 16};
     for (auto& pixel : made.pixels) {
@@ -29,16 +29,16 @@ FragmentScene any_depths(Random& random, bool has_rare) {
     return made;
 }
 
-// What may be different in one pass of a peel.
+// How one pass of a peel differs from the regular one.
 enum class Step {
-    next,           // as a peel goes on
-    again,          // with the range of the pass before
-    first,          // of everything
-    other_range,    // at one pixel
-    other_surface,  // at one pixel
-    other_clear,    // of what the pass leaves
-    other_outside,  // what a fragment outside does
-    other_depths    // leaves something else of what lies between
+    next,           // regular
+    again,          // the range of the previous pass
+    first,          // the complete range
+    other_range,    // another range at one pixel
+    other_surface,  // another surface at one pixel
+    other_clear,    // another clear value of the target
+    other_outside,  // another behaviour of fragments outside
+    other_depths    // another value of the fragments in between
 };
 
 class Peel {
@@ -58,11 +58,12 @@ class Peel {
         const int x = random_int(random_, 0, 15), y = random_int(random_, 0, 15);
         const float near = static_cast<float>(random_int(random_, -1, 12)) / 16.0f;
         const float far = static_cast<float>(random_int(random_, 2, 17)) / 16.0f;
-        if (step == Step::first) region_.clear(range_, {.color = {1, 1, 0, 0}});  // from -1 to 1
+        if (step == Step::first) region_.clear(range_, {.color = {1, 1, 0, 0}});  // range from -1 to 1
         if (step == Step::other_range) {
             PassState state;
             state.color[0] = range_;
-            state.blend[0].write_mask = static_cast<std::uint8_t>(random_int(random_, 1, 3));  // near, far or both
+            // near end, far end or both
+            state.blend[0].write_mask = static_cast<std::uint8_t>(random_int(random_, 1, 3));
             put_pixel(region_, state, x, y, [=](Outputs& out, std::size_t i) {
                 out.color[0][0][i] = -near;
                 out.color[0][1][i] = far;
@@ -76,7 +77,8 @@ class Peel {
         if (step != Step::again) std::swap(range_, next_);
     }
 
-    // The near end leaves its colour, and everything else that is not discarded a value that rises from pass to pass.
+    // The near end writes its colour; every other fragment that is not discarded writes a value that increases from
+    // pass to pass.
     void draw(float scale) {
         PassState state;
         state.color = {next_, ends_};
@@ -125,7 +127,7 @@ std::string difference_of_walk(const Walk<Step>& walk, const FragmentScene& scen
 
 }  // namespace
 
-TEST_CASE("a peel from both ends leaves what visiting everything does, whatever its ranges") {
+TEST_CASE("a peel from both ends gives the same result as visiting every fragment for any ranges") {
     Random random{2091};
     for (int round = 0; round < 250; ++round) {
         const FragmentScene scene = any_depths(random, round % 4 == 0);

@@ -1,5 +1,5 @@
-// Peels whose passes go on from layer to layer, and peels that do not: another bound, another surface, another range, a
-// pass twice. Model: literal execution, which visits every fragment.
+// Tests peels whose passes continue from layer to layer, and peels that do not: another bound, another surface, another
+// range, a repeated pass. The reference is literal execution, which visits every fragment.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -7,14 +7,14 @@
 #include "tests/pipeline/region/put_pixel.h"
 #include "tests/support/random_numbers.h"
 
-// A namespace of its own: names of the bodies are short.
+// The short names of the bodies have a namespace of their own.
 namespace strata::testing::peel_layers {
 namespace {
 
 using namespace pipeline;
 
-// Up to nine layers a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without
-// any.
+// Up to nine layers per pixel in random order, with ties and some opaque surfaces at a layer's depth; some empty
+// pixels.
 FragmentScene any_layers(Random& random) {
     FragmentScene made{16, 16};
     for (auto& pixel : made.pixels) {
@@ -26,19 +26,19 @@ FragmentScene any_layers(Random& random) {
     return made;
 }
 
-// What may be different in one pass of a peel, or in the quad before it.
+// How one pass of a peel, or the quad before it, differs from the regular one.
 enum class Step {
-    next,           // as a peel goes on
-    again,          // with the bound of the pass before
-    first,          // without a bound
-    other_bound,    // at one pixel
-    other_surface,  // at one pixel
-    cleared,        // a surface that is one depth everywhere
-    counted,        // by a stencil, too
-    range,          // of other keys
-    part,           // of the list
+    next,           // regular
+    again,          // the bound of the previous pass
+    first,          // no bound
+    other_bound,    // another bound at one pixel
+    other_surface,  // another surface at one pixel
+    cleared,        // a surface of one depth everywhere
+    counted,        // with a stencil as well
+    range,          // another range of keys
+    part,           // only part of the list
     at,             // composites the layer that was found last
-    at_other        // the same of a depth that is another at one pixel
+    at_other        // the same at a depth that differs at one pixel
 };
 
 struct Walk {
@@ -48,7 +48,7 @@ struct Walk {
 
 Walk random_walk(Random& random) {
     Walk walk{{Step::first}, random()};
-    const int disturbed = random_int(random, 0, 3);  // how often
+    const int disturbed = random_int(random, 0, 3);  // frequency of irregular passes
     for (int n = random_int(random, 2, 14); n-- > 0;) {
         const bool is_plain = random_int(random, 0, 3) >= disturbed;
         const int any = random_int(random, 0, static_cast<int>(Step::at_other));
@@ -160,21 +160,21 @@ std::string difference_of_walk(const Walk& walk, const FragmentScene& scene, Dep
 
 }  // namespace
 
-TEST_CASE("passes of a peel leave what visiting everything does, whatever their bounds") {
+TEST_CASE("passes of a peel give the same result as visiting every fragment for any bounds") {
     Random random{2081};
     for (int round = 0; round < 250; ++round) {
         const FragmentScene scene = any_layers(random);
         const Walk walk = random_walk(random);
         const auto format = std::array{DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16}[round % 3];
-        // Tiles of 8 x 8 pixels with some three hundred fragments: the least of these memories holds them, and not what
-        // is sorted.
+        // Tiles of 8 x 8 pixels with about three hundred fragments: the smallest of these memories has room for the
+        // fragments, but not for the sorted lists.
         const std::uint64_t bytes = std::array{1u << 20, 1u << 20, 12'000u}[static_cast<std::size_t>(round / 3 % 3)];
         INFO("round " << round << ", format " << static_cast<int>(format) << ", bytes " << bytes);
         REQUIRE(difference_of_walk(walk, scene, format, bytes) == "");
     }
 }
 
-TEST_CASE("a peel that goes on as it began visits a fragment once") {
+TEST_CASE("a peel without irregular passes visits a fragment once") {
     Random random{2082};
     const FragmentScene scene = any_layers(random);
     std::uint64_t fragments = 0;

@@ -1,4 +1,4 @@
-// tests/pipeline/region/put_pixel.h - quads over the frame that are kept of one pixel: what a test changes of a target.
+// tests/pipeline/region/put_pixel.h - changes one pixel of a target by a quad over the frame.
 #pragma once
 #include <bit>
 
@@ -7,8 +7,8 @@
 
 namespace strata::testing {
 
-// `put(out, i)` says what fragment i of a quad over the whole frame leaves; the frame keeps that of one pixel, in
-// whichever region it lies.
+// Draws a quad over the whole frame and keeps the fragment of pixel (x, y) in its region. `put(out, i)` writes the
+// outputs of fragment i.
 template <class Put>
 void put_pixel(pipeline::Region& region, const pipeline::PassState& state, int x, int y, const Put& put) {
     using namespace pipeline;
@@ -20,7 +20,7 @@ void put_pixel(pipeline::Region& region, const pipeline::PassState& state, int x
     }));
 }
 
-// Of D32F any depth has a code, of the others the nearest one.
+// The code of `depth`: its bits in D32F, else the nearest code.
 inline std::uint32_t code_of(const pipeline::Region& region, float depth) {
     using namespace rasterizer;
     const DepthFormat format = region.frame().key_request().format;

@@ -1,4 +1,4 @@
-// Depths that programs and clears give to a region, within the format's range and beyond it.
+// Tests depths that programs and clears give to a region, inside and outside of the format's range.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,7 @@ struct DepthRegion {
 
 }  // namespace
 
-TEST_CASE("a full-screen program that replaces depths has them compared and written, lane by lane") {
+TEST_CASE("depths that a full-screen program replaces are compared and written lane by lane") {
     DepthRegion m{FragmentScene{8, 4}, "geforce8"};
     const Target depth = m.region.make(Format::d32f);
     m.region.clear(depth, {.depth = 0.5f});
@@ -37,7 +37,7 @@ TEST_CASE("a full-screen program that replaces depths has them compared and writ
         CHECK(m.region.storage(depth).depth(0)[p] == std::bit_cast<std::uint32_t>(p == 3 ? 0.75f : 0.5f));
 }
 
-TEST_CASE("a depth beyond the range is compared with all its bits and stored with the format's") {
+TEST_CASE("a depth beyond the range is compared with all its bits and stored with those of the format") {
     TestFrame test{FragmentScene{8, 4}, "softpipe"};
     test.frame.depth.format = DepthFormat::d24;
     RegionStatistics statistics;
@@ -57,7 +57,7 @@ TEST_CASE("a depth beyond the range is compared with all its bits and stored wit
     }
 }
 
-TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere else") {
+TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp otherwise") {
     const auto cleared = [](const char* profile, Format format, float value) {
         DepthRegion m{FragmentScene{1, 1}, profile};
         const Target depth = m.region.make(format);
@@ -69,7 +69,7 @@ TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere
     CHECK(cleared("geforce8", Format::d24, -1.0f) == 0u);
     CHECK(cleared("geforce8", Format::d24, 2.0f) == 0xffffffu);
     CHECK(cleared("geforce3", Format::d16, 0.5f) == 0x7fffu);      // floor of 32767.5
-    CHECK(cleared("geforce8", Format::d24s8, 0.5f) == 0x800000u);  // 8388607.5 goes up
+    CHECK(cleared("geforce8", Format::d24s8, 0.5f) == 0x800000u);  // 8388607.5 rounds up
     DeviceProfile clamping = *find_profile("geforce8");
     clamping.has_unclamped_depth_clear = false;
     TestFrame test{FragmentScene{1, 1}, "geforce8"};

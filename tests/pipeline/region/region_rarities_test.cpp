@@ -1,6 +1,6 @@
-// What regions are seldom asked for: broken passes by their sentences, images of several samples and channels,
-// observers and alterations that listen to one thing alone, blank tiles that report. Models: the sentences; codes by
-// place; counts by hand.
+// Tests rare uses of regions: the messages of invalid passes, images of several samples and channels, observers and
+// alterations with a single function, empty tiles with diagnostics. Expected messages are written by hand; expected
+// codes encode their position; counts are made by hand.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/check.h"
@@ -35,7 +35,7 @@ std::string broken(Region& region, const PassState& state) {
 
 }  // namespace
 
-TEST_CASE("a pass whose targets are of the wrong kind is broken by a sentence that says which") {
+TEST_CASE("a pass with targets of the wrong kind throws an error that names the fault") {
     Fixture f;
     const Target color = f.region.make(Format::rgba8), depth = f.region.make_depth(), s8 = f.region.make(Format::s8);
     PassState state;
@@ -59,8 +59,7 @@ TEST_CASE("a pass whose targets are of the wrong kind is broken by a sentence th
     CHECK(broken(f.region, state) == "drawn");
 }
 
-TEST_CASE(
-    "a region's image holds pixels, their samples, their channels, whatever the format and the number of samples") {
+TEST_CASE("a region's image is ordered by pixel then sample then channel for any format and number of samples") {
     for (const Format format :
          {Format::rgba8, Format::rgba16f, Format::r16f, Format::rg32f, Format::rgba32f, Format::r32f})
         for (const int samples : {1, 4}) {
@@ -91,7 +90,8 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("an observer hears what it listens to, and an alteration without a function leaves that step alone") {
+TEST_CASE(
+    "an observer gets the events that it requests and an alteration without a function leaves that step unchanged") {
     TestFrame test{few_fragments(), "geforce8"};
     const Body body = [](Region& region) {
         const Target depth = region.make_depth(), copy = region.make_color();
@@ -126,7 +126,7 @@ TEST_CASE("an observer hears what it listens to, and an alteration without a fun
         CHECK(color({.observer = observer}) == plain);
     CHECK(steps > 3);
     CHECK(names == 1);
-    CHECK(traces == 2);  // the second fragment is the nearer one: both pass
+    CHECK(traces == 2);  // the second fragment is nearer, so both pass
     CHECK(stages > 3);
     const Alteration of_names{.named = [&](Target, std::string_view) { ++names; }};
     const Alteration of_queries{.query = [](std::uint64_t, bool goes_on) { return goes_on; }};
@@ -135,7 +135,7 @@ TEST_CASE("an observer hears what it listens to, and an alteration without a fun
     CHECK(names == 2);
 }
 
-TEST_CASE("blank tiles that report are run one by one, a second list fills a tile, and progress rises to the whole") {
+TEST_CASE("empty tiles with diagnostics run one by one and a second list fills a tile and progress rises to 1") {
     FragmentScene corner{32, 8};
     corner.pixels[0].fragments = {{0.5f, {1, 1, 1, 1}}};
     FragmentScene right{32, 8};
@@ -159,7 +159,7 @@ TEST_CASE("blank tiles that report are run one by one, a second list fills a til
         CHECK((result.diagnostics.empty() ? 0 : result.diagnostics[0].pixels) == (reports ? 32u * 8 : 0u));
         return bodies;
     };
-    CHECK(count_bodies(false) == 2);  // the corner, and one blank tile for all
+    CHECK(count_bodies(false) == 2);  // the corner tile, and one run for all empty tiles
     CHECK(count_bodies(true) == 4);
     test.frame.second = other.frame.transparent;
     CHECK(count_bodies(false) == 3);

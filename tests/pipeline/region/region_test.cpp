@@ -1,5 +1,5 @@
-// Passes through one region: stencil, samples, alpha test, several targets, clears and copies, and passes that no
-// machine runs.
+// Tests passes through one region: stencil, samples, alpha test, several targets, clears and copies, and invalid
+// passes.
 #include "pipeline/region/region.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 using namespace strata::testing;
 using namespace strata::pipeline;
 
-// A frame and the region that covers it.
+// A frame and a region that covers it.
 struct Machine {
     TestFrame test;
     strata::pipeline::RegionStatistics statistics;
@@ -51,7 +51,7 @@ std::uint32_t stencil_of(const Region& region, Target target, std::size_t pixel,
 
 }  // namespace
 
-TEST_CASE("INCR counts depth complexity up to 255, and pixels that saturate are counted once") {
+TEST_CASE("INCR counts depth complexity up to 255 and saturated pixels are counted once") {
     Machine m{stacks({0, 1, 7, 255, 256, 300, 0, 3}), "geforce8"};
     const Target stencil = m.region.make(Format::s8);
     PassState state;
@@ -62,12 +62,12 @@ TEST_CASE("INCR counts depth complexity up to 255, and pixels that saturate are 
     for (std::size_t p = 0; p < expected.size(); ++p) CHECK(stencil_of(m.region, stencil, p) == expected[p]);
     REQUIRE(m.statistics.diagnostics.size() == 1);
     CHECK(m.statistics.diagnostics[0].fault == Fault::stencil_saturated);
-    CHECK(m.statistics.diagnostics[0].pixels == 2);  // those of 256 and of 300 fragments
+    CHECK(m.statistics.diagnostics[0].pixels == 2);  // the pixels with 256 and with 300 fragments
     CHECK(m.statistics.diagnostics[0].first_x == 4);
     CHECK(m.statistics.diagnostics[0].first_y == 0);
 }
 
-TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k samples and tells an overflow") {
+TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k samples and reports an overflow") {
     constexpr int k = 8;
     const std::vector<int> counts{0, 1, 2, 7, 8, 9, 20};
     Machine m{stacks(counts), "geforce8"};
@@ -93,7 +93,7 @@ TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k sa
     CHECK(stencil_of(m.region, stencil, 5, k - 1) == 0);
 }
 
-TEST_CASE("a sample mask restricts writes, clears and the query to its samples") {
+TEST_CASE("a sample mask restricts writes and clears and the query to its samples") {
     Machine m{stacks({0, 0, 3}), "geforce8"};
     const Target color = m.region.make(Format::rgba32f, 4);
     m.region.clear(color, {.color = {5, 5, 5, 5}});
@@ -110,7 +110,7 @@ TEST_CASE("a sample mask restricts writes, clears and the query to its samples")
     CHECK_FALSE(m.region.any(m.region.draw(state, pass_color).passed, Idle::no));
 }
 
-TEST_CASE("depth and stencil are tested for each sample on its own") {
+TEST_CASE("depth and stencil are tested separately for each sample") {
     Machine m{stacks({1}), "geforce8"};
     const Target depth = m.region.make(Format::d32f, 2), color = m.region.make(Format::rgba32f, 2);
     m.region.clear(depth, {.depth = 0.25f}, 0b01);
@@ -127,7 +127,7 @@ TEST_CASE("depth and stencil are tested for each sample on its own") {
     CHECK(m.region.storage(depth).depth(1)[0] == std::bit_cast<std::uint32_t>(0.5f));
 }
 
-TEST_CASE("a depth unit tests each sample on its own, and has as many samples as the pass") {
+TEST_CASE("a depth unit tests each sample separately and has as many samples as the pass") {
     Machine m{stacks({1}), "ideal"};
     const Target unit = m.region.make(Format::d32f, 2), color = m.region.make(Format::rgba32f, 2);
     m.region.clear(unit, {.depth = 0.25f}, 0b01);
@@ -151,7 +151,7 @@ TEST_CASE("a depth unit tests each sample on its own, and has as many samples as
     CHECK_THROWS_AS(m.region.draw(state, pass_color), std::logic_error);
 }
 
-TEST_CASE("a target that is read and written at once is a broken program, and runs with ordered_rmw alone") {
+TEST_CASE("a target that is read and written in one pass is an error and works only with ordered_rmw") {
     Machine device{stacks({4}), "geforce8"}, ideal{stacks({0, 4, 2}), "ideal"};
     const auto add_red = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = own.color(0);
@@ -184,7 +184,7 @@ TEST_CASE("a depth target that is tested and loaded is a feedback loop only whil
     CHECK_NOTHROW(m.region.draw(state, write_nothing));
 }
 
-TEST_CASE("passes that no machine could run are broken programs, not refusals") {
+TEST_CASE("invalid passes throw logic_error and not Refused") {
     Machine m{stacks({2}), "geforce8"};
     const Target color = m.region.make(Format::rgba8), depth = m.region.make(Format::d24),
                  stencil = m.region.make(Format::s8);
@@ -204,7 +204,7 @@ TEST_CASE("passes that no machine could run are broken programs, not refusals") 
     CHECK_THROWS_AS(m.region.make(Format::rgba8, 16), Refused);
 }
 
-TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil") {
+TEST_CASE("the alpha test rejects by the program's alpha before depth and stencil") {
     Machine m{stacks({9}), "geforce8"};  // alphas 0, 1/4, 1/2, 3/4, 0, ...
     PassState state;
     state.alpha = {.enabled = true, .func = CompareFunc::greater, .ref = 0.25f};
@@ -220,7 +220,7 @@ TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil
     CHECK(counted.blended == 4);
 }
 
-TEST_CASE("without a colour target the alpha test compares 8-bit codes, as on an 8-bit target") {
+TEST_CASE("without a colour target the alpha test compares 8-bit codes as on an 8-bit target") {
     // 0.25 and 0.2515 have the code 64.
     for (const float ref : {0.2485f, 0.25f, 0.2515f})
         for (const CompareFunc func : {CompareFunc::equal, CompareFunc::gequal, CompareFunc::greater}) {
@@ -230,7 +230,7 @@ TEST_CASE("without a colour target the alpha test compares 8-bit codes, as on an
             state.stencil = every_fragment(StencilOp::incr);
             state.stencil_target = m.region.make(Format::s8);
             static_cast<void>(m.region.draw(state, pass_color));
-            const std::uint32_t code = ref < 0.249f ? 63 : 64;  // of ref, times 255 to the nearest
+            const std::uint32_t code = ref < 0.249f ? 63 : 64;  // 255 ref, rounded to nearest
             std::uint32_t living = 0;
             for (const std::uint32_t alpha : {0u, 64u, 128u, 191u, 0u, 64u, 128u, 191u, 0u})
                 living += func == CompareFunc::equal    ? alpha == code
@@ -242,7 +242,7 @@ TEST_CASE("without a colour target the alpha test compares 8-bit codes, as on an
         }
 }
 
-TEST_CASE("several targets take their own outputs, formats, blends and write masks from one pass") {
+TEST_CASE("several targets of one pass have separate outputs and formats and blend states") {
     Machine m{stacks({0, 3}), "geforce8_dx101"};
     PassState state;
     state.color = {m.region.make(Format::rgba8), m.region.make(Format::rg32f), m.region.make(Format::r16f)};
@@ -267,7 +267,7 @@ TEST_CASE("several targets take their own outputs, formats, blends and write mas
     CHECK(code(2, 0) == 0x3e00u);  // 1.5 as a half
 }
 
-TEST_CASE("a pass draws the named primitives alone, in order, and an empty range draws nothing") {
+TEST_CASE("a pass draws only the named primitives in order and an empty range draws nothing") {
     Machine m{stacks({4}), "geforce8"};  // primitives 0 to 3, reds 0 to 3
     const auto drawn_reds = [&](std::vector<PrimitiveRange> ranges) {
         std::vector<float> reds;
@@ -284,7 +284,7 @@ TEST_CASE("a pass draws the named primitives alone, in order, and an empty range
     CHECK(drawn_reds({{2, 2}}).empty());
 }
 
-TEST_CASE("a stencil count that stops where arrivals are routed is no fault") {
+TEST_CASE("a stencil count that saturates in a routing pass is not a fault") {
     Machine m{stacks({300}), "geforce8"};
     PassState state;
     state.stencil = every_fragment(StencilOp::incr);
@@ -307,7 +307,7 @@ TEST_CASE("a limit is reached when fewer passes are left than an iteration needs
     CHECK(region.limit_reached(3));
 }
 
-TEST_CASE("a channel that a read target has not is 0, and alpha 1") {
+TEST_CASE("a channel that a read target lacks is 0 and alpha is 1") {
     Machine m{stacks({1, 1, 0, 1}), "geforce8"};
     const Target one = m.region.make(Format::r32f), out = m.region.make(Format::rgba32f);
     m.region.clear(one, {.color = {0.375f, 0, 0, 0}});
@@ -320,7 +320,7 @@ TEST_CASE("a channel that a read target has not is 0, and alpha 1") {
     for (const std::uint32_t p : {0u, 1u, 3u}) CHECK(m.region.targets().color(out, p) == Rgba{0.375f, 0, 0, 1});
 }
 
-TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
+TEST_CASE("a copy keeps every bit including NaN payloads and is counted") {
     Machine m{FragmentScene{2, 1}, "geforce8"};
     const Target from = m.region.make(Format::rgba32f), to = m.region.make(Format::rgba32f);
     strata::pipeline::RegionShortcuts{m.region}.store_pixel(
@@ -332,7 +332,7 @@ TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     CHECK(m.statistics.loops[0].passes.copies == 1);
 }
 
-TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient, or a binary32 product with 1/255") {
+TEST_CASE("a program reads an 8-bit code as the profile converts it by a quotient or a binary32 product with 1/255") {
     for (const char* profile : {"geforce8", "llvmpipe"}) {
         Machine m{FragmentScene{16, 16}, profile};
         const Target codes = m.region.make(Format::rgba8), values = m.region.make(Format::rgba32f);
@@ -346,7 +346,8 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient,
         static_cast<void>(m.region.full_screen(
             state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
         const auto found = m.region.targets().image(values).codes;
-        // A binary32 times a code has 32 bits at most: binary64 holds the product, and the cast rounds it once.
+        // A binary32 times a code has at most 32 bits: binary64 represents the product exactly, and the cast rounds it
+        // once.
         int wrong = 0, unlike_quotient = 0;
         for (std::uint32_t k = 0; k < 256; ++k) {
             const float quotient = static_cast<float>(k) / 255.0f;
@@ -362,7 +363,7 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient,
     }
 }
 
-TEST_CASE("an observer sees each batch behind its shading, its program, its tests and its writes, in this order") {
+TEST_CASE("an observer gets each batch after shading then program then tests then writes") {
     std::vector<Stage> stages;
     const Observer observer{.stage = [&](const Region&, const StageEvent& event) { stages.push_back(event.stage); }};
     const TestFrame test{stacks({1, 2}), "geforce8", 8};
@@ -385,7 +386,7 @@ TEST_CASE("an observer sees each batch behind its shading, its program, its test
     CHECK(stages.front() == Stage::program);
 }
 
-TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
+TEST_CASE("opaque geometry is drawn before the algorithm and not counted") {
     FragmentScene scene{2, 1};
     scene.pixels[1].opaque = GivenFragment{0.25f, {1, 0, 1, 0}};
     Machine m{scene, "geforce8"};

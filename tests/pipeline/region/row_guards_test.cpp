@@ -1,5 +1,5 @@
-// Passes that rows can draw, depth alone and sums of halves, and the same passes with one piece of their state changed.
-// Model: literal execution, which never walks a row.
+// Tests passes that rows can draw, which are depth-only passes and sums of halves, and the same passes with one setting
+// changed. The reference is literal execution, which never walks a row.
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/region/both_ways.h"
@@ -39,7 +39,7 @@ void draw_rows(Region& region, RowPass kind, const Changed& change) {
         state.depth_target = region.make_depth();
         region.copy(region.opaque_depth(), state.depth_target);
         change(state, region);
-        state.color = {};  // none, by the function's contract
+        state.color = {};  // no colour, as the function requires
         static_cast<void>(region.draw_depth(state));
     } else {
         state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
@@ -70,7 +70,7 @@ constexpr std::array row_profiles{"geforce3", "geforce8", "geforce8_dx101", "ide
 
 }  // namespace
 
-TEST_CASE("rows leave and count what batches do, whatever state of their pass is changed", "[slow]") {
+TEST_CASE("rows give the results and counts of batches for any changed state of their pass", "[slow]") {
     for (const char* profile : row_profiles)
         for (const RowPass kind : row_passes)
             for (const Change& change : changes()) {
@@ -79,7 +79,7 @@ TEST_CASE("rows leave and count what batches do, whatever state of their pass is
             }
 }
 
-TEST_CASE("rows leave and count what batches do, with memory, effects and instruments", "[slow]") {
+TEST_CASE("rows give the results and counts of batches under every memory limit and instrument", "[slow]") {
     const std::vector<std::function<void(Frame&)>> frames{
         [](Frame& f) { f.replay.bytes = 1 << 20; }, [](Frame& f) { f.effects = Effects::all; },
         [](Frame& f) { f.key = DepthKey::shader_z; },

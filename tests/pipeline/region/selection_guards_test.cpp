@@ -1,5 +1,5 @@
-// A pass that selects fragments, and the same pass with one piece of its state changed: the selection's promise then
-// holds no longer, or of other stages. Model: literal execution, which visits every fragment.
+// Tests a pass that selects fragments, and the same pass with one setting changed, for which the selection no longer
+// applies or applies to other stages. The reference is literal execution, which visits every fragment.
 #include <catch2/catch.hpp>
 
 #include "pipeline/frame/selection.h"
@@ -18,7 +18,7 @@ constexpr StencilFace routes{.func = CompareFunc::equal,
                              .depth_fail = StencilOp::decr,
                              .pass = StencilOp::decr};
 
-// Up to seven layers a pixel in any order, ties among them, and an opaque surface at every fifth.
+// Up to seven layers per pixel in random order, with ties, and an opaque surface at every fifth pixel.
 const FragmentScene& layered_scene() {
     static const FragmentScene scene = [] {
         FragmentScene made{16, 16};
@@ -37,7 +37,7 @@ const FragmentScene& layered_scene() {
     return scene;
 }
 
-// Every third triangle turned round, so that both faces of a stencil test see some.
+// Every third triangle is reversed, so that both faces of a stencil test get fragments.
 DrawList layered_list() {
     DrawList list = draw_list(layered_scene());
     std::vector<std::uint32_t>& indices = list.meshes[0].indices;
@@ -45,7 +45,7 @@ DrawList layered_list() {
     return list;
 }
 
-// A pass of one kind: the targets that it finds, and its state.
+// A kind of pass: its input targets and its state.
 struct Stage {
     Keeps keeps;
     int samples = 1;
@@ -53,7 +53,7 @@ struct Stage {
     DepthTest depth{};
     Blend blend{};
     Format color = Format::rgba32f;
-    std::uint32_t least = 0;  // of the window
+    std::uint32_t least = 0;  // least key of the window
     Outside outside = Outside::dies;
     bool writes_registers = false;
 };
@@ -73,8 +73,8 @@ const std::vector<Stage> stages{
      .writes_registers = true},
 };
 
-// The window of every stage: keys from `least` on, before the opaque surface. MAX of (-z, z) and registers let what
-// lies outside of it write what changes nothing.
+// The program of every stage; it keeps keys from `least` on, before the opaque surface. With MAX of (-z, z) and with
+// registers, fragments outside write values that change nothing.
 struct StageProgram {
     const Stage& stage;
     DepthKey key;
@@ -95,7 +95,7 @@ struct StageProgram {
     }
 };
 
-// A draw of the stage with `change` made to its state.
+// Draws the stage with `change` applied to its state.
 void draw_stage(Region& region, const Stage& stage, const Changed& change) {
     const auto depth_target = [&] {
         const Target made = region.make(target_format(region.frame().key_request().format), stage.samples);
@@ -152,7 +152,8 @@ Ways both_ways(const Stage& stage, const Changed& change, const std::function<vo
 
 }  // namespace
 
-TEST_CASE("a pass that selects leaves what one does that visits every fragment, whatever state is changed", "[slow]") {
+TEST_CASE("a pass that selects gives the same result as one that visits every fragment for any changed state",
+          "[slow]") {
     for (std::size_t number = 0; number < stages.size(); ++number)
         for (const Change& change : changes()) {
             const Ways ways = both_ways(stages[number], change.make);
@@ -161,7 +162,7 @@ TEST_CASE("a pass that selects leaves what one does that visits every fragment, 
         }
 }
 
-TEST_CASE("a selection is taken where nothing is changed, and not where its tests are others") {
+TEST_CASE("a selection is used where nothing is changed and not where its tests differ") {
     for (std::size_t number = 0; number < stages.size(); ++number) {
         const Ways ways = both_ways(stages[number], changes().front().make);
         INFO("stage " << number);
@@ -171,7 +172,7 @@ TEST_CASE("a selection is taken where nothing is changed, and not where its test
     }
 }
 
-TEST_CASE("what lies behind a surface of the pass's own is left out as visiting every fragment leaves it out") {
+TEST_CASE("fragments behind a surface of the pass's own are omitted with the same result as visiting every fragment") {
     const Changed own_surface = [](PassState& state, Region& region) {
         const Target surface = region.make_depth();
         region.clear(surface, {.depth = 0.5f});
@@ -185,7 +186,7 @@ TEST_CASE("what lies behind a surface of the pass's own is left out as visiting 
     }
 }
 
-TEST_CASE("frames without memory, with every effect or with another key select nothing wrong", "[slow]") {
+TEST_CASE("frames without memory or with every effect or with another key select no wrong fragment", "[slow]") {
     const std::vector<std::function<void(Frame&)>> frames{
         [](Frame& f) { f.replay.bytes = 0; },          [](Frame& f) { f.replay.bytes = 512; },
         [](Frame& f) { f.replay.bytes = 12'000; },     [](Frame& f) { f.effects = Effects::all; },
@@ -200,7 +201,7 @@ TEST_CASE("frames without memory, with every effect or with another key select n
         }
 }
 
-TEST_CASE("what measures and checks a pass changes nothing that it leaves", "[slow]") {
+TEST_CASE("instruments that measure and check a pass do not change its result", "[slow]") {
     std::vector<Instruments> all{{.log_passes = true}, {.check_selections = true}};
     for (const Effect effect :
          {Effect::color, Effect::texcoord, Effect::shader_z, Effect::code, Effect::facing, Effect::loads,

@@ -1,6 +1,6 @@
-// Selections by every kind of bound, alone and two at a time, on every depth format; and by the compared depth where
-// the stored one differs. Models: the interval as selection.h says it, fragment by fragment, in the pass's own program;
-// literal execution.
+// Tests selections by every kind of bound, alone and two at a time, on every depth format, and by the compared depth
+// where it differs from the stored one. The expected interval is the definition in selection.h, applied to each
+// fragment in the pass's own program; the reference is literal execution.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -41,8 +41,8 @@ const FragmentScene& window_scene() {
     return scene;
 }
 
-// A value of a pixel: of its place alone, whatever the tile. Bounds of values also are NaN, negative, above 1 and
-// between two codes.
+// A value that depends only on the pixel's position, not on the tile. Bounds of values may also be NaN, negative, above
+// 1 and between two codes.
 std::uint32_t hashed(std::uint16_t x, std::uint16_t y, std::uint32_t salt) {
     std::uint32_t h = (x * 73856093u) ^ (y * 19349663u) ^ (salt * 83492791u);
     h ^= h >> 13;
@@ -64,12 +64,12 @@ float bound_value(std::uint16_t x, std::uint16_t y, std::uint32_t salt) {
 
 std::uint32_t as_code(float depth, DepthFormat format) { return to_depth_code(depth, format, DepthRounding::nearest); }
 
-// The stored code as the number that a float target holds of it.
+// The stored code as the number that a float target stores for it.
 float as_value(std::uint32_t code, DepthFormat format) {
     return format == DepthFormat::d32f ? std::bit_cast<float>(code) : static_cast<float>(depth_value(code, format));
 }
 
-// A depth target with a code at every pixel, of its place and of `salt`.
+// A depth target with a code at every pixel that depends on its position and `salt`.
 Target depth_bounds(Region& region, std::uint32_t salt) {
     const Target made = region.make_depth();
     const DepthFormat format = region.frame().key_request().format;
@@ -100,7 +100,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
     PassState state;
     FragmentSelection& s = state.selection;
     s.keeps = keeps;
-    std::vector<std::pair<unsigned, Target>> made;  // in the order of reads
+    std::vector<std::pair<unsigned, Target>> made;  // in the order of state.reads
     const auto bound = [&](unsigned which, KeyBound& to, std::uint32_t salt) {
         if ((bounds & which) == 0) return;
         const bool is_value = (which & (behind_value | before_value)) != 0;
@@ -113,7 +113,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
         bound(which, s.near, salt);
     for (const auto& [which, salt] : {std::pair{before, 3u}, {also_before, 4u}, {up_to, 5u}, {before_value, 8u}})
         bound(which, s.far[s.far[0].exists() ? 1 : 0], salt);
-    // Codes of an interval are not raised: a selection of another kind would visit everything.
+    // Codes of an interval are not raised: a selection of another kind would visit every fragment.
     const std::uint32_t raised = (bounds & behind) != 0 && keeps == Keeps::nearest ? 3 : 0;
     state.needs.reference = raised > 0;
     if (raised > 0) s.compared = DepthCompare{.format = format, .epsilon = {.ulps = static_cast<int>(raised)}};
@@ -167,12 +167,12 @@ std::string window_difference(DepthFormat format, unsigned bounds, Keeps keeps) 
 
 }  // namespace
 
-TEST_CASE("an interval is the fragments between its bounds, whichever bounds it has, in every depth format", "[slow]") {
+TEST_CASE("an interval is the fragments between its bounds for every kind of bound in every depth format", "[slow]") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         for (unsigned a = 1; a <= keys; a *= 2)
             for (unsigned b = a; b <= keys; b *= 2)
                 for (const Keeps keeps : {Keeps::interval, Keeps::nearest}) {
-                    if (a != b && ((a | b) & near_bounds) == (a | b)) continue;  // there is one near bound
+                    if (a != b && ((a | b) & near_bounds) == (a | b)) continue;  // at most one near bound
                     INFO("format " << static_cast<int>(format) << ", bounds " << (a | b));
                     CHECK(window_difference(format, a | b, keeps) == "");
                 }
@@ -236,7 +236,7 @@ std::string reference_difference(const Changed& change, std::uint64_t bytes = st
 
 }  // namespace
 
-TEST_CASE("a selection by the compared depth keeps the nearest behind its bound, within the others") {
+TEST_CASE("a selection by the compared depth keeps the nearest fragment behind its bound and within the others") {
     for (const Change& change : changes()) {
         if (std::string_view{change.name}.starts_with("targets of two")) continue;
         INFO(change.name);

@@ -1,5 +1,5 @@
-// Surfaces: what is written, drawn and tested on each format. Model: integers worked out by hand, a pixel's place by
-// its row and column.
+// Tests the values that are written, drawn and tested on surfaces of each format. The expected codes are integers
+// worked out by hand, positions are given by row and column.
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/check.h"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace strata::pipeline;
 
-// A triangle that covers the whole of a surface of 20 x 5.
+// A triangle that covers a complete surface of 20 x 5.
 strata::rasterizer::TriangleSoup cover(const std::array<float, 4>& color) {
     strata::rasterizer::TriangleSoup soup;
     for (const auto& [x, y] : {std::pair{-8.0f, -8.0f}, std::pair{80.0f, -8.0f}, std::pair{-8.0f, 80.0f}})
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> stencils(const Surface& surface) {
     return {image.codes.begin(), image.codes.end()};
 }
 
-// The bits of an 8-bit code that a narrow surface keeps; what it does not store reads back as 255.
+// The bits of an 8-bit code that a narrow surface keeps; a channel that it does not store is read as 255.
 std::uint32_t kept(Format format, int channel, std::uint32_t code) {
     if (format == Format::rgba8) return code;
     if (channel == 3) return 255;
@@ -42,7 +42,7 @@ std::uint32_t kept(Format format, int channel, std::uint32_t code) {
 
 }  // namespace
 
-TEST_CASE("a surface that is filled holds every pixel's value at its place, cut to what its format stores") {
+TEST_CASE("a surface that is filled has every pixel's value at its position truncated to what its format stores") {
     for (const Format format : {Format::rgba8, Format::x8r8g8b8, Format::r5g6b5, Format::x1r5g5b5}) {
         Surface surface = surface_of(format);
         const auto value = [](int x, int y) {
@@ -63,14 +63,14 @@ TEST_CASE("a surface that is filled holds every pixel's value at its place, cut 
     }
 }
 
-TEST_CASE("colours drawn to a narrow surface lose the bits that it does not store, blended or not") {
+TEST_CASE("colours drawn to a narrow surface lose the bits that it does not store with and without blending") {
     for (const Format format : {Format::rgba8, Format::x8r8g8b8, Format::r5g6b5, Format::x1r5g5b5}) {
         Surface surface = surface_of(format);
         const std::array<float, 4> color{203 / 255.0f, 103 / 255.0f, 53 / 255.0f, 1};
         for (const bool is_blended : {false, true}) {
             surface.clear_color({0, 0, 0, 0});
             DrawState state;
-            if (is_blended) state.blend = blend_mode::sum;  // 0 + the source, which a narrow surface cuts first
+            if (is_blended) state.blend = blend_mode::sum;  // 0 + the source, which a narrow surface truncates first
             CHECK(surface.draw(state, cover(color)) == surface_width * surface_height);
             const Image image = surface.color();
             INFO("format " << static_cast<int>(format) << (is_blended ? ", blended" : ""));
@@ -82,7 +82,7 @@ TEST_CASE("colours drawn to a narrow surface lose the bits that it does not stor
     }
 }
 
-TEST_CASE("a surface's stencil test passes where the stencil says so, and leaves what it is told to") {
+TEST_CASE("a surface's stencil test passes by the stored stencil and applies its operation") {
     Surface surface = surface_of(Format::rgba8);
     surface.clear_stencil(3);
     DrawState state;
@@ -96,7 +96,7 @@ TEST_CASE("a surface's stencil test passes where the stencil says so, and leaves
     CHECK(surface.color().codes[0] == 255);
 }
 
-TEST_CASE("a surface draws through texture shader and combiners where it is given a path") {
+TEST_CASE("a surface draws through texture shader and combiners if it has a fragment path") {
     Surface surface = surface_of(Format::rgba8);
     FragmentPath path;
     path.combiners = texture_environment({});
@@ -107,7 +107,7 @@ TEST_CASE("a surface draws through texture shader and combiners where it is give
     CHECK(std::vector(image.codes.begin(), image.codes.begin() + 4) == std::vector<std::uint32_t>{51, 0, 255, 255});
 }
 
-TEST_CASE("a surface in a format that the device lacks is refused by the format's name") {
+TEST_CASE("a surface in a format that the device lacks is rejected with the format's name") {
     const auto refusal = [](const char* profile, const SurfaceLayout& layout) -> std::string {
         try {
             const Surface surface{*find_profile(profile), layout};

@@ -1,4 +1,4 @@
-// A surface is a value of its own: what its maker does with the profile afterwards changes no pixel.
+// Tests that a surface keeps its own copy of the profile: later changes of the caller's profile change no pixel.
 #include "pipeline/region/surface.h"
 
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@ using namespace strata::pipeline;
 
 namespace {
 
-// Half of grey 101 over half of 50 by the profile's blend rounding: 75.5 rounds up, or is cut.
+// Half of grey 101 over half of 50: 75.5, which the profile's blend rounding rounds up or truncates.
 std::uint8_t blended(Surface& surface) {
     surface.clear_color({50, 50, 50, 255});
     strata::rasterizer::TriangleSoup soup;
@@ -25,7 +25,7 @@ std::uint8_t blended(Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("the image of a narrow surface is one of 8-bit codes, with the bits filled in that are stored") {
+TEST_CASE("the image of a narrow surface has 8-bit codes with the missing bits filled in") {
     for (const Format format : {Format::r5g6b5, Format::x1r5g5b5, Format::x8r8g8b8, Format::rgba8}) {
         Surface surface{*find_profile("geforce3"), {.color = format, .width = 8, .height = 8}};
         surface.clear_color({255, 255, 255, 255});
@@ -33,7 +33,7 @@ TEST_CASE("the image of a narrow surface is one of 8-bit codes, with the bits fi
     }
 }
 
-TEST_CASE("a surface draws by the profile that it was made with, though that is changed or gone") {
+TEST_CASE("a surface draws with the profile that it was made with even if that is changed or destroyed") {
     const DeviceProfile& geforce3 = *find_profile("geforce3");
     auto profile = std::make_unique<DeviceProfile>(geforce3);
     Surface surface{*profile, {.width = 8, .height = 8}};
@@ -42,7 +42,7 @@ TEST_CASE("a surface draws by the profile that it was made with, though that is 
         geforce3.blend_rounding == BlendRounding::nearest ? BlendRounding::truncate : BlendRounding::nearest;
     CHECK(blended(surface) == before);
     Surface changed{*profile, {.width = 8, .height = 8}};
-    CHECK(blended(changed) != before);  // the two roundings can be told apart here
+    CHECK(blended(changed) != before);  // the two roundings differ here
     profile.reset();
     CHECK(blended(surface) == before);
     Surface moved = std::move(surface);

@@ -1,4 +1,4 @@
-// Model: a std::vector beside it.
+// Tests a trace against a std::vector.
 #include "pipeline/frame/trace.h"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace strata::pipeline;
 
 TraceEntry entry(std::uint32_t number) { return {.pixel = number, .key = 3 * number, .side = Side::front}; }
 
-// How many of the first `count` entries are not those of entry(0), entry(1), ...
+// Number of the first `count` entries that differ from entry(0), entry(1), ...
 std::size_t wrong(const Trace& trace, std::size_t count) {
     std::size_t wrong = trace.size() == count ? 0 : 1;
     for (std::size_t i = 0; i < std::min(count, trace.size()); ++i)
@@ -22,7 +22,7 @@ std::size_t wrong(const Trace& trace, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("a trace holds as many entries as fit into its bytes, and with one more holds none and takes none") {
+TEST_CASE("a trace keeps as many entries as fit into its bytes and with one more becomes empty and takes none") {
     for (const std::uint32_t most : {0u, 1u, 5u, 1023u, 1024u, 1025u, 5000u}) {
         INFO(most);
         Trace trace;
@@ -40,7 +40,7 @@ TEST_CASE("a trace holds as many entries as fit into its bytes, and with one mor
     }
 }
 
-TEST_CASE("a trace that is shortened, cleared and prolonged holds what a vector would") {
+TEST_CASE("a trace that is shortened and cleared and extended has the entries of a vector") {
     strata::testing::Random random{77};
     Trace trace;
     std::vector<std::uint32_t> model;

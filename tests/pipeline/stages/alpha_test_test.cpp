@@ -1,3 +1,4 @@
+// Tests the alpha test against comparisons of integers and real numbers, and against hardware captures.
 #include "pipeline/stages/alpha_test.h"
 
 #include <catch2/catch.hpp>
@@ -10,7 +11,7 @@ using strata::rasterizer::Lanes;
 
 namespace {
 
-// The specification: 8-bit codes compare as integers, binary32 as real numbers, and a NaN is not equal to anything.
+// Expected result: 8-bit codes compare as integers, binary32 as real numbers, and a NaN is not equal to anything.
 bool model_passes(const AlphaTest& state, bool eight_bit, float alpha) {
     if (!state.enabled) return true;
     if (eight_bit) return model_compare(state.func, model::unorm8(bits_of(alpha)), model::unorm8(bits_of(state.ref)));
@@ -25,7 +26,7 @@ bool passes_one(const AlphaTest& state, bool eight_bit, float alpha) {
 
 }  // namespace
 
-TEST_CASE("a fragment lives on exactly if its alpha passes, and the dead stay dead") {
+TEST_CASE("a fragment passes the alpha test exactly if its alpha does and dead fragments stay dead") {
     Random random{4};
     Tally tally;
     for (int round = 0; round < 4000; ++round) {
@@ -64,8 +65,8 @@ TEST_CASE("a mask cutoff of 0.5 keeps exactly the 8-bit alphas from 128 up") {
     for (int k = 0; k < 256; ++k) CHECK(passes_one(cutoff, true, static_cast<float>(k) / 255.0f) == (k >= 128));
 }
 
-// chip-fragment.md 2: 8-bit alphas against 7F, sixteen pictures of hardware.
-TEST_CASE("alpha 7E, 7F and 80 against 7F pass as the pictures of hardware show") {
+// chip-fragment.md 2: 8-bit alphas against 7F, sixteen hardware captures.
+TEST_CASE("alphas 7E and 7F and 80 against 7F pass as in the hardware captures") {
     const auto outcome = [](CompareFunc func) {
         std::string passed;
         for (const int alpha : {0x7e, 0x7f, 0x80})
@@ -83,7 +84,7 @@ TEST_CASE("alpha 7E, 7F and 80 against 7F pass as the pictures of hardware show"
     CHECK(outcome(always) == "111");
 }
 
-TEST_CASE("the comparison has 8 bits where the profile says so or the target has") {
+TEST_CASE("the comparison has 8 bits if the profile says so or the target has them") {
     CHECK(is_eight_bit_alpha(AlphaTestPrecision::unorm8, ChannelType::single));
     CHECK(is_eight_bit_alpha(AlphaTestPrecision::by_target, ChannelType::unorm8));
     CHECK_FALSE(is_eight_bit_alpha(AlphaTestPrecision::by_target, ChannelType::half));

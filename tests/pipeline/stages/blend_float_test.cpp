@@ -1,3 +1,5 @@
+// Tests blending on float targets against a model of one fragment in binary64, rounded to binary32 after each
+// operation.
 #include "pipeline/stages/blend_float.h"
 
 #include <catch2/catch.hpp>
@@ -9,8 +11,8 @@ using namespace strata::pipeline;
 
 namespace {
 
-// Binary32 arithmetic by way of binary64: a product of two binary32 is exact there, and rounding a binary64 sum to
-// binary32 again cannot differ from rounding once (53 >= 2 * 24 + 2).
+// Binary32 arithmetic computed in binary64: a product of two binary32 is exact, and rounding a binary64 sum to binary32
+// gives the correctly rounded sum (53 >= 2 * 24 + 2).
 struct FloatModel {
     DenormalRule denormals;
     MinMaxNan nan_rule;
@@ -31,7 +33,7 @@ struct FloatModel {
             if (nan_rule == MinMaxNan::propagate || (std::isnan(a) && std::isnan(b))) return nan;
             return std::isnan(a) ? b : a;
         }
-        if (a == b) return std::signbit(a) == wants_larger ? b : a;  // of two zeros max takes +0, min takes -0
+        if (a == b) return std::signbit(a) == wants_larger ? b : a;  // of two zeros, max takes +0 and min takes -0
         return (a > b) == wants_larger ? a : b;
     }
     [[nodiscard]] float blend(const BlendTerm& term, const Fragment<float>& f, std::size_t c) const {
@@ -80,7 +82,7 @@ constexpr BlendTerm min_term{BlendEquation::min, BlendFactor::one, BlendFactor::
 
 }  // namespace
 
-TEST_CASE("float targets follow binary32 operation by operation, for random states and hard fragments", "[slow]") {
+TEST_CASE("float targets follow binary32 operation by operation for random states and special values", "[slow]") {
     Random random{1622};
     Tally tally;
     for (int round = 0; round < 10000; ++round) {
@@ -129,15 +131,15 @@ TEST_CASE("float targets follow binary32 operation by operation, for random stat
     CHECK(tally.cases() >= 100000);
 }
 
-TEST_CASE("a stored NaN poisons a float target even with weight 0, and becomes 7fffffff") {
+TEST_CASE("a stored NaN makes the result NaN even with weight 0 and it becomes 7fffffff") {
     const Blend forgets_stored = both({BlendEquation::add, BlendFactor::one, BlendFactor::zero});
     CHECK(bits_of(blended(forgets_stored, 1.0f, float_of(0xffc00001))) == 0x7fffffff);
     CHECK(bits_of(blended(forgets_stored, 1.0f, float_of(0x7f800000))) == 0x7fffffff);  // infinity times 0
     CHECK(bits_of(blended(blend_mode::replace, float_of(0xffc00001), 1.0f)) ==
-          0xffc00001);  // no blending: the bits themselves
+          0xffc00001);  // without blending the bits are stored unchanged
 }
 
-TEST_CASE("a negative zero survives only where both sides of the sum are negative") {
+TEST_CASE("a negative zero results only if both terms of the sum are negative") {
     const Blend adds = both({BlendEquation::add, BlendFactor::one, BlendFactor::one});
     CHECK(bits_of(blended(adds, -0.0f, -0.0f)) == 0x80000000);
     CHECK(bits_of(blended(adds, -0.0f, 0.0f)) == 0x00000000);
@@ -145,7 +147,7 @@ TEST_CASE("a negative zero survives only where both sides of the sum are negativ
           0x80000000);
 }
 
-TEST_CASE("MAX and MIN drop one NaN, keep two, and know the sign of zero") {
+TEST_CASE("MAX and MIN ignore a single NaN and return NaN for two and respect the sign of zero") {
     const float nan = float_of(0xffc12345);
     CHECK(blended(both(max_term), nan, -3.0f) == -3.0f);
     CHECK(blended(both(max_term), -3.0f, nan) == -3.0f);
@@ -158,8 +160,7 @@ TEST_CASE("MAX and MIN drop one NaN, keep two, and know the sign of zero") {
     CHECK(bits_of(blended(both(max_term), nan, -3.0f, propagating)) == 0x7fffffff);
 }
 
-TEST_CASE(
-    "a device that flushes denormals stores a zero of their sign when it blends, and their bits when it does not") {
+TEST_CASE("a device that flushes denormals stores a signed zero when it blends and their bits when it does not") {
     const float denormal = float_of(0x80000123);
     CHECK(bits_of(blended(both(max_term), denormal, -1.0f)) == 0x80000000);
     CHECK(bits_of(blended(blend_mode::replace, denormal, -1.0f)) == 0x80000123);

@@ -1,3 +1,4 @@
+// Tests blending on 8-bit targets against the integer model of tests/pipeline/blend_model.h.
 #include "pipeline/stages/blend_unorm8.h"
 
 #include <catch2/catch.hpp>
@@ -9,7 +10,7 @@ using namespace strata::pipeline;
 
 namespace {
 
-// Blends the codes of one fragment on an 8-bit target with four channels; the sources are codes too.
+// Blends the codes of one fragment on an 8-bit target with four channels; the sources are codes, too.
 std::array<int, 4> blended(const Blend& state, const std::array<int, 4>& source, const std::array<int, 4>& stored) {
     static Colors src;
     static Codes codes;
@@ -25,7 +26,7 @@ std::array<int, 4> blended(const Blend& state, const std::array<int, 4>& source,
 
 }  // namespace
 
-TEST_CASE("the shifted form divides every sum by 255, to nearest and cut") {
+TEST_CASE("the shifted form divides every sum by 255 both rounded and truncated") {
     int wrong = 0;
     for (int t = 0; t <= 65025; ++t) {
         wrong += over_255<BlendRounding::nearest>(t) == (2 * t + 255) / 510 ? 0 : 1;
@@ -34,8 +35,8 @@ TEST_CASE("the shifted form divides every sum by 255, to nearest and cut") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("each_product rounds s F and d G by themselves, for all pairs of codes, before they are added and clamped") {
-    // By the shift formula in plain integers; a product of 255 leaves the other factor as it is.
+TEST_CASE("each_product rounds s F and d G separately for all pairs of codes before they are added and clamped") {
+    // The shift formula in integers; a product with 255 returns the other factor unchanged.
     const auto product = [](int a, int b) { return (a * b + a * b / 256 + 128) / 256; };
     DeviceProfile profile;
     profile.blend_rounding = BlendRounding::each_product;
@@ -68,11 +69,10 @@ TEST_CASE("each_product rounds s F and d G by themselves, for all pairs of codes
     CHECK(unlike_exact == 24);
 }
 
-// Operation by operation: a product or sum of binary32 that is rounded twice, to binary64 and to binary32, is rounded
-// once.
+// Operation by operation: a binary32 product or sum that is rounded to binary64 and then to binary32 is correctly
+// rounded.
 TEST_CASE(
-    "unrounded_source blends the clamped source with the values of codes in binary32, and rounds to a code at the "
-    "end") {
+    "unrounded_source blends the clamped source with the values of codes in binary32 and rounds to a code at the end") {
     const auto single = [](double exact) { return static_cast<float>(exact); };
     const auto clamped = [](float x) { return x > 0.0f ? std::min(x, 1.0f) : 0.0f; };
     Random random{8133};
@@ -141,7 +141,7 @@ TEST_CASE(
     }
     INFO("first wrong: " << tally.first());
     CHECK(tally.wrong() == 0);
-    // What a source of 0.3 leaves of code 85 with OVER: by its own value 79, by its code's 80.
+    // OVER with a source of 0.3 on code 85 gives 79 with the exact source and 80 with its code.
     DeviceProfile profile;
     static Colors src;
     static Codes codes;
@@ -159,7 +159,7 @@ TEST_CASE(
     CHECK(differ > 20);
 }
 
-TEST_CASE("differences of products by themselves end at 0") {
+TEST_CASE("differences of separately rounded products end at 0") {
     DeviceProfile profile;
     profile.blend_rounding = BlendRounding::each_product;
     Blend state = blend_mode::sum;
@@ -173,7 +173,7 @@ TEST_CASE("differences of products by themselves end at 0") {
     }
 }
 
-TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random states and fragments", "[slow]") {
+TEST_CASE("every 8-bit channel becomes the exact sum rounded once for random states and fragments", "[slow]") {
     Random random{8};
     Tally tally;
     for (int round = 0; round < 10000; ++round) {
@@ -208,7 +208,8 @@ TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random st
             }
         }
         for (std::size_t c = 0; c < 4; ++c)
-            for (auto i = static_cast<std::size_t>((count + 15) / 16 * 16); i < 256; ++i)  // up to there: scratch
+            // lanes up to the end of the vector may be overwritten
+            for (auto i = static_cast<std::size_t>((count + 15) / 16 * 16); i < 256; ++i)
                 tally.expect(codes[c][i] == before[c][i], [&] { return fmt::format("lane {} beyond {}", i, count); });
     }
     INFO("first wrong: " << tally.first());
@@ -216,7 +217,7 @@ TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random st
     CHECK(tally.cases() >= 100000);
 }
 
-TEST_CASE("OVER gives the rational value rounded half up for every source, destination and alpha", "[slow]") {
+TEST_CASE("OVER gives the rational value rounded half up for every source and destination and alpha", "[slow]") {
     Colors src;
     Codes codes;
     std::uint64_t wrong = 0;
@@ -239,8 +240,9 @@ TEST_CASE("OVER gives the rational value rounded half up for every source, desti
     CHECK(wrong == 0);
 }
 
-// chip-fragment.md 1.2: one rounding of the exact sum; each product rounded for itself got 152 of 239 pictures wrong.
-TEST_CASE("the sum is rounded once, not each product") {
+// chip-fragment.md 1.2: one rounding of the exact sum. Rounding each product separately does not reproduce 152 of 239
+// captures.
+TEST_CASE("the sum is rounded once and not each product") {
     const Blend halves{true,
                        {BlendEquation::add, BlendFactor::constant_color, BlendFactor::constant_color},
                        {},
@@ -266,7 +268,7 @@ TEST_CASE("MIN and MAX ignore their factors") {
     CHECK(blended({true, most, most, {}, 0xf}, {10, 200, 0, 7}, {20, 50, 255, 7}) == std::array{20, 200, 255, 7});
 }
 
-TEST_CASE("SRC_ALPHA_SATURATE is min(As, 1 - Ad) for the colours and 1 for alpha") {
+TEST_CASE("SRC_ALPHA_SATURATE is the lesser of As and 1 - Ad for the colours and 1 for alpha") {
     const BlendTerm saturate{BlendEquation::add, BlendFactor::src_alpha_saturate, BlendFactor::zero};
     CHECK(blended({true, saturate, saturate, {}, 0xf}, {255, 255, 255, 100}, {0, 0, 0, 200}) ==
           std::array{55, 55, 55, 100});
@@ -274,7 +276,7 @@ TEST_CASE("SRC_ALPHA_SATURATE is min(As, 1 - Ad) for the colours and 1 for alpha
           std::array{100, 100, 100, 100});
 }
 
-TEST_CASE("zeros UNDER and OVER leave every code, by every rounding", "[slow]") {
+TEST_CASE("UNDER and OVER with zeros leave every code unchanged in every rounding", "[slow]") {
     static Colors src;
     static Codes codes;
     int wrong = 0;
@@ -294,7 +296,7 @@ TEST_CASE("zeros UNDER and OVER leave every code, by every rounding", "[slow]") 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("under-blending on 8 bits multiplies the transmittance and adds what it lets through") {
+TEST_CASE("under-blending on 8 bits multiplies the transmittance and adds the source weighted by it") {
     std::array<int, 4> stored{0, 0, 0, 255};
     stored = blended(blend_mode::under, {128, 0, 0, 128}, stored);
     CHECK(stored == std::array{128, 0, 0, 127});

@@ -1,5 +1,5 @@
-// The model: the table of GL 2.1 4.1.4 as sets of outcomes (stage_values.h), and a float's neighbours counted by their
-// bits.
+// Tests the comparison functions against the table of GL 2.1 4.1.4 as sets of outcomes (stage_values.h); a float's
+// neighbours are found by its bits.
 #include "pipeline/device/compare.h"
 
 #include <catch2/catch.hpp>
@@ -43,7 +43,7 @@ TEST_CASE("the default state is OpenGL's initial state") {
     }
 }
 
-TEST_CASE("each function passes exactly its own outcomes, of integers, of floats and of what is not a number") {
+TEST_CASE("each function passes exactly its own outcomes for integers and floats and NaN") {
     constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
                     infinity = std::numeric_limits<float>::infinity();
     int wrong = 0;
@@ -60,7 +60,7 @@ TEST_CASE("each function passes exactly its own outcomes, of integers, of floats
     CHECK(compared(CompareFunc::always, not_a_number, not_a_number));
 }
 
-TEST_CASE("steps of binary32 raise a depth above 0 alone: at 0 and below it there is nothing to step from") {
+TEST_CASE("steps of binary32 raise only depths above 0 and leave 0 and negative depths unchanged") {
     const DepthCompare steps{.epsilon = {0.0, 3}};
     int wrong = 0;
     for (const float b : {0x1p-149f, 0x1p-126f, 0.3f, 0.99999994f, 1.0f, 5.0f})

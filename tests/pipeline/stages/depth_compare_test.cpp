@@ -1,4 +1,4 @@
-// The model: the sentence of depth_compare.h over rationals.
+// Tests the comparison of a fragment with a stored depth against the rule of depth_compare.h in rational arithmetic.
 #include "pipeline/stages/depth_compare.h"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,7 @@ using strata::rasterizer::Rational;
 
 }  // namespace
 
-TEST_CASE("a fragment is behind a stored depth by the frame's epsilon and quantisation, in every format") {
+TEST_CASE("a fragment is behind a stored depth by the frame's epsilon and quantisation in every format") {
     Random random{941};
     std::uint64_t wrong = 0, behind = 0, cases = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
@@ -47,7 +47,7 @@ TEST_CASE("a fragment is behind a stored depth by the frame's epsilon and quanti
                     const double scale = format == DepthFormat::d32f ? 0x1p-24 : 1.0;
                     const double z = compare.value(code) + scale * double{random_float(random, -0.9f, 1.9f)};
                     const bool found = compare.is_behind(code, z, stored);
-                    // z + epsilon rounds once in binary64; nothing here is that near.
+                    // z + epsilon is rounded once in binary64; no value of this test is that close to a code.
                     wrong += found != model_is_behind(compare, code, z, stored) ? 1 : 0;
                     behind += found ? 1 : 0;
                     ++cases;
@@ -57,7 +57,7 @@ TEST_CASE("a fragment is behind a stored depth by the frame's epsilon and quanti
     CHECK(behind < cases * 4 / 5);
 }
 
-TEST_CASE("the farthest code lies behind wherever any code does, D32F's beyond 1 as well") {
+TEST_CASE("the farthest code is behind wherever any code is and for D32F also beyond 1") {
     Random random{942};
     std::uint64_t wrong = 0, behind = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
@@ -67,7 +67,7 @@ TEST_CASE("the farthest code lies behind wherever any code does, D32F's beyond 1
                     const DepthCompare compare{format, epsilon, true, quantizes};
                     const bool is_float = format == DepthFormat::d32f;
                     const std::uint32_t one = strata::rasterizer::max_code(format);
-                    const auto any = [&] {  // of D32F around 1
+                    const auto any = [&] {  // a D32F value around 1
                         return is_float ? std::bit_cast<std::uint32_t>(random_float(random, 0.5f, 1.5f))
                                         : one - static_cast<std::uint32_t>(random_int(random, 0, 9));
                     };
@@ -82,7 +82,7 @@ TEST_CASE("the farthest code lies behind wherever any code does, D32F's beyond 1
     CHECK(behind > 500);
 }
 
-TEST_CASE("only without reference, epsilon and unrounded depths does a compare need nothing but codes") {
+TEST_CASE("only without reference and epsilon and unrounded depths does a comparison need only codes") {
     CHECK(DepthCompare{}.is_plain());
     CHECK_FALSE(DepthCompare{.epsilon = {0, 1}}.is_plain());
     CHECK_FALSE(DepthCompare{.epsilon = {1e-9, 0}}.is_plain());
@@ -90,7 +90,7 @@ TEST_CASE("only without reference, epsilon and unrounded depths does a compare n
     CHECK_FALSE(DepthCompare{.quantizes = false}.is_plain());
 }
 
-TEST_CASE("binary32 depths exceed another by units in its last place and by an absolute part") {
+TEST_CASE("a binary32 depth must exceed another one by units in its last place and by an absolute part") {
     const DepthCompare two{.epsilon = {0, 2}}, part{.epsilon = {0.125, 0}};
     const float b = 0.3f, third = std::bit_cast<float>(std::bit_cast<std::uint32_t>(b) + 3);
     const float second = std::bit_cast<float>(std::bit_cast<std::uint32_t>(b) + 2);

@@ -1,3 +1,4 @@
+// Tests the depth test against comparisons of the values that the codes represent.
 #include "pipeline/stages/depth_test.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +16,7 @@ std::uint32_t any_code(Random& random, DepthFormat format) {
     return one_in(random, 4) ? top - below(random, 2) : below(random, top) + 1;
 }
 
-// What a code means: an integer, or the float that its bits are.
+// The value of a code: an integer, or the float with these bits.
 double meaning(std::uint32_t code, DepthFormat format) {
     return format == DepthFormat::d32f ? double{float_of(code)} : static_cast<double>(code);
 }
@@ -28,7 +29,7 @@ bool passes_one(CompareFunc func, DepthFormat format, std::uint32_t code, std::u
 
 }  // namespace
 
-TEST_CASE("a fragment passes the depth test exactly if its code stands in the function's relation to the stored one") {
+TEST_CASE("a fragment passes the depth test exactly if its code has the function's relation to the stored one") {
     Random random{5};
     Tally tally;
     for (int round = 0; round < 4000; ++round) {
@@ -55,7 +56,7 @@ TEST_CASE("a fragment passes the depth test exactly if its code stands in the fu
     CHECK(tally.cases() >= 100000);
 }
 
-TEST_CASE("a D32F buffer cleared to -1 lies in front of every fragment, one cleared to 2 behind") {
+TEST_CASE("a D32F buffer cleared to -1 is in front of every fragment and one cleared to 2 behind") {
     for (const float z : {0.0f, 0.25f, 1.0f}) {
         CHECK(passes_one(CompareFunc::greater, DepthFormat::d32f, bits_of(z), bits_of(-1.0f)));
         CHECK_FALSE(passes_one(CompareFunc::lequal, DepthFormat::d32f, bits_of(z), bits_of(-1.0f)));
@@ -63,7 +64,7 @@ TEST_CASE("a D32F buffer cleared to -1 lies in front of every fragment, one clea
     }
 }
 
-TEST_CASE("a NaN in a D32F buffer passes NOTEQUAL and ALWAYS alone") {
+TEST_CASE("a NaN in a D32F buffer passes only NOTEQUAL and ALWAYS") {
     using enum CompareFunc;
     for (const CompareFunc func : {never, less, equal, lequal, greater, notequal, gequal, always})
         CHECK(passes_one(func, DepthFormat::d32f, 0x3f000000, 0x7fc00001) == (func == notequal || func == always));
@@ -74,7 +75,7 @@ TEST_CASE("negative zero and positive zero are one depth") {
     CHECK_FALSE(passes_one(CompareFunc::less, DepthFormat::d32f, 0x80000000, 0x00000000));
 }
 
-TEST_CASE("depth is written where the fragment lives, and nowhere while the test is off") {
+TEST_CASE("depth is written where the fragment is alive and nowhere while the test is off") {
     Lanes<std::uint32_t> code{}, alive{}, stored{};
     for (std::uint32_t i = 0; i < 100; ++i) code[i] = i, stored[i] = 1000 + i, alive[i] = i % 3 == 0 ? ~0u : 0u;
     write_depth(code.data(), alive.data(), stored.data(), 90);

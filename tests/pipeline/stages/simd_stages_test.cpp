@@ -1,5 +1,5 @@
-// Every instruction set that the processor has against the scalar loops that define the stages, bit by bit. The loops
-// themselves are held to independent models by the tests of their headers.
+// Tests every instruction set of the processor against the scalar loops that define the stages, bit by bit. The scalar
+// loops are tested against independent models by the tests of their headers.
 #include <atomic>
 #include <catch2/catch.hpp>
 
@@ -18,7 +18,7 @@ using Values = scalar::ColorLanes;
 
 namespace {
 
-// Runs `check` under every instruction set but the scalar one, and puts the choice back.
+// Runs `check` on every instruction set except the scalar one, and restores the setting.
 template <class Check>
 void for_each_set(Check&& check) {
     for (const Simd simd : available_simd()) {
@@ -29,15 +29,15 @@ void for_each_set(Check&& check) {
     }
 }
 
-// Lengths around every number of lanes.
+// Lengths around every vector length.
 constexpr std::array<int, 20> counts{0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 63, 64, 65, 253, 256};
 
 int any_count(Random& random) { return counts[below(random, counts.size())]; }
 
 constexpr std::size_t plane_pixels = 300;
 
-// Distinct pixels: one run, runs of some length with gaps between them, up to the last pixel of the plane with a few
-// missing, or any order.
+// Distinct pixels: one run, runs of some length with gaps between them, a run up to the last pixel of the plane with a
+// few missing, or random order.
 CodeLanes any_pixels(Random& random) {
     CodeLanes pixel{};
     const std::uint32_t kind = below(random, 5), start = below(random, 45), run = 1 + below(random, 40);
@@ -62,12 +62,12 @@ CodeLanes any_mask(Random& random) {
 
 std::uint32_t any_word(Random& random) { return bits_of(any_float(random)); }
 
-// A target's sample: its planes and what lies behind each.
+// One sample of a target: its planes, and the memory after each.
 struct Memory {
     std::vector<Word> words = std::vector<Word>(4 * (plane_pixels + spare_words));
     Texels texels;
 
-    // A word holds nothing beside its channels (r16f).
+    // A 32-bit value has no bits besides its channels (r16f).
     Memory(Random& random, int channels, int bits) : texels{{}, channels, bits} {
         const Word owned = channels * bits < 32 ? 0xffffu : ~0u;
         for (Word& word : words) word = any_word(random) & owned;
@@ -77,7 +77,7 @@ struct Memory {
         result.first = {words.data(), plane_pixels};
         return result;
     }
-    // The spare elements are unused.
+    // The padding elements are unused.
     [[nodiscard]] bool same_pixels(const Memory& other) const {
         for (std::size_t i = 0; i < words.size(); ++i)
             if (i % (plane_pixels + spare_words) < plane_pixels && words[i] != other.words[i]) return false;
@@ -95,7 +95,7 @@ constexpr std::array<std::array<int, 2>, 5> layouts{{{4, 8}, {4, 16}, {1, 16}, {
 
 }  // namespace
 
-TEST_CASE("gather and scatter move the same codes on every instruction set, whatever the order of the pixels") {
+TEST_CASE("gather and scatter move the same codes on every instruction set for any order of the pixels") {
     for_each_set([] {
         Random random{501};
         Tally tally;
@@ -127,7 +127,7 @@ TEST_CASE("gather and scatter move the same codes on every instruction set, what
     });
 }
 
-TEST_CASE("the depth test in a plane kills, counts and writes alike on every instruction set", "[slow]") {
+TEST_CASE("the depth test in a plane rejects and counts and writes the same on every instruction set", "[slow]") {
     for_each_set([] {
         Random random{502};
         Tally tally;
@@ -158,7 +158,7 @@ TEST_CASE("the depth test in a plane kills, counts and writes alike on every ins
     });
 }
 
-TEST_CASE("conversions give the same bits on every instruction set, for all halves and awkward floats") {
+TEST_CASE("conversions give the same bits on every instruction set for all halves and special floats") {
     for_each_set([] {
         Random random{503};
         Tally tally;
@@ -189,7 +189,7 @@ TEST_CASE("conversions give the same bits on every instruction set, for all halv
     });
 }
 
-TEST_CASE("blending gives the same codes on every instruction set, in every format and state") {
+TEST_CASE("blending gives the same codes on every instruction set in every format and state") {
     for_each_set([] {
         Random random{504};
         Tally tally;
@@ -227,7 +227,7 @@ TEST_CASE("blending gives the same codes on every instruction set, in every form
     });
 }
 
-TEST_CASE("every half blends alike on every instruction set") {
+TEST_CASE("every half blends to the same result on every instruction set") {
     for_each_set([] {
         int wrong = 0;
         for (const Blend& state : {blend_mode::sum, blend_mode::max, blend_mode::under})
@@ -265,7 +265,7 @@ TEST_CASE("every float is stored as the same half by the best instruction set", 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("alpha and stencil tests answer alike on every instruction set") {
+TEST_CASE("alpha and stencil tests give the same result on every instruction set") {
     for_each_set([] {
         Random random{505};
         Tally tally;

@@ -1,3 +1,4 @@
+// Tests the stencil test against the tables of GL 2.1 in integers, and against hardware captures.
 #include "pipeline/stages/stencil.h"
 
 #include <catch2/catch.hpp>
@@ -9,7 +10,7 @@ using strata::rasterizer::Lanes;
 
 namespace {
 
-// GL 2.1 table of operations over plain integers.
+// The operations in integers, from the table of GL 2.1.
 int model_op(StencilOp op, int s, int ref) {
     switch (op) {
         case StencilOp::keep: return s;
@@ -29,7 +30,7 @@ struct Outcome {
     std::uint32_t stored;
 };
 
-// One fragment, in the words of GL 2.1 4.1.5 and EXT_stencil_two_side.
+// Expected outcome of one fragment, from GL 2.1 4.1.5 and EXT_stencil_two_side.
 Outcome model_fragment(const StencilTest& state, bool front, bool depth_pass, bool alive, int stored) {
     if (!alive) return {false, false, false, static_cast<std::uint32_t>(stored)};
     if (!state.enabled) return {depth_pass, false, false, static_cast<std::uint32_t>(stored)};
@@ -54,7 +55,7 @@ StencilFace any_face(Random& random) {
             any_of(random, StencilOp::decr_wrap)};
 }
 
-// A stored value after one fragment passed the stencil test.
+// The stored value after one fragment passed the stencil test.
 std::uint32_t after(StencilOp op, std::uint32_t stored, std::uint8_t ref = 7, std::uint8_t write_mask = 0xff) {
     std::uint32_t depth_pass = ~0u, alive = ~0u;
     const StencilTest state{
@@ -65,7 +66,7 @@ std::uint32_t after(StencilOp op, std::uint32_t stored, std::uint8_t ref = 7, st
 
 }  // namespace
 
-TEST_CASE("each fragment leaves the stencil value and the life that the table of GL 2.1 4.1.5 gives it") {
+TEST_CASE("each fragment leaves the stencil value and passes as in the table of GL 2.1 4.1.5") {
     Random random{415};
     Tally tally;
     for (int round = 0; round < 20000; ++round) {
@@ -118,8 +119,7 @@ TEST_CASE("every operation gives its value for every stored value and mask") {
 }
 
 // chip-fragment.md 4, Stencil_func: pass when 7F FUNC stored.
-TEST_CASE(
-    "the reference stands on the left, as sixteen pictures of hardware show: LESS passes where stored is above 7F") {
+TEST_CASE("the reference is the left operand as in sixteen hardware captures where LESS passes if stored is above 7F") {
     const auto drawn = [](CompareFunc func) {
         std::string result;
         for (std::uint32_t stored : {0x00u, 0x7eu, 0x7fu, 0x80u, 0xffu}) {
@@ -135,7 +135,7 @@ TEST_CASE(
     CHECK(drawn(CompareFunc::notequal) == "11011");
 }
 
-TEST_CASE("a counter of 255 saturates with INCR and wraps with INCR_WRAP, and the mistake is reported") {
+TEST_CASE("a counter of 255 saturates with INCR and wraps with INCR_WRAP and the overflow is reported") {
     CHECK(after(StencilOp::incr, 255) == 255);
     CHECK(after(StencilOp::incr_wrap, 255) == 0);
     CHECK(after(StencilOp::decr, 0) == 0);

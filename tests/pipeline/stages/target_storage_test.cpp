@@ -1,4 +1,5 @@
-// Render targets as plain arrays: what scatter and fill leave, gather and code find, and nothing else changes.
+// Tests render targets against a plain array: the values that scatter and fill store are those that gather and code
+// return, and nothing else changes.
 #include "pipeline/stages/target_storage.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +26,7 @@ std::uint32_t stored_bits(Format format) {
     return 0;
 }
 
-// The model: codes by (pixel, channel, sample).
+// Model of a target: codes by (pixel, channel, sample).
 struct Model {
     std::size_t pixels, channels, samples;
     std::vector<std::uint32_t> codes = std::vector<std::uint32_t>(pixels * channels * samples, 0);
@@ -53,7 +54,7 @@ void random_scatter(Random& random, TargetStorage& storage, Model& model) {
     const auto mask = static_cast<unsigned>(random_int(random, 0, 15));
     for (std::size_t i = 0; i < count; ++i) {
         pixel[i] =
-            static_cast<std::uint32_t>((i * 7 + shift) % model.pixels);  // 7 and the number of pixels share no factor
+            static_cast<std::uint32_t>((i * 7 + shift) % model.pixels);  // 7 and the number of pixels are coprime
         alive[i] = random_int(random, 0, 2) != 0 ? ~0u : 0u;
         for (std::size_t c = 0; c < 4; ++c) codes[c][i] = static_cast<std::uint32_t>(random()) & bits;
         for (std::size_t c = 0; c < model.channels; ++c)
@@ -66,7 +67,7 @@ void random_fill(Random& random, TargetStorage& storage, Model& model) {
     const std::uint32_t bits = stored_bits(storage.format());
     std::array<std::uint32_t, 4> codes{};
     codes.fill(static_cast<std::uint32_t>(random()) & bits);
-    if (random_int(random, 0, 1) != 0)  // unequal channels
+    if (random_int(random, 0, 1) != 0)  // different values per channel
         for (std::uint32_t& code : codes) code = static_cast<std::uint32_t>(random()) & bits;
     const auto mask = static_cast<unsigned>(random_int(random, 0, 255));
     storage.fill(codes, mask);
@@ -91,13 +92,13 @@ std::size_t gather_differences(const TargetStorage& storage, Model& model) {
 
 }  // namespace
 
-TEST_CASE("a target of any format and number of samples holds what was scattered and filled, channel by channel") {
+TEST_CASE("a target of any format and number of samples returns the stored values channel by channel") {
     Random random{401};
     for (const Format format : all_formats)
         for (int samples = 1; samples <= 8; ++samples) {
             TargetStorage storage{format, samples, 45};
             Model model{45, static_cast<std::size_t>(info(format).channels), static_cast<std::size_t>(samples)};
-            std::size_t wrong = differences(storage, model);  // contents start at 0
+            std::size_t wrong = differences(storage, model);  // a new target contains zeros
             for (int step = 0; step < 12; ++step) {
                 if (random_int(random, 0, 3) == 0) random_fill(random, storage, model);
                 random_scatter(random, storage, model);
@@ -108,7 +109,7 @@ TEST_CASE("a target of any format and number of samples holds what was scattered
         }
 }
 
-TEST_CASE("depth and stencil of a d24s8 target are filled apart") {
+TEST_CASE("depth and stencil of a d24s8 target are filled separately") {
     TargetStorage storage{Format::d24s8, 2, 3};
     storage.fill({0x123456u, 0, 0, 0}, 0b01);
     storage.fill_stencil(7, 0b10);
@@ -119,10 +120,10 @@ TEST_CASE("depth and stencil of a d24s8 target are filled apart") {
     CHECK(storage.code(2, 0, 0) == 0x123456u);
 }
 
-TEST_CASE("the memory of an earlier target shows nothing of it, whatever is written first") {
+TEST_CASE("the memory of an earlier target is not visible for any kind of first write") {
     constexpr std::size_t pixels = 20;
     for (const Format format : all_formats)
-        for (const int first : {0, 1, 2, 3}) {  // nothing, one sample, all samples, a stencil
+        for (const int first : {0, 1, 2, 3}) {  // first write: none, one sample, all samples, a stencil
             TargetStorage earlier{Format::rgba32f, 2, 2 * pixels};
             earlier.fill({~0u, ~0u, ~0u, ~0u}, 3u);
             TargetStorage target{format, 2, pixels, earlier.give_memory()};
@@ -144,7 +145,7 @@ TEST_CASE("the memory of an earlier target shows nothing of it, whatever is writ
         }
 }
 
-TEST_CASE("a new target is zero wherever nothing was cleared, and so is a copy of it") {
+TEST_CASE("a new target is zero wherever nothing was cleared and so is a copy of it") {
     constexpr std::size_t pixels = 20;
     const auto is_filled = [](const TargetStorage& target, int sample, std::uint32_t expected) {
         for (std::size_t i = 0; i < pixels; ++i)

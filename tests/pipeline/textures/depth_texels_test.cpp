@@ -1,5 +1,4 @@
-// The model: texel (column, row) of a texture whose codes tell where they are; a lookup outside what is held finds
-// nothing.
+// Tests depth textures whose codes encode (column, row); a lookup outside of the stored rectangle finds nothing.
 #include "pipeline/textures/depth_texels.h"
 
 #include <catch2/catch.hpp>
@@ -24,8 +23,7 @@ using strata::rasterizer::Rect;
 }  // namespace
 
 TEST_CASE(
-    "a texture of which a rectangle is held gives its texels there, from the top or from the bottom, and none "
-    "elsewhere") {
+    "a texture of which a rectangle is stored has texels there from the top or from the bottom and none elsewhere") {
     const Rect held{3, 2, 8, 6};
     std::vector<std::uint32_t> codes;
     for (int y = held.y0; y < held.y1; ++y)
@@ -53,7 +51,7 @@ TEST_CASE(
     CHECK(found == 2 * 20);
 }
 
-TEST_CASE("a finished image is a texture of its own size and depth format, held whole") {
+TEST_CASE("a finished image is a complete texture of its own size and depth format") {
     for (const Format format : {Format::d16, Format::d24, Format::d24s8, Format::d32f, Format::d16f}) {
         Image image{format, 4, 3};
         for (std::size_t i = 0; i < image.codes.size(); ++i) image.codes[i] = static_cast<std::uint32_t>(i);
@@ -71,7 +69,7 @@ TEST_CASE("a finished image is a texture of its own size and depth format, held 
     }
 }
 
-TEST_CASE("the greatest texel is that of depth 1 in its format, or 255 where texels have eight bits") {
+TEST_CASE("the greatest texel is that of depth 1 in its format or 255 for 8-bit texels") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f}) {
         DepthTexels texels;
         texels.format = format;

@@ -1,3 +1,5 @@
+// Tests shadow lookups against comparisons of stored depths in rational arithmetic, with the texels of
+// tests/pipeline/addressing_model.h.
 #include "pipeline/textures/shadow_compare.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +21,7 @@ DeviceProfile device(DepthRounding rounding, TextureFilterPrecision precision) {
     return profile;
 }
 
-// R as the buffer stores a depth, in rational arithmetic.
+// R as the buffer would store it, in rational arithmetic.
 double stored(float r, Format format, DepthRounding rounding) {
     if (format == Format::d32f) return r;
     const int top = format == Format::d16 ? 65535 : 16777215;
@@ -43,7 +45,7 @@ Image any_depth_image(Random& random) {
     return image;
 }
 
-// R near a texel of the image, or anything.
+// A random R, near a texel of the image or arbitrary.
 float any_reference(Random& random, const Image& image) {
     if (one_in(random, 2)) return any_float(random);
     const std::uint32_t code = image.codes[below(random, static_cast<std::uint32_t>(image.codes.size()))];
@@ -94,7 +96,7 @@ const DeviceProfile floors = device(DepthRounding::floor, TextureFilterPrecision
 
 }  // namespace
 
-TEST_CASE("a shadow lookup compares R with each texel like two stored depths, for random images and coordinates",
+TEST_CASE("a shadow lookup compares R with each texel like two stored depths for random images and coordinates",
           "[slow]") {
     Random random{44};
     Tally tally;
@@ -146,14 +148,14 @@ TEST_CASE("LEQUAL lights a fragment at exactly the depth that it wrote itself") 
     }
 }
 
-TEST_CASE("LEQUAL means R <= texel and GEQUAL R >= texel, whatever SGIX_shadow's text says") {
+TEST_CASE("LEQUAL means R <= texel and GEQUAL R >= texel unlike the text of SGIX_shadow") {
     const Image middle = one_texel(Format::d16, 0x8000);
     CHECK(compare_one(middle, {.func = CompareFunc::lequal}, floors, 0.5f, 0.25f)[0] == 1.0f);
     CHECK(compare_one(middle, {.func = CompareFunc::lequal}, floors, 0.5f, 0.75f)[0] == 0.0f);
     CHECK(compare_one(middle, {.func = CompareFunc::gequal}, floors, 0.5f, 0.75f)[0] == 1.0f);
 }
 
-TEST_CASE("R is clamped against fixed-point texels and not against float ones") {
+TEST_CASE("R is clamped for fixed-point texels and not for float ones") {
     CHECK(compare_one(one_texel(Format::d24, 0xffffff), {.func = CompareFunc::lequal}, floors, 0.5f, 7.0f)[0] == 1.0f);
     CHECK(compare_one(one_texel(Format::d32f, bits_of(1.0f)), {.func = CompareFunc::lequal}, floors, 0.5f, 7.0f)[0] ==
           0.0f);
@@ -161,7 +163,7 @@ TEST_CASE("R is clamped against fixed-point texels and not against float ones") 
           1.0f);
 }
 
-TEST_CASE("the result goes where the depth texture mode says, and a failure gives the ambient value") {
+TEST_CASE("the result is placed by the depth texture mode and a failure gives the ambient value") {
     const Image far_plane = one_texel(Format::d24, 0xffffff);
     const auto routed = [&](DepthTextureMode mode, CompareFunc func) {
         return compare_one(far_plane, {.func = func, .mode = mode, .fail_value = 0.25f}, floors, 0.5f, 0.5f);
@@ -173,7 +175,7 @@ TEST_CASE("the result goes where the depth texture mode says, and a failure give
     CHECK(routed(DepthTextureMode::texture_shader_alpha, CompareFunc::never) == std::array{1.0f, 1.0f, 1.0f, 0.25f});
 }
 
-TEST_CASE("a linear lookup gives the share of its four texels that pass, in steps of 1/256 along an edge") {
+TEST_CASE("a linear lookup gives the fraction of its four texels that pass in steps of 1/256 along an edge") {
     Image edge{Format::d16, 2, 1};
     edge.codes = {0, 0xffff};
     const ShadowCompare state{.func = CompareFunc::lequal, .filter = TextureFilter::linear};
@@ -185,7 +187,7 @@ TEST_CASE("a linear lookup gives the share of its four texels that pass, in step
 }
 
 TEST_CASE(
-    "eight-bit depth texels compare R rounded to 255 steps, Heidrich's limited form, for all texels and half steps") {
+    "8-bit depth texels compare R rounded to 255 steps as in Heidrich's limited form for all texels and half steps") {
     Image image{Format::d16, 256, 1};
     for (std::uint32_t k = 0; k < 256; ++k) image.codes[k] = k;
     DepthTexels texels{image};
@@ -210,9 +212,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "R against a 16-bit float texel is cut to 12 bits of mantissa: equal from a texel's value up to below the next "
-    "one's") {
+TEST_CASE("R is truncated to 12 bits of mantissa for a 16-bit float texel and equal up to the next texel value") {
     DeviceProfile chip = floors;
     chip.raster.window_z = strata::rasterizer::WindowZ::buffer_units;
     const auto is = [&](std::uint32_t code, CompareFunc func, float r) {
@@ -220,7 +220,8 @@ TEST_CASE(
     };
     const auto below_of = [](float v) { return std::nextafter(v, 0.0f); };
     int wrong = 0;
-    for (std::uint32_t code = 0x1000; code <= 0xffff; code += 5) {  // bits 12 to 15 of a code: exponent, 2^(e - 7)
+    // Bits 12 to 15 of a code are the exponent e: 2^(e - 7).
+    for (std::uint32_t code = 0x1000; code <= 0xffff; code += 5) {
         const float value =
             std::ldexp(1.0f + static_cast<float>(code % 4096) / 4096.0f, static_cast<int>(code / 4096) - 7);
         const float step = std::ldexp(1.0f, static_cast<int>(code / 4096) - 19);

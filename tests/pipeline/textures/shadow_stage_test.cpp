@@ -1,4 +1,5 @@
-// The model: a light's window by its matrices in binary64, and the texels that its map holds there.
+// Tests shadow stages against the light's window coordinates computed from its matrices in binary64, and the texels of
+// its map at that position.
 #include "pipeline/textures/shadow_stage.h"
 
 #include <catch2/catch.hpp>
@@ -30,7 +31,7 @@ using strata::rasterizer::YDirection;
     return light;
 }
 
-// A map of 2 x 2 texels, and one fragment that looks at (s, t) with depth r.
+// A map of 2 x 2 texels, and one fragment that looks up (s, t) with depth r.
 struct ShadowBench {
     std::unique_ptr<strata::rasterizer::FragmentBatch> batch = std::make_unique<strata::rasterizer::FragmentBatch>();
     std::array<strata::rasterizer::Lanes<float>, 4> scratch{};
@@ -54,7 +55,7 @@ struct ShadowBench {
 }  // namespace
 
 TEST_CASE(
-    "a light's unit gives every eye position its window coordinates in the light's map, for either depth convention") {
+    "a light's unit maps every eye position to window coordinates in the light's map for either depth convention") {
     const ShadowLight light = some_light();
     const Matrix camera{1, 0, 0, 0, 0, 0.6, -0.8, 0, 0, 0.8, 0.6, 0, 0.5, 1, -4, 1};
     Random random{711};
@@ -87,7 +88,7 @@ TEST_CASE(
     CHECK(worst < 1e-12);
 }
 
-TEST_CASE("the light's depth is in the units of vertex depth: codes of the map's format on a device that has them") {
+TEST_CASE("the light's depth has the units of vertex depth which are codes of the map's format on some devices") {
     RasterState state;
     state.depth_format = DepthFormat::d24;
     const auto units_on = [&](const char* device) {
@@ -99,9 +100,7 @@ TEST_CASE("the light's depth is in the units of vertex depth: codes of the map's
     CHECK(units_on("geforce3")[2] == 65535.0);
 }
 
-TEST_CASE(
-    "a map is looked at as its light says: bottom up with y up, nearest or four comparisons, ambient where it is "
-    "dark") {
+TEST_CASE("a map is sampled as its light states with y up or down and one or four comparisons and its ambient factor") {
     const Image map{Format::d24, 2, 2};
     ShadowLight light = some_light();
     RasterState state;
@@ -123,7 +122,7 @@ TEST_CASE(
     CHECK(hard.compare.filter == TextureFilter::nearest);
 }
 
-TEST_CASE("red, green and blue are times the comparison of r/q at s/q, t/q, and alpha stays") {
+TEST_CASE("the colour is multiplied by the comparison of r/q at s/q and t/q and alpha is unchanged") {
     ShadowBench bench;
     ShadowLight light = some_light();
     light.percentage_closer = false;

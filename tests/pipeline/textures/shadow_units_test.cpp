@@ -1,4 +1,5 @@
-// The model: R in the units of the texels, over rationals; compared as a depth write stores it, or as it is.
+// Tests the units of R in shadow comparisons against rational arithmetic: R in the units of the texels, compared as a
+// depth write stores it, or unquantised.
 #include <catch2/catch.hpp>
 #include <memory>
 
@@ -31,7 +32,7 @@ struct ShadowDevice {
 [[nodiscard]] Rational compared_r(const ShadowDevice& device, float r) {
     const Rational top = device.format == DepthFormat::d16 ? 65535 : 16777215;
     if (is_nan(r) || r <= 0) return 0;
-    if (r > 3e38f) return top;  // infinity among them
+    if (r > 3e38f) return top;  // including infinity
     const Rational scaled = device.convention == WindowZ::buffer_units ? Rational{r} : Rational{r} * top;
     if (scaled >= top) return top;
     if (!device.quantizes) return scaled;
@@ -54,15 +55,17 @@ struct ShadowDevice {
 
 }  // namespace
 
-TEST_CASE("R is compared in the texels' units on every device: 0 to 1 or codes, floored, rounded, or as it is",
-          "[slow]") {
+TEST_CASE(
+    "R is compared in the texels' units on every device as 0 to 1 or as codes and rounded down or to nearest or not",
+    "[slow]") {
     Random random{721};
     Tally tally;
     for (const ShadowDevice& device : shadow_devices()) {
         const std::uint32_t top = device.format == DepthFormat::d16 ? 65535 : 16777215;
         for (int n = 0; n < 400; ++n) {
             const std::uint32_t texel = n % 5 == 0 ? top : n % 7 == 0 ? 0 : below(random, top + 1);
-            const double beside = static_cast<double>(static_cast<int>(below(random, 17)) - 8) / 4.0;  // in codes
+            // offset in codes
+            const double beside = static_cast<double>(static_cast<int>(below(random, 17)) - 8) / 4.0;
             const double code = static_cast<double>(texel) + beside;
             float r = static_cast<float>(device.convention == WindowZ::buffer_units ? code : code / top);
             if (n % 11 == 0) r = any_float(random);
@@ -82,7 +85,7 @@ TEST_CASE("R is compared in the texels' units on every device: 0 to 1 or codes, 
     CHECK(tally.cases() > 30000);
 }
 
-TEST_CASE("unquantised, a depth between two codes passes neither's EQUAL, and beyond the range it equals the last") {
+TEST_CASE("an unquantised depth between two codes passes EQUAL with neither and beyond the range it equals the last") {
     const ShadowDevice exact{DepthFormat::d16, WindowZ::buffer_units, DepthRounding::nearest, false};
     CHECK_FALSE(shadow_passes(exact, CompareFunc::equal, 1000, 1000.25f));
     CHECK_FALSE(shadow_passes(exact, CompareFunc::equal, 1001, 1000.25f));

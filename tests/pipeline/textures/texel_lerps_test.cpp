@@ -1,4 +1,4 @@
-// Models: words that Mesa 22.3.6's llvmpipe and softpipe drew, and the rules in exact numbers.
+// Tests lookups by lerps against values that Mesa 22.3.6's llvmpipe and softpipe drew, and against exact arithmetic.
 #include "pipeline/textures/texel_lerps.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 #include "pipeline/textures/texture_sample.h"
 #include "tests/pipeline/stage_values.h"
 
-// A namespace of its own: names of the model are short.
+// The model's short names have a namespace of their own.
 namespace strata::testing::lerps_model {
 namespace {
 
@@ -23,7 +23,7 @@ struct Drawn {
     std::uint32_t s, t, red;
 };
 
-// The red of a texture of 7x5 at (s, t).
+// The red channel of a texture of 7 x 5 at (s, t).
 constexpr Drawn drawn_by_mesa[] = {
     {Rule::code_lerps, TextureFilter::nearest, TextureWrap::repeat, 0xbec94b20, 0xbf1a4f17, 0x3e34b4b5},
     {Rule::code_lerps, TextureFilter::nearest, TextureWrap::repeat, 0xbe74e802, 0xbf7c7923, 0x3f39b9ba},
@@ -114,7 +114,7 @@ std::array<float, 4> sampled(const Texture& texture, Rule rule, float s, float t
 
 }  // namespace
 
-TEST_CASE("lookups by lerps are those that the two drivers drew") {
+TEST_CASE("lookups by lerps give the values that the two drivers drew") {
     std::uint64_t wrong = 0;
     for (const Drawn& one : drawn_by_mesa) {
         const Texture texture = texture_of(7, 5, one.filter, one.wrap);
@@ -124,7 +124,7 @@ TEST_CASE("lookups by lerps are those that the two drivers drew") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a lookup by codes is within a code and a half of real arithmetic, one by floats within a few roundings") {
+TEST_CASE("a lookup by codes is within 1.5 codes of exact arithmetic and one by floats within a few roundings") {
     Random random{61};
     std::uint64_t wrong = 0, cases = 0;
     for (const Rule rule : {Rule::code_lerps, Rule::single_lerps})
@@ -151,7 +151,8 @@ TEST_CASE("a lookup by codes is within a code and a half of real arithmetic, one
                 for (std::size_t c = 0; c < 4; ++c) {
                     const double exact = (texel(x, y, c) * (1 - a) + texel(x + 1, y, c) * a) * (1 - b) +
                                          (texel(x, y + 1, c) * (1 - a) + texel(x + 1, y + 1, c) * a) * b;
-                    // A 512th of a weight is at most half a code along each axis, and each lerp rounds by half a code.
+                    // A weight error of 1/512 is at most half a code along each axis, and each lerp rounds by half a
+                    // code.
                     const double slack = rule == Rule::code_lerps ? 2.0 : 0.001;
                     wrong += std::abs(255.0 * double{found[c]} - exact) <= slack ? 0 : 1;
                     ++cases;
@@ -161,11 +162,11 @@ TEST_CASE("a lookup by codes is within a code and a half of real arithmetic, one
     CHECK(cases == 12000);
 }
 
-TEST_CASE("an 8-bit lookup by lerps is a code times the binary32 of 1/255, and what is decoded is mixed as floats") {
+TEST_CASE("an 8-bit lookup by lerps is a code times the binary32 of 1/255 and decoded texels are mixed as floats") {
     const float of_code = 1.0f / 255.0f;
     Texture texture = texture_of(2, 1, TextureFilter::linear, TextureWrap::clamp_to_edge);
     texture.texels = {0, 0, 0, 255, 255, 255, 255, 255};
-    CHECK(sampled(texture, Rule::code_lerps, 0.5f, 0.5f)[0] == 128.0f * of_code);  // 127.5 goes up
+    CHECK(sampled(texture, Rule::code_lerps, 0.5f, 0.5f)[0] == 128.0f * of_code);  // 127.5 rounds up
     CHECK(sampled(texture, Rule::single_lerps, 0.5f, 0.5f)[0] == 0.5f);
     texture.decode_srgb = true;
     texture.texels[0] = 128;

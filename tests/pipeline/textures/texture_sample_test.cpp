@@ -1,3 +1,4 @@
+// Tests texture lookups against rational arithmetic with the texels of tests/pipeline/addressing_model.h.
 #include "pipeline/textures/texture_sample.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -27,14 +28,14 @@ Texture any_texture(Random& random) {
     return texture;
 }
 
-// What a byte of channel c means before filtering.
+// The value of a byte of channel c before filtering.
 float decoded(const Texture& texture, std::uint8_t byte, std::size_t c) {
     return texture.decode_srgb && c < 3 ? srgb_to_linear[byte] : unorm8_table[byte];
 }
 
 float eight_bits(float x) { return static_cast<float>(model::unorm8(bits_of(x))) / 255.0f; }
 
-// A sum in the stated order, each operation rounded to binary32 by way of binary64.
+// A sum in the specified order, each operation rounded to binary32 through binary64.
 float ordered_sum(const std::array<float, 4>& value, const std::array<int, 4>& weight) {
     float sum = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -57,7 +58,7 @@ std::array<float, 4> model_sample(const Texture& texture, TextureFilterPrecision
     for (std::size_t c = 0; c < 4; ++c) {
         const std::array<std::uint8_t, 4> tap{byte(x.first, y.first, c), byte(x.second, y.first, c),
                                               byte(x.first, y.second, c), byte(x.second, y.second, c)};
-        if (!is_single && !texture.decode_srgb) {  // the nearest code to the exact sum, a half up
+        if (!is_single && !texture.decode_srgb) {  // the nearest code to the exact sum, ties up
             int sum = 0;
             for (std::size_t k = 0; k < 4; ++k) sum += tap[k] * weight[k];
             int code = 0;
@@ -92,7 +93,8 @@ Texture row_of(const std::vector<std::uint8_t>& red, TextureFilter filter, Textu
 
 }  // namespace
 
-TEST_CASE("a lookup gives what rational arithmetic gives, for random textures and every kind of coordinate", "[slow]") {
+TEST_CASE("a lookup gives the result of rational arithmetic for random textures and every kind of coordinate",
+          "[slow]") {
     Random random{37};
     Tally tally;
     for (int round = 0; round < 5000; ++round) {
@@ -137,9 +139,7 @@ TEST_CASE("a device that snaps texture coordinates to 1/256 reaches the next tex
     CHECK(sample_one(texture, TextureFilterPrecision::unorm8, just_before, 0.5f)[0] == 0.0f);
 }
 
-TEST_CASE(
-    "a bilinear lookup at a texel's centre is that texel, halfway it is the mean, rounded half up where results have 8 "
-    "bits") {
+TEST_CASE("a bilinear lookup at a texel centre is that texel and halfway the mean rounded half up for 8-bit results") {
     const Texture texture = row_of({10, 21}, TextureFilter::linear, TextureWrap::clamp_to_edge);
     for (const auto precision : {TextureFilterPrecision::unorm8, TextureFilterPrecision::single}) {
         CHECK(sample_one(texture, precision, 0.25f, 0.5f)[0] == unorm8_table[10]);
@@ -150,7 +150,7 @@ TEST_CASE(
     CHECK(sample_one(texture, TextureFilterPrecision::single, 0.5f, 0.5f)[0] == Approx(15.5 / 255));
 }
 
-TEST_CASE("coordinates that are no numbers, infinite or huge give some texel of the image") {
+TEST_CASE("NaN and infinite and huge coordinates give some texel of the image") {
     for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirrored_repeat, TextureWrap::clamp_to_edge})
         for (const TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear}) {
             const Texture texture = row_of({51, 51, 51}, filter, wrap);

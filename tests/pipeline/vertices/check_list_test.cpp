@@ -1,4 +1,5 @@
-// Draw lists whose parts do not fit together are refused by the name of the field; whatever is not refused is prepared.
+// Tests that inconsistent draw lists are rejected with the name of the field, and that every accepted list can be
+// prepared.
 #include "pipeline/vertices/check_list.h"
 
 #include <catch2/catch.hpp>
@@ -38,7 +39,7 @@ DrawList whole_list() {
     return list;
 }
 
-// "" for a list that the door lets in.
+// The error message for the changed list; "" if it is accepted.
 std::string refused(const std::function<void(DrawList&)>& change) {
     DrawList list = whole_list();
     change(list);
@@ -64,7 +65,7 @@ PreparedDraw prepared(const DrawList& list, const strata::rasterizer::RasterStat
 
 }  // namespace
 
-TEST_CASE("a draw list is refused by the name of its first wrong field, what fits there, and what was found") {
+TEST_CASE("a draw list is rejected with the name of its first wrong field and the expected and found values") {
     CHECK(refused([](DrawList&) {}).empty());
     CHECK(refused([](DrawList& l) { l.meshes[1].indices[7] = 31; }) ==
           "draw list: meshes[1].indices[7]: expected less than 8, found 31");
@@ -106,7 +107,7 @@ TEST_CASE("a draw list is refused by the name of its first wrong field, what fit
           "draw list: light.offset_units: expected a finite number, found inf");
 }
 
-TEST_CASE("attributes that a mesh may lack, vertices that are not finite and lists without anything are let in") {
+TEST_CASE("attributes that a mesh may lack and vertices that are not finite and empty lists are accepted") {
     CHECK(refused([](DrawList& l) { l = {}; }).empty());
     CHECK(refused([](DrawList& l) { l.meshes[0].normals.clear(), l.meshes[0].colors.clear(); }).empty());
     CHECK(refused([](DrawList& l) { l.meshes[0].texcoords.clear(); }).empty());
@@ -116,7 +117,7 @@ TEST_CASE("attributes that a mesh may lack, vertices that are not finite and lis
     CHECK(prepared(list).geometry.counters.non_finite > 0);
 }
 
-TEST_CASE("a view and a profile with a value that no rule covers are refused") {
+TEST_CASE("a view and a profile with an undefined value are rejected") {
     View view;
     view.vertex_path = static_cast<VertexPath>(6);
     CHECK_THROWS_WITH(check(view),
@@ -136,7 +137,7 @@ TEST_CASE("a view and a profile with a value that no rule covers are refused") {
         "profile: raster.coverage: expected snapped_edges with raster.color weights_8bit, found float_spans");
 }
 
-TEST_CASE("a list with any of its numbers changed is refused at the door of prepare or prepared") {
+TEST_CASE("a list with any of its numbers changed is rejected by prepare or prepared") {
     constexpr std::uint64_t seed = 961;
     Random random{seed};
     int refusals = 0, done = 0;
@@ -180,7 +181,7 @@ TEST_CASE("a list with any of its numbers changed is refused at the door of prep
     CHECK(done > 150);
 }
 
-TEST_CASE("a state that no rule covers is refused at the door of prepare") {
+TEST_CASE("an undefined state is rejected by prepare") {
     strata::rasterizer::RasterState state = sixteen_pixels();
     state.clip_plane_count = 7;
     CHECK_THROWS_WITH(prepared(whole_list(), state), "raster state: clip_plane_count: expected 0 to 6, found 7");

@@ -1,4 +1,5 @@
-// What a frame's lists hold beside positions and light. Models: the draw list itself, and matrices multiplied out.
+// Tests the contents of a frame's lists besides positions and light, against the draw list itself and matrices
+// multiplied out.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -14,7 +15,7 @@ using namespace strata::pipeline;
 using strata::rasterizer::RasterState;
 using strata::rasterizer::Rect;
 
-// A square in the plane z = 0.5 of clip space for each material, side by side in their order.
+// A square in the plane z = 0.5 of clip space for each material, side by side in order.
 [[nodiscard]] DrawList squares_of(const std::vector<Material>& materials) {
     DrawList list;
     list.textures.resize(2);
@@ -61,7 +62,7 @@ using strata::rasterizer::Rect;
 
 }  // namespace
 
-TEST_CASE("each run of a soup names its instance, material and sides, and its indices name vertices of its own mesh") {
+TEST_CASE("each run of a soup names its instance and material and its indices are vertices of its own mesh") {
     DrawList list = squares_of(six_materials());
     list.materials[2].double_sided = false;
     list.instances[3].model[0][0] = -1;
@@ -90,7 +91,8 @@ TEST_CASE("each run of a soup names its instance, material and sides, and its in
     }
 }
 
-TEST_CASE("the option --alpha scales every alpha at the vertex, but a MASK material's behind its test") {
+TEST_CASE(
+    "the option --alpha scales every alpha at the vertex except a MASK material's which is scaled after its test") {
     const DrawList list = squares_of(six_materials());
     const auto soup = transform(list, {}, {.alpha_scale = 0.25f});
     const PreparedDraw prepared =
@@ -108,7 +110,7 @@ TEST_CASE("the option --alpha scales every alpha at the vertex, but a MASK mater
     }
 }
 
-TEST_CASE("a list needs what its selected materials call for, and triangles of it what theirs do") {
+TEST_CASE("a list needs what its selected materials need and a set of its triangles what theirs do") {
     const DrawList list = squares_of(six_materials());
     const auto prepared = [&](Selection selection, bool shadow = false) {
         return prepare(list, {}, frame_state(), *find_profile("ideal"),
@@ -130,7 +132,7 @@ TEST_CASE("a list needs what its selected materials call for, and triangles of i
     CHECK(needs_of(all, several) == MaterialNeeds{true, true, 0xf000});
 }
 
-TEST_CASE("parts hold the order's ranges, between 0 and 1 where depth is clamped, else between their own depths") {
+TEST_CASE("parts have the order's ranges and depths 0 to 1 where depth is clamped or else their own") {
     DrawList list =
         squares_of({flat_material(AlphaMode::blend), flat_material(AlphaMode::blend), flat_material(AlphaMode::blend)});
     for (std::size_t i = 0; i < 3; ++i)
@@ -160,7 +162,8 @@ TEST_CASE("parts hold the order's ranges, between 0 and 1 where depth is clamped
     }
 }
 
-TEST_CASE("r and q stand first among a vertex's extras, the texture units last, and both as they are alone") {
+TEST_CASE(
+    "a vertex's extras begin with r and q and end with the texture units and either is the same without the other") {
     const TriangleScene scene = random_triangles(741, 12);
     CoordinateUnits units{};
     units[1] = {.enabled = true, .gen = eye_position()};
@@ -180,7 +183,7 @@ TEST_CASE("r and q stand first among a vertex's extras, the texture units last, 
     for (std::size_t v = 0; v < vertices; ++v) {
         wrong += both.of(v)[0] != rq.of(v)[0] || both.of(v)[1] != rq.of(v)[1] ? 1 : 0;
         for (std::size_t k = 0; k < 16; ++k) wrong += both.units_of(v)[k] != alone.of(v)[k] ? 1 : 0;
-        for (std::size_t c = 0; c < 4; ++c) {  // unit 2 is unit 1 scaled; unit 0 is not looked at
+        for (std::size_t c = 0; c < 4; ++c) {  // unit 2 is unit 1 scaled; unit 0 is unused
             const float factor = std::array{2.0f, 3.0f, 4.0f, 1.0f}[c];
             wrong += std::fabs(alone.of(v)[8 + c] - factor * alone.of(v)[4 + c]) > 1e-5f ? 1 : 0;
             wrong += alone.of(v)[c] != 0.0f ? 1 : 0;
@@ -189,7 +192,7 @@ TEST_CASE("r and q stand first among a vertex's extras, the texture units last, 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the texture matrix of depth takes clip z to the depth range, from -w or from 0, and keeps w as q") {
+TEST_CASE("the texture matrix of depth maps clip z from -w or from 0 to the depth range and keeps w as q") {
     Matrix projection;
     for (std::size_t i = 0; i < 16; ++i) projection[i / 4][i % 4] = static_cast<double>(i * i % 7) - 2.5;
     int wrong = 0;
@@ -211,8 +214,7 @@ TEST_CASE("the texture matrix of depth takes clip z to the depth range, from -w 
 }
 
 TEST_CASE(
-    "moving the window moves viewport, scissor and both positions of every corner by whole pixels, each axis by its "
-    "own") {
+    "moving the window moves viewport and scissor and both positions of every corner by whole pixels on each axis") {
     const TriangleScene scene = random_triangles(742, 10);
     for (const bool has_scissor : {false, true})
         for (const char* device : {"geforce3", "geforce8"}) {
@@ -237,7 +239,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("light falls along the view's third row whatever its length, and along z where it has none") {
+TEST_CASE("light falls along the view's third row for any length and along z where the row is zero") {
     DrawList list = squares_of({{.name = "", .front = {1, 1, 1, 1}, .back = {1, 1, 1, 1}}});
     list.meshes[0].normals = {{0, 0, 1}, {1, 0, 0}, {0.6f, 0, 0.8f}, {0, 2, 0}};
     const auto reds = [&](const Matrix& matrix) {

@@ -1,5 +1,5 @@
-// The model: each vertex and triangle of a mesh in a list of its own. Lists are transformed in chunks and in groups of
-// sixteen.
+// Tests long meshes against each vertex and triangle in a list of its own. Lists are transformed in chunks and in
+// groups of sixteen.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -41,7 +41,7 @@ using namespace strata::pipeline;
 
 using VertexBits = std::array<std::uint32_t, 14>;
 
-// Vertex i of a mesh in a list of its own.
+// Vertex i of a mesh, transformed in a list of its own.
 [[nodiscard]] VertexBits vertex_alone(const DrawList& list, const Instance& instance, std::size_t i, const View& view,
                                       const PrepareOptions& options) {
     const Mesh& mesh = list.meshes[instance.mesh];
@@ -59,7 +59,7 @@ using VertexBits = std::array<std::uint32_t, 14>;
 
 }  // namespace
 
-TEST_CASE("meshes of any length are transformed as their vertices are alone, and their triangles follow one another") {
+TEST_CASE("meshes of any length are transformed like their vertices alone and their triangles follow one another") {
     Random random{762};
     View view;
     view.projection = {1.5, 0, 0, 0, 0, 1.25, 0, 0, 0, 0, -1.1, -1, 0, 0, -0.3, 0};
@@ -86,7 +86,7 @@ TEST_CASE("meshes of any length are transformed as their vertices are alone, and
     }
 }
 
-TEST_CASE("r, q and coordinates of units follow the vertices of the instances that are selected, in their order") {
+TEST_CASE("r and q and coordinates of units belong to the vertices of the selected instances in order") {
     DrawList list = two_meshes(40, 30);
     list.materials.push_back(list.materials[0]);
     list.materials[1].alpha_mode = AlphaMode::opaque;
@@ -100,7 +100,7 @@ TEST_CASE("r, q and coordinates of units follow the vertices of the instances th
         options.selection = selection;
         auto all = prepare(list, {}, state, *find_profile("geforce8"), options).geometry.extras;
         const std::size_t given = selection == Selection::all ? 110 : selection == Selection::opaque ? 30 : 80;
-        all.values.resize(18 * given);  // without those that clipping made
+        all.values.resize(18 * given);  // without those that clipping added
         return all.values;
     };
     const auto all = extras(Selection::all), opaque = extras(Selection::opaque),
@@ -114,7 +114,7 @@ TEST_CASE("r, q and coordinates of units follow the vertices of the instances th
     const std::vector<float> last = part(70, 110);
     others.insert(others.end(), last.begin(), last.end());
     CHECK(transparent == others);
-    for (std::size_t i = 0; i < 40; ++i) {  // unit 0's own coordinates are the mesh's
+    for (std::size_t i = 0; i < 40; ++i) {  // unit 0 has the coordinates of the mesh
         CHECK(all[18 * i + 2] == list.meshes[0].texcoords[i][0]);
         CHECK(all[18 * i + 3] == list.meshes[0].texcoords[i][1]);
         CHECK(all[18 * i + 4] == 0.0f);

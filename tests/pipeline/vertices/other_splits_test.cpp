@@ -1,3 +1,4 @@
+// Tests other orders and diagonals of triangles on grids of quads whose expected result is known.
 #include "pipeline/vertices/other_splits.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +14,7 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::rasterizer::FragmentBatch;
 
-// A grid of flat quads in the plane z = 0.25 x + 0.5 y, cut from lower left to upper right.
+// A grid of flat quads in the plane z = 0.25 x + 0.5 y, split from lower left to upper right.
 [[nodiscard]] DrawList flat_grid(int side) {
     Mesh mesh;
     for (int y = 0; y <= side; ++y)
@@ -37,10 +38,10 @@ using strata::rasterizer::FragmentBatch;
 
 struct Depths {
     std::map<std::array<int, 2>, std::uint32_t> code;
-    bool once = true;  // no pixel twice
+    bool once = true;  // no pixel is drawn twice
 };
 
-// Codes by pixel, seen from the viewport's corner.
+// Codes by pixel, relative to the viewport's corner.
 [[nodiscard]] Depths codes(const DrawList& list, strata::rasterizer::DepthPath path, const char* profile,
                            int shift = 0) {
     strata::rasterizer::RasterState state;
@@ -67,7 +68,7 @@ struct Depths {
 
 }  // namespace
 
-TEST_CASE("rotating names each triangle's corners in another order and leaves everything else") {
+TEST_CASE("rotating starts each triangle at another corner and changes nothing else") {
     const DrawList list = random_triangles(951, 10).list;
     for (const int k : {-1, 0, 1, 2, 3, 4}) {
         const DrawList other = rotate_vertices(list, k);
@@ -81,9 +82,9 @@ TEST_CASE("rotating names each triangle's corners in another order and leaves ev
     }
 }
 
-// A quad of sides 1000, 499, 1 and 500 whose last corner lies 7e-4 off the plane: 2^-20 of the first side is 9.5e-4, of
+// A quad of sides 1000, 499, 1 and 500 whose last corner is 7e-4 off the plane: 2^-20 of the first side is 9.5e-4, of
 // any other less than 4.8e-4.
-TEST_CASE("how far a corner may lie off the plane goes by the longest of all four sides") {
+TEST_CASE("the permitted distance of a corner from the plane depends on the longest of all four sides") {
     DrawList list = flat_grid(1);
     list.meshes[0].positions = {{0, 0, 0}, {1000, 0, 0}, {501, 1, 0}, {500, 1, 7e-4f}};
     list.meshes[0].indices = {0, 1, 2, 0, 2, 3};
@@ -92,7 +93,7 @@ TEST_CASE("how far a corner may lie off the plane goes by the longest of all fou
     CHECK(flip_diagonals(list).quads == 0);
 }
 
-TEST_CASE("flat quads are cut along their other diagonal, bent ones and lone triangles stay") {
+TEST_CASE("flat quads are split along their other diagonal and bent ones and single triangles are unchanged") {
     const Flipped flipped = flip_diagonals(flat_grid(4));
     CHECK(flipped.quads == 16);
     CHECK(std::vector(flipped.list.meshes[0].indices.begin(), flipped.list.meshes[0].indices.begin() + 6) ==
@@ -101,7 +102,7 @@ TEST_CASE("flat quads are cut along their other diagonal, bent ones and lone tri
     DrawList bent = flat_grid(1);
     bent.meshes[0].positions[3][2] += 0x1p-10f;
     CHECK(flip_diagonals(bent).quads == 0);
-    DrawList arrow = flat_grid(1);  // not convex: its other diagonal lies outside
+    DrawList arrow = flat_grid(1);  // not convex: its other diagonal is outside
     arrow.meshes[0].positions[1] = {-0.25f, 0.25f, 0.0625f};
     CHECK(flip_diagonals(arrow).quads == 0);
     CHECK(flip_diagonals(random_triangles(952, 10).list).quads == 0);
@@ -110,9 +111,7 @@ TEST_CASE("flat quads are cut along their other diagonal, bent ones and lone tri
     CHECK(flip_diagonals(touching).quads == 0);
 }
 
-TEST_CASE(
-    "another order, diagonal or place changes no exact depth, while the chip's own rule depends on order and "
-    "diagonal") {
+TEST_CASE("no exact depth depends on order or diagonal or position but the chip's own depths do") {
     using strata::rasterizer::DepthPath;
     const DrawList list = flat_grid(5);
     const DrawList rotated = rotate_vertices(list, 1), flipped = flip_diagonals(list).list;

@@ -1,4 +1,5 @@
-// The vertex stage against binary32 written out operation by operation, and what a frame's lists hold.
+// Tests the vertex stage against binary32 arithmetic written out operation by operation, and the contents of a frame's
+// lists.
 #include "pipeline/vertices/prepare.h"
 
 #include <bit>
@@ -57,7 +58,7 @@ bool same(const strata::rasterizer::SetupTriangle& a, const strata::rasterizer::
            a.front_facing == b.front_facing;
 }
 
-// One triangle in the plane z = 0, counter-clockwise for a viewer at +z.
+// One triangle in the plane z = 0, counterclockwise for a viewer at +z.
 DrawList one_triangle(const Material& material, const Matrix& model = identity) {
     DrawList list;
     list.meshes = {{.name = "",
@@ -72,7 +73,7 @@ DrawList one_triangle(const Material& material, const Matrix& model = identity) 
     return list;
 }
 
-// Some go through the vertex stage in a group, some by themselves.
+// Some vertices are transformed in a group, others singly.
 constexpr std::size_t several_vertices = 37;
 
 // The light factor of a normal under a model and a view, in binary64.
@@ -92,7 +93,7 @@ double light_factor(const Vec3& n, const Matrix& m, const Matrix& view) {
 
 }  // namespace
 
-TEST_CASE("vertices are multiplied by the matrix product, rounded once, with every operation rounded") {
+TEST_CASE("vertices are multiplied by the matrix product rounded once with every operation rounded") {
     Random random{501};
     std::size_t wrong = 0;
     for (int round = 0; round < 500; ++round) {
@@ -114,7 +115,7 @@ TEST_CASE("vertices are multiplied by the matrix product, rounded once, with eve
     CHECK(wrong == 0);
 }
 
-TEST_CASE("lighting is 1/4 + 3/4 |N.L| towards the eye, under any model matrix, and leaves alpha alone") {
+TEST_CASE("lighting is 1/4 + 3/4 abs of N.L towards the eye under any model matrix and leaves alpha unchanged") {
     Random random{502};
     double worst = 0;
     std::size_t others = 0;
@@ -140,8 +141,7 @@ TEST_CASE("lighting is 1/4 + 3/4 |N.L| towards the eye, under any model matrix, 
 }
 
 TEST_CASE(
-    "a surface that faces the eye or turns its back is fully lit, one seen edge-on a quarter, an unlit one not at "
-    "all") {
+    "a surface that faces the eye or away is fully lit and one seen edge-on a quarter and an unlit one not at all") {
     const auto red = [](const Vec3& normal, bool unlit) {
         DrawList list = one_triangle({.name = "", .unlit = unlit});
         list.meshes[0].normals.assign(3, normal);
@@ -154,7 +154,7 @@ TEST_CASE(
     CHECK(red({1, 0, 0}, true) == 1.0f);
 }
 
-TEST_CASE("every instruction set lights and transforms vertices to the same bits, normals of no length among them") {
+TEST_CASE("every instruction set lights and transforms vertices to the same bits including normals of length zero") {
     Random random{503};
     DrawList list = one_triangle({.name = "", .front = {1, 0.5f, 0.25f, 0.75f}}, random_matrix(random));
     list.meshes[0].positions.resize(500);
@@ -189,7 +189,7 @@ TEST_CASE("vertex colours multiply the material's") {
     CHECK(soup.vertices[0].back == std::array{0.5f, 0.25f, 1.0f, 0.5f});
 }
 
-TEST_CASE("a mirrored instance turns its winding, and its front stays its front") {
+TEST_CASE("a mirrored instance reverses its winding and its front stays its front") {
     const auto prepared = [](double x_scale, double y_scale) {
         Matrix model = identity;
         model[0][0] = x_scale;
@@ -207,7 +207,7 @@ TEST_CASE("a mirrored instance turns its winding, and its front stays its front"
         }
 }
 
-TEST_CASE("an instance without volume is not mirrored: its model's determinant is 0") {
+TEST_CASE("an instance without volume is not mirrored because its model's determinant is 0") {
     Matrix model = identity;
     model[2][2] = 0;
     strata::rasterizer::RasterState raster;
@@ -217,7 +217,7 @@ TEST_CASE("an instance without volume is not mirrored: its model's determinant i
     CHECK(draw.geometry.triangles[0].front_facing);
 }
 
-TEST_CASE("a w buffer's unit is the far plane's w, where clip z is clip w, or 1 without such a plane") {
+TEST_CASE("a w buffer's unit is the far plane's w where clip z is clip w or 1 without such a plane") {
     const auto scale = [](double zz, double zw, double wz, double ww) {  // clip z = zz z + zw, clip w = wz z + ww
         View view;
         view.projection[2][2] = zz;
@@ -236,7 +236,7 @@ TEST_CASE("a w buffer's unit is the far plane's w, where clip z is clip w, or 1 
     CHECK(scale(-0.5, -2, -1, 0) == 1.0f);  // behind the eye
 }
 
-TEST_CASE("parts keep their primitives and lie between their depths, which no fragment leaves") {
+TEST_CASE("parts keep their primitives and their depth range contains all of their fragments") {
     const TriangleScene scene = random_triangles(507, 24);
     for (const char* profile : {"geforce8", "ideal", "llvmpipe"}) {
         strata::rasterizer::RasterState raster;
@@ -265,14 +265,14 @@ TEST_CASE("parts keep their primitives and lie between their depths, which no fr
     }
 }
 
-TEST_CASE("altered vertices are those that are projected, and altered corners those that are drawn") {
+TEST_CASE("altered vertices are projected and altered corners are drawn") {
     const TriangleScene scene = random_triangles(508, 24);
     strata::rasterizer::RasterState raster;
     raster.viewport = {0, 0, 64, 64};
     const auto prepared = [&](const VertexAlteration* alteration) {
         return prepare(scene.list, scene.view, raster, *find_profile("geforce8"), {.alteration = alteration});
     };
-    // Every w is doubled together with x, y and z: a power of two moves no vertex, but halves 1 / w.
+    // Doubles w together with x, y and z: a power of two moves no vertex, but halves 1 / w.
     const VertexAlteration doubled{.vertices =
                                        [](strata::rasterizer::TriangleSoup& soup) {
                                            for (ClipVertex& v : soup.vertices)
@@ -293,7 +293,7 @@ TEST_CASE("altered vertices are those that are projected, and altered corners th
     CHECK(wrong == 0);
 }
 
-TEST_CASE("opaque and masked materials go to the opaque list, blended ones to the transparent") {
+TEST_CASE("opaque and masked materials go to the opaque list and blended ones to the transparent") {
     const TriangleScene scene = random_triangles(504, 8);  // materials: blend, blend, mask, opaque
     const auto materials = [&](Selection selection) {
         std::vector<std::uint32_t> found;
@@ -306,7 +306,7 @@ TEST_CASE("opaque and masked materials go to the opaque list, blended ones to th
     CHECK(materials(Selection::transparent) == std::vector<std::uint32_t>{0, 1});
 }
 
-TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
+TEST_CASE("MASK tests the material's own alpha when every alpha is scaled") {
     for (const float scale : {1.0f, 0.5f, 0.1f})
         for (const float alpha : {0.25f, 0.374f, 0.375f, 0.5f, 0.75f}) {  // .374 and .375 are codes 95 and 96
             FragmentScene scene{4, 4};
@@ -331,7 +331,7 @@ TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
         }
 }
 
-TEST_CASE("lists know whether a pass must shade: textures, and alphas that MASK tests") {
+TEST_CASE("lists know whether a pass must shade for textures or for alphas that MASK tests") {
     const auto needs = [](Selection selection) {
         const TriangleScene scene = random_triangles(505, 8);
         strata::rasterizer::RasterState raster;
@@ -344,7 +344,7 @@ TEST_CASE("lists know whether a pass must shade: textures, and alphas that MASK 
     CHECK(needs(Selection::transparent) == std::pair{true, false});
 }
 
-TEST_CASE("vertices, triangles and bins do not depend on the number of threads") {
+TEST_CASE("vertices and triangles and bins do not depend on the number of threads") {
     TriangleScene scene = random_triangles(506, 6000);  // several chunks of vertices
     strata::rasterizer::RasterState raster;
     raster.viewport = {0, 0, 64, 64};

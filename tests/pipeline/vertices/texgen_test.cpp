@@ -1,3 +1,4 @@
+// Tests generated texture coordinates against planes and matrices in rational arithmetic.
 #include "pipeline/vertices/texgen.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,7 @@ using model::Rational;
 
 namespace {
 
-// A small fraction that many products of leave exact.
+// A small fraction, so that many products of it are exact.
 double small(Random& random) { return (static_cast<int>(below(random, 65)) - 32) / 8.0; }
 
 Plane4 any_plane(Random& random) { return {small(random), small(random), small(random), small(random)}; }
@@ -22,7 +23,7 @@ Matrix any_matrix(Random& random) {
     return strata::matrix_of(m);
 }
 
-// Quarter turns, powers of two and shifts: its inverse is exact.
+// Quarter turns, powers of two and translations: its inverse is exact.
 Matrix any_modelview(Random& random) {
     Matrix turn(0.0);
     const std::size_t first = below(random, 3);
@@ -47,7 +48,7 @@ std::array<Rational, 4> exact(const Plane4& p) {
 
 }  // namespace
 
-TEST_CASE("generated coordinates are planes over object or eye space, taken through the texture matrix", "[slow]") {
+TEST_CASE("generated coordinates are planes over object or eye space multiplied by the texture matrix", "[slow]") {
     Random random{301};
     Tally tally;
     for (int round = 0; round < 3000; ++round) {
@@ -81,7 +82,8 @@ TEST_CASE("generated coordinates are planes over object or eye space, taken thro
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("an eye plane holds in eye space what it held in the space of the modelview at its specification") {
+TEST_CASE(
+    "an eye plane has in eye space the values that it had in the space of the modelview matrix when it was specified") {
     Random random{302};
     Tally tally;
     for (int round = 0; round < 500; ++round) {
@@ -97,19 +99,18 @@ TEST_CASE("an eye plane holds in eye space what it held in the space of the mode
     CHECK(eye_position()[2].plane == Plane4{0, 0, 1, 0});
 }
 
-TEST_CASE("a coordinate is rounded to binary32 after every operation, its matrix once") {
+TEST_CASE("a coordinate is rounded to binary32 after every operation and its matrix once") {
     CoordinateUnits units{};
     units[1] = {.enabled = true, .gen = eye_position(), .matrix = scaling(1 + 0x1p-30, 1, 1)};
     const Vec3 p{1 + 0x1p-23f, 0x1p-24f, 0x1p-24f};
     CHECK(VertexCoordinates{units, {}, identity}.at(p, {})[1][0] == p[0]);  // 1 + 2^-30 is 1 in binary32
-    units[1].matrix[1][0] =
-        1;  // s = x + y + z: each half of a unit in the last place is lost, though both together count
+    units[1].matrix[1][0] = 1;  // s = x + y + z: each half unit in the last place is lost, though their sum would count
     units[1].matrix[2][0] = 1;
     const Vec3 halves{1, 0x1p-24f, 0x1p-24f};
     CHECK(VertexCoordinates{units, {}, identity}.at(halves, {})[1][0] == 1.0f);
 }
 
-TEST_CASE("depth units multiply s, t and r behind the texture matrix, and leave q alone") {
+TEST_CASE("depth units multiply s t r after the texture matrix and leave q unchanged") {
     Random random{303};
     CoordinateUnits plain{};
     plain[2] = {.enabled = true, .gen = eye_position(), .matrix = any_matrix(random)};

@@ -1,4 +1,5 @@
-// The model: rationals (tests/rasterizer/rational.h) with the roundings of vertex_transform.h written out.
+// Tests the vertex transform against rationals (tests/rasterizer/rational.h) with the roundings of vertex_transform.h
+// written out.
 #include "pipeline/vertices/vertex_transform.h"
 
 #include <catch2/catch.hpp>
@@ -37,7 +38,7 @@ constexpr std::array paths{VertexPath::separate,         VertexPath::fused,     
     return v < 0 ? -nearest_float(size) : nearest_float(size);
 }
 
-// v to 53 bits, to nearest, ties to even.
+// v rounded to 53 bits, to nearest, ties to even.
 [[nodiscard]] Rational near53(const Rational& v) {
     if (v == 0) return v;
     const int unit = strata::rasterizer::floor_log2(abs(v)) - 52;
@@ -95,7 +96,7 @@ struct Matrices {
             return in_pairs(Matrices::rounded(m.outer, r), eye);
         }
         case VertexPath::nv20: {
-            using namespace strata::rasterizer::nv20;  // of its own test
+            using namespace strata::rasterizer::nv20;  // these functions have their own tests
             return sum(std::array{multiply(row[0], p[0]), multiply(row[1], p[1]), multiply(row[2], p[2]), row[3]});
         }
     }
@@ -104,7 +105,7 @@ struct Matrices {
 
 }  // namespace
 
-TEST_CASE("every vertex path rounds where its rule says, and no two give the same bits throughout", "[slow]") {
+TEST_CASE("every vertex path rounds where its rule says and no two give the same bits throughout", "[slow]") {
     Random random{931};
     std::array<std::uint64_t, paths.size()> wrong{}, unlike_separate{};
     for (int i = 0; i < 300; ++i) {
@@ -126,7 +127,7 @@ TEST_CASE("every vertex path rounds where its rule says, and no two give the sam
     }
 }
 
-TEST_CASE("a view's vertex path computes its positions, and nv20 divides by w as that engine does") {
+TEST_CASE("a view's vertex path computes its positions and nv20 divides by w as that engine does") {
     const TriangleScene scene = random_triangles(932, 40);
     const DeviceProfile& geforce3 = *find_profile("geforce3");
     strata::rasterizer::RasterState state;
@@ -155,7 +156,7 @@ TEST_CASE("a view's vertex path computes its positions, and nv20 divides by w as
     }
 }
 
-TEST_CASE("r over q is the window depth of the vertex, in the units of vertex z, for every depth range and path") {
+TEST_CASE("r over q is the window depth of the vertex in the units of vertex z for every depth range and path") {
     const TriangleScene scene = random_triangles(933, 40);
     for (const char* profile : {"geforce3", "geforce8"})
         for (const VertexPath path : paths)
@@ -186,7 +187,7 @@ TEST_CASE("r over q is the window depth of the vertex, in the units of vertex z,
             }
 }
 
-TEST_CASE("the rows of r and q are Listing 2's matrices multiplied out, row r times 2^n - 1") {
+TEST_CASE("the rows of r and q are Listing 2's matrices multiplied out with row r times 2^n - 1") {
     Random random{934};
     Matrix p, v, m;  // multiples of 2^-6 below 4: every product and sum is exact in binary64
     for (Matrix* each : {&p, &v, &m})
