@@ -1,6 +1,6 @@
-// Backgrounds that let light through. Model: the layers of a pixel in real numbers, far to near: premultiplied colours
-// and 1 - the product of all (1 - alpha), that of the background among them. Opaque surfaces have alpha 1 whatever lies
-// behind them.
+// Tests backgrounds with alpha below 1. The expected pixel is computed in real numbers from its layers, far to near:
+// premultiplied colours, and 1 - the product of all (1 - alpha), including that of the background. Opaque surfaces have
+// alpha 1 over any background.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,8 +21,8 @@ using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
 using strata::peeling::TiePolicy;
 
-// Up to four fragments a pixel, submitted far to near, so that each algorithm orders them right; of one alpha a pixel,
-// so that their average lets through what they do.
+// Up to four fragments per pixel, submitted far to near, so that each algorithm orders them correctly; all fragments of
+// a pixel have one alpha, so that their average has the same transmittance.
 FragmentScene layered(std::uint64_t seed) {
     Random random{seed};
     FragmentScene scene{8, 8};
@@ -59,18 +59,18 @@ double value(const Image& image, std::size_t pixel, std::size_t channel) {
     return std::bit_cast<float>(image.codes[4 * pixel + channel]);
 }
 
-// Adds its fragments up in float targets of its own, whatever their order.
+// Adds its fragments in float targets, in any order.
 bool is_average(const Algorithm& algorithm) {
     return algorithm.ties == TiePolicy::none &&
            std::ranges::find(algorithm.features, Feature::float_targets) != algorithm.features.end();
 }
 
-// Which has no order, or takes the scene's one object for sorted near to far.
+// An algorithm that ignores order, or that requires the scene's one object to be sorted near to far.
 bool is_disordered(const Algorithm& algorithm) { return is_average(algorithm) || algorithm.name == "object_sorted"; }
 
 }  // namespace
 
-TEST_CASE("every algorithm leaves premultiplied colours and 1 - the product of (1 - alpha) over a clear background") {
+TEST_CASE("every algorithm writes premultiplied colours and 1 - the product of 1 - alpha over a clear background") {
     const FragmentScene scene = layered(4);
     for (const Rgba& background : {Rgba{0, 0, 0, 0}, Rgba{0.25f, 0.125f, 0, 0.5f}})
         for (const Running& running : all_ways_of_running)
@@ -99,7 +99,7 @@ TEST_CASE("every algorithm leaves premultiplied colours and 1 - the product of (
                         worst_color =
                             std::max(worst_color, std::abs(value(result.frame.color, p, c) - wanted.color[c]));
                 }
-                // Sums are halves where the machine's own are not binary32.
+                // Sums are halves where the device's own are not binary32.
                 CHECK(worst < (is_average(algorithm) ? 1e-3 : 1e-5));
                 CHECK(worst_color < 1e-5);
                 CHECK(not_opaque == 0);
@@ -107,7 +107,7 @@ TEST_CASE("every algorithm leaves premultiplied colours and 1 - the product of (
             }
 }
 
-TEST_CASE("8-bit pictures over a clear background are within a code a layer of the real alpha, in every execution") {
+TEST_CASE("8-bit pictures over a clear background are within one code per layer of the real alpha in every execution") {
     const FragmentScene scene = layered(9);
     for (const Algorithm& algorithm : algorithms()) {
         if (is_average(algorithm)) continue;
@@ -133,7 +133,7 @@ TEST_CASE("8-bit pictures over a clear background are within a code a layer of t
     }
 }
 
-TEST_CASE("OVER onto a clear background is refused where alpha has no factors of its own") {
+TEST_CASE("OVER onto a clear background is rejected where alpha has no separate factors") {
     const FragmentScene scene = layered(2);
     RenderOptions options = options_for(scene);
     options.background = {0, 0, 0, 0};

@@ -1,5 +1,5 @@
-// Passes that no algorithm of the papers makes, written against Region as a user would: the same pixels in every way of
-// running, and those that the passes' own words ask for.
+// Tests passes that no algorithm of the papers has, written against Region as a user would. Every execution must give
+// the same pixels, which are those that the passes define.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -14,10 +14,10 @@ using strata::peeling::RenderResult;
 
 }  // namespace
 
-// The first clear of the opaque depth is remembered, so that tests against it may be left out; what takes its place
-// must be tested against.
+// The first clear of the opaque depth is recorded, so that tests against it may be skipped; later contents must be
+// tested.
 TEST_CASE(
-    "what an algorithm copies or clears into the opaque depth hides what lies behind it in every way of running") {
+    "a depth that an algorithm copies or clears into the opaque depth hides what is behind it in every execution") {
     const bool clears = GENERATE(false, true);
     FragmentScene scene{20, 12};
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)
@@ -50,9 +50,9 @@ TEST_CASE(
     }
 }
 
-// The second layer's program paints where it stands; its fragments are found by their keys, without rasterizing them
-// again.
-TEST_CASE("a program sees the same window position in a pass that visits what it keeps") {
+// The second layer's program writes the window position; its fragments are found by their keys, without rasterizing
+// them again.
+TEST_CASE("a program sees the same window position in a pass that visits only selected fragments") {
     FragmentScene scene{20, 12};
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)
         for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
@@ -100,8 +100,8 @@ TEST_CASE("a program sees the same window position in a pass that visits what it
     }
 }
 
-// An unclamped D32F buffer keeps -1, whose word is larger than that of any depth.
-TEST_CASE("nothing passes LESS against a depth below 0, in a pass that visits what it keeps") {
+// An unclamped D32F buffer keeps -1, whose bits as an integer are larger than those of any depth.
+TEST_CASE("nothing passes LESS against a depth below 0 in a pass that visits only selected fragments") {
     FragmentScene scene{20, 12};
     for (GivenPixel& pixel : scene.pixels)
         for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})

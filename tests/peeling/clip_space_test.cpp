@@ -1,5 +1,5 @@
-// Model: matrices that bring vertices to clip space, multiplied here with the rounding of the vertex stage; identity
-// matrices change nothing.
+// Tests triangles given in clip space against triangles that matrices transform there. The products are rounded like
+// those of the vertex stage; identity matrices change nothing.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -11,7 +11,7 @@
 using namespace strata::testing;
 using namespace strata::pipeline;
 
-TEST_CASE("triangles that are given in clip space are drawn as those that matrices bring there") {
+TEST_CASE("triangles that are given in clip space are drawn like those that matrices transform there") {
     TriangleScene scene = random_triangles(31, 40);
     for (Material& material : scene.list.materials) material.unlit = true;
     DrawList clip = scene.list;

@@ -1,5 +1,5 @@
-// Peels that compare another depth than they store. Model: layers that the scene was built with. That they keep their
-// promises is asked in selection_test.cpp, and that they execute alike by differential fuzzing.
+// Tests peels that compare another depth than they store, on scenes with a known number of layers. selection_test.cpp
+// tests that they keep the contract of their selections, and differential fuzzing that they execute alike.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/rendering.h"
@@ -11,7 +11,7 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::peeling::RenderOptions;
 
-// `layers` at every pixel, a 2048th of the range apart, in an submission order that is no order of depth.
+// `layers` at every pixel, 1/2048 of the range apart, in a submission order unrelated to depth.
 FragmentScene shuffled_layers(std::uint32_t layers) {
     FragmentScene scene{16, 16};
     Random random{6};
@@ -43,7 +43,9 @@ constexpr Comparison comparisons[]{
 
 }  // namespace
 
-TEST_CASE("what a peel visits grows with its layers and not with their square, whatever depth it compares", "[slow]") {
+TEST_CASE(
+    "the number of fragments that a peel visits grows with its layers and not with their square for any compared depth",
+    "[slow]") {
     const std::vector<std::pair<Machine, std::uint32_t>> most_a_layer{{{"geforce3", "depth_units"}, 3},
                                                                       {{"geforce3", "shadow_map"}, 3},
                                                                       {{"geforce8", "front_to_back"}, 3},

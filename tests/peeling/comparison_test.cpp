@@ -1,5 +1,5 @@
-// Peels that compare another depth than they store: cures that must be exact, hazards that must show, and every
-// execution alike. Epsilons against a list model of a pixel.
+// Tests peels that compare another depth than they store: with depth replace they must be exact, with other paths
+// errors must be reported, and all executions must be equal. Epsilons are tested against a model of one pixel's list.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/rendering.h"
@@ -43,7 +43,8 @@ using strata::rasterizer::DepthPath;
 
 }  // namespace
 
-TEST_CASE("compared by the quotient that depth replace stores, a peel is the peel that compares nothing else") {
+TEST_CASE(
+    "a peel that compares the quotient that depth replace stores equals the peel that compares the stored depth") {
     const TriangleScene scene = random_triangles(961, 60);
     const auto same = [&](const Machine& machine, DepthFormat format) {
         RenderOptions cure = with_paths(format, DepthPath::depth_replace, DepthPath::perspective_rq);
@@ -68,7 +69,7 @@ TEST_CASE("compared by the quotient that depth replace stores, a peel is the pee
     same({"ideal", "front_to_back"}, DepthFormat::d32f);
 }
 
-TEST_CASE("window_z stored and r/q compared peels layers twice or loses them, and the run says that it did not end") {
+TEST_CASE("with stored window_z and compared r/q layers are repeated or lost and the run reports that it did not end") {
     const TriangleScene scene = random_triangles(962, 60);
     const RenderResult right = run(scene, {"geforce3", "depth_units"}, small());
     const RenderResult wrong = run(scene, {"geforce3", "depth_units"},
@@ -80,7 +81,7 @@ TEST_CASE("window_z stored and r/q compared peels layers twice or loses them, an
 }
 
 TEST_CASE(
-    "a compared depth that is not rounded like the stored one never ends a D24 peel six layers deep, and it says so") {
+    "a compared depth that is not rounded like the stored one never ends a D24 peel six layers deep and is reported") {
     FragmentScene scene{2, 2};
     for (std::size_t p = 0; p < 4; ++p)
         for (int layer = 0; layer < 6; ++layer)
@@ -99,7 +100,7 @@ TEST_CASE(
     const RenderResult right = render(scene, {"geforce8", "front_to_back"}, options);
     CHECK(right.frame.passes.geometry == 7);
     CHECK_FALSE(has_diagnostic(right, Fault::endless));
-    auto profile = *strata::pipeline::find_profile("geforce8");  // the same as a device's hypothesis
+    auto profile = *strata::pipeline::find_profile("geforce8");  // the device's hypothesis gives the same
     profile.raster.hypothesis.quantize_reference = false;
     const auto list = draw_list(scene);
     strata::peeling::Renderer renderer{list, {}, profile, options};
@@ -108,19 +109,19 @@ TEST_CASE(
 
 namespace {
 
-// Codes of D32F, so that neighbours are one unit in the last place apart.
+// Works on codes of D32F, in which neighbours are one unit in the last place apart.
 [[nodiscard]] float raised(float z, int ulps) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(z) + static_cast<std::uint32_t>(ulps));
 }
 
-// One column of fragments; 2 depth - 1 is exact in binary32 for these.
+// One pixel's fragments; 2 depth - 1 is exact in binary32 for these.
 [[nodiscard]] FragmentScene column(const std::vector<float>& depths) {
     FragmentScene scene{1, 1};
     for (const float z : depths) scene.pixels[0].fragments.push_back({.depth = z, .color = {1, 1, 1, 0.25f}});
     return scene;
 }
 
-// How many layers a peel with this epsilon finds: each the nearest beyond the last one and the epsilon.
+// Number of layers that a peel with this epsilon finds: each is the nearest one beyond the last layer plus the epsilon.
 [[nodiscard]] int model_layers(std::vector<float> depths, const CompareEpsilon& epsilon) {
     std::ranges::sort(depths);
     int layers = 0;
@@ -135,7 +136,7 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("an epsilon in the shader's compare merges the layers that it spans, front to back") {
+TEST_CASE("an epsilon in the shader's comparison merges the layers within it from front to back") {
     constexpr float u = 0x1p-24f;  // a unit in the last place of [0.5, 1)
     const std::vector<float> depths{0.5f, 0.5f + u, 0.5f + 2 * u, 0.5f + 4 * u, 0.625f, 0.75f, 0.75f + 6 * u};
     for (const CompareEpsilon epsilon :
@@ -152,14 +153,14 @@ TEST_CASE("an epsilon in the shader's compare merges the layers that it spans, f
     }
 }
 
-TEST_CASE("dual peeling counts what lies within the epsilon of a peeled depth as that depth") {
+TEST_CASE("dual peeling counts depths within the epsilon of a peeled depth as that depth") {
     constexpr float u = 0x1p-24f;
     struct Case {
         std::vector<float> depths;
         CompareEpsilon epsilon;
-        int passes;  // 1 + what the list model below says
+        int passes;  // 1 + the number of passes of the list model below
     };
-    // Each pass takes the nearest and the farthest, and all that lies within the epsilon of either.
+    // Each pass takes the nearest and the farthest depth, and all within the epsilon of either.
     const auto model = [](std::vector<float> left, double epsilon) {
         int passes = 0;
         while (!left.empty()) {
@@ -177,7 +178,7 @@ TEST_CASE("dual peeling counts what lies within the epsilon of a peeled depth as
         options.compare_epsilon = {0, static_cast<int>(ulps)};
         for (const char* algorithm : {"dual", "dual_independent"}) {
             INFO(algorithm << ", " << ulps);
-            const int extra = algorithm == std::string{"dual"} ? 0 : 1;  // its query finds out one pass later
+            const int extra = algorithm == std::string{"dual"} ? 0 : 1;  // its query finds the end one pass later
             const int expected = model(depths, ulps * double{u});
             CHECK(render(scene, {"geforce8_dx101", algorithm}, options).frame.passes.geometry == expected + extra);
             options.compare_epsilon = {ulps * double{u}, 0};
@@ -186,7 +187,7 @@ TEST_CASE("dual peeling counts what lies within the epsilon of a peeled depth as
     }
 }
 
-TEST_CASE("passes that transform by another vertex path see other depths, and the same path twice is one list") {
+TEST_CASE("passes that transform by another vertex path see other depths and with the same path the lists are equal") {
     const TriangleScene scene = random_triangles(963, 60);
     RenderOptions options = small();
     const RenderResult plain = run(scene, {"geforce8", "front_to_back"}, options);
@@ -199,11 +200,11 @@ TEST_CASE("passes that transform by another vertex path see other depths, and th
         errors += run(scene, {"geforce8", "front_to_back"}, options).audit.order_errors.value();
     }
     CHECK(errors > 0);
-    options.vertex_paths = {VertexPath::fused, std::nullopt};  // both passes alike: nothing is wrong
+    options.vertex_paths = {VertexPath::fused, std::nullopt};  // both passes alike, so there is no error
     CHECK(run(scene, {"geforce8", "front_to_back"}, options).audit.order_errors == 0u);
 }
 
-TEST_CASE("a second list that is the first one again, split otherwise or clamped, is drawn by the passes that peel") {
+TEST_CASE("a second list with the same or split or clamped triangles is drawn by the passes that peel") {
     const TriangleScene scene = random_triangles(964, 60);
     RenderOptions options = small();
     options.audit = false;
@@ -215,15 +216,15 @@ TEST_CASE("a second list that is the first one again, split otherwise or clamped
     CHECK(again.frame.counters == plain.frame.counters);
     strata::pipeline::DrawList empty = scene.list;
     empty.instances.clear();
-    options.second_list = &empty;  // only the first pass finds anything
+    options.second_list = &empty;  // only the first pass finds fragments
     CHECK(run(scene, {"geforce8", "front_to_back"}, options).frame.passes.geometry == 2);
     options.second_list = nullptr;
     options.second_depth_clamp = true;
     CHECK(run(scene, {"geforce8", "front_to_back"}, options).frame.color ==
-          plain.frame.color);  // nothing is cut at near or far
+          plain.frame.color);  // nothing crosses the near or far plane
 }
 
-TEST_CASE("an algorithm that knows only stored codes is refused where another depth is to be compared") {
+TEST_CASE("an algorithm that knows only stored codes is rejected where another depth is to be compared") {
     const TriangleScene scene = random_triangles(967, 8);
     RenderOptions options = small();
     options.compare_epsilon = {0, 1};
@@ -237,7 +238,7 @@ TEST_CASE("an algorithm that knows only stored codes is refused where another de
     CHECK(render(scene.list, scene.view, {"ideal", "weighted_sum"}, options).outcome == strata::peeling::Outcome::done);
 }
 
-TEST_CASE("a window that lies elsewhere on its surface shows the same picture by an exact depth path") {
+TEST_CASE("a window at another position of its surface shows the same picture with an exact depth path") {
     const TriangleScene scene = random_triangles(965, 60);
     RenderOptions options = small();
     const RenderResult here = run(scene, {"geforce8", "dual"}, options);
@@ -249,7 +250,7 @@ TEST_CASE("a window that lies elsewhere on its surface shows the same picture by
     CHECK(there.audit.max_difference == here.audit.max_difference);
 }
 
-TEST_CASE("literal, rasterized and replayed peels agree whatever depth they compare", "[slow]") {
+TEST_CASE("literal and rasterized and replayed peels are equal for any compared depth", "[slow]") {
     const TriangleScene scene = random_triangles(966, 24);
     struct Setting {
         const char* name;

@@ -1,4 +1,4 @@
-// Nothing that a user sees depends on how a mesh of triangles of a pixel or two was drawn: literal execution is the
+// Tests that every execution draws meshes with triangles of one or two pixels like literal execution, which is the
 // definition.
 #include <catch2/catch.hpp>
 
@@ -15,8 +15,8 @@ using strata::peeling::RenderOptions;
 using strata::pipeline::DeviceProfile;
 using strata::pipeline::Execution;
 
-// Two wavy sheets of cells of about two thirds of a pixel at 76 by 52, whose corners have colours of their own or, in
-// stripes, one; through them goes an opaque one.
+// Two wavy sheets with cells of about two thirds of a pixel at 76 x 52, whose corners have different colours or, in
+// stripes, equal ones; an opaque sheet intersects them.
 [[nodiscard]] TriangleScene sheets(std::uint64_t seed) {
     Random random{seed};
     TriangleScene scene;
@@ -52,7 +52,7 @@ using strata::pipeline::Execution;
 
 }  // namespace
 
-TEST_CASE("meshes of triangles of a pixel or two execute alike, whatever is peeled, added and tested", "[slow]") {
+TEST_CASE("meshes of triangles of a pixel or two execute alike for any peel and sum and test", "[slow]") {
     const TriangleScene scene = sheets(811);
     const std::array profiles{*strata::pipeline::find_profile("geforce8"), *strata::pipeline::find_profile("ideal"),
                               with_unsnapped_planes()};

@@ -1,4 +1,5 @@
-// A device whose 24-bit depth buffers hold binary32 (depth.md 2.10) draws what it draws with a 32-bit float one.
+// Tests that a device whose 24-bit depth buffers hold binary32 (depth.md 2.10) draws the same as with a 32-bit float
+// buffer.
 #include <catch2/catch.hpp>
 
 #include "pipeline/region/surface.h"
@@ -8,7 +9,7 @@
 using namespace strata::testing;
 using namespace strata::pipeline;
 
-TEST_CASE("24 bits that are binary32 store, compare and publish what a float depth buffer does, others codes") {
+TEST_CASE("a 24-bit buffer of binary32 behaves like a float depth buffer and one of codes does not") {
     const TriangleScene scene = random_triangles(91, 20);
     const auto drawn = [&](const DeviceProfile& profile, DepthFormat format, const char* algorithm) {
         strata::peeling::RenderOptions options;
@@ -30,7 +31,7 @@ TEST_CASE("24 bits that are binary32 store, compare and publish what a float dep
         CHECK(kept.frame.color == floats.frame.color);
         CHECK(kept.frame.depth == floats.frame.depth);
         CHECK(kept.frame.depth.format == Format::d32f);
-        // The depths of dual peeling come from its program.
+        // The depths of dual peeling are written by its program.
         CHECK((fixed.frame.depth.format == Format::d24) == (std::string_view{algorithm} != "dual"));
     }
     const auto d16 = drawn(*find_profile("swiftshader"), DepthFormat::d16, "front_to_back");
@@ -46,7 +47,7 @@ TEST_CASE("24 bits that are binary32 store, compare and publish what a float dep
     CHECK(without.depth_buffer({}) == DepthFormat::d24);
 }
 
-TEST_CASE("a surface of 24 bits that are binary32 holds the float's bits") {
+TEST_CASE("a surface with a 24-bit buffer of binary32 holds the float's bits") {
     Surface surface{*find_profile("swiftshader"), {.depth = DepthFormat::d24, .width = 8, .height = 8}};
     surface.clear_depth(std::bit_cast<std::uint32_t>(1.0f));
     strata::rasterizer::TriangleSoup soup;

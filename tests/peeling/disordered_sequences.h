@@ -1,4 +1,4 @@
-// tests/peeling/disordered_sequences.h - pixels with random fragments of every degree of disorder.
+// tests/peeling/disordered_sequences.h - pixels with random fragments in every degree of disorder.
 #pragma once
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 
 namespace strata::testing {
 
-// An ascending, a descending or a half-sorted list of `length` depths k / 512 with ties, then some neighbours or far
-// entries exchanged: from sorted to random.
+// An ascending, a descending or a half-sorted list of `length` depths k / 512 with ties, then some swaps of neighbours
+// or distant entries: from sorted to random.
 [[nodiscard]] inline std::vector<float> disordered_depths(Random& random, int length) {
     std::vector<float> depths;
     for (int i = 0; i < length; ++i) depths.push_back(static_cast<float>(random_int(random, 0, 511)) / 512.0f);
@@ -24,7 +24,7 @@ namespace strata::testing {
     return depths;
 }
 
-// Mostly short pixels, some up to `longest`; every third has an opaque surface at one of the depths.
+// Mostly short lists, some up to `longest`; every third pixel has an opaque surface at one of the depths.
 [[nodiscard]] inline FragmentScene disordered(std::uint64_t seed, int width, int height, int longest) {
     FragmentScene scene{width, height};
     Random random{seed};

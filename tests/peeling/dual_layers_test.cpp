@@ -1,4 +1,5 @@
-// Model: the fragments of a pixel by depth, taken from both ends in turn; codes by TargetModel's number line.
+// Tests the layers of dual peeling against the fragments of a pixel sorted by depth and taken from both ends
+// alternately; codes are computed by TargetModel.
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -15,7 +16,7 @@ using strata::pipeline::KeptLayer;
 using strata::pipeline::Rgba;
 using strata::pipeline::Side;
 
-// 0 to 15 fragments a pixel on eight depths, in any submission order, so that some tie.
+// 0 to 15 fragments per pixel on eight depths, in random submission order, so that some tie.
 FragmentScene columns_of_any_height(std::uint64_t seed) {
     FragmentScene scene{16, 8};
     Random random{seed};
@@ -54,7 +55,7 @@ RenderResult peeled(const FragmentScene& scene, const std::string& algorithm, bo
     return render(scene, {"geforce8_dx101", algorithm}, options);
 }
 
-// What is left of [near, far) once `pass` passes have taken one from each end.
+// The layer at one end of [near, far) after `pass` passes have taken one from each end.
 LayerCodes layer_left(const std::vector<LayerCodes>& layers, Side side, std::size_t pass) {
     if (2 * pass >= layers.size()) return {};
     const std::size_t near = pass, far = layers.size() - 1 - pass;
@@ -64,7 +65,7 @@ LayerCodes layer_left(const std::vector<LayerCodes>& layers, Side side, std::siz
 
 }  // namespace
 
-TEST_CASE("the layers of a dual peel are the nearest and the farthest depth of what each pass found") {
+TEST_CASE("the layers of a dual peel are the nearest and the farthest depth found by each pass") {
     const FragmentScene scene = columns_of_any_height(71);
     for (const char* algorithm : {"dual", "dual_independent"})
         for (const Running& running : all_ways_of_running) {
@@ -72,7 +73,7 @@ TEST_CASE("the layers of a dual peel are the nearest and the farthest depth of w
             std::map<Side, std::size_t> passes;
             for (const KeptLayer& layer : result.frame.layers) {
                 const std::size_t pass = passes[layer.side]++;
-                // Of fragments that tie, dual_independent takes one: its layers are compared where none does.
+                // Of tied fragments dual_independent keeps one, so its layers are compared only where there is no tie.
                 const bool merges = std::string(algorithm) == "dual";
                 const auto found = differences(layer.color, [&](std::size_t p) {
                     const auto layers = layers_of(scene.pixels[p]);

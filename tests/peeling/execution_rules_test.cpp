@@ -1,4 +1,4 @@
-// Frames of other formats and of devices whose rules are mixed: every way of running them is literal execution.
+// Tests frames in other formats and on devices with mixed rules: every execution must equal literal execution.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -14,7 +14,7 @@ using strata::pipeline::Execution;
 
 }  // namespace
 
-TEST_CASE("alpha for everything, other formats and the whole state of the rasterizer execute alike", "[slow]") {
+TEST_CASE("alpha for everything and other formats and the complete state of the rasterizer execute alike", "[slow]") {
     const TriangleScene scene = random_triangles(77, 30);
     RenderOptions options = small_frame();
     options.alpha = 0.375f;
@@ -26,9 +26,9 @@ TEST_CASE("alpha for everything, other formats and the whole state of the raster
         check_all_ways(scene, {"geforce8_dx101", algorithm}, options);
 }
 
-// With alphas of 3e-38 many products of colour and alpha are denormal, which the GeForce8 adds as 0: over black that
-// shows.
-TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
+// With alphas of 3e-38 many products of colour and alpha are denormal, which GeForce8 adds as 0; over black this is
+// visible.
+TEST_CASE("sums execute alike in halves and in binary32 including denormals") {
     const TriangleScene scene = random_triangles(79, 12);
     RenderOptions options = small_frame();
     options.width = 40;
@@ -45,7 +45,7 @@ TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
                 }
 }
 
-// Rows add colours of exact planes alone.
+// Rows add only colours of exact planes.
 TEST_CASE("sums of colours by the chip's weights execute alike on a device with binary32 depths") {
     using namespace strata::pipeline;
     DeviceProfile mixed = *find_profile("geforce8_dx101");
@@ -61,10 +61,10 @@ TEST_CASE("sums of colours by the chip's weights execute alike on a device with 
         CHECK(difference(drawn_on(mixed, scene, "weighted_average", with(options, way)), expected) == "");
 }
 
-// OVER and UNDER by (0, 0, 0, 0) flush a denormal that a float target holds and make 0 of -0, so that even they are not
-// left out.
-TEST_CASE("both ends peeled over a background of denormals and -0 execute alike in floats") {
-    const TriangleScene scene = random_triangles(85, 5);  // in many pixels one fragment
+// OVER and UNDER with (0, 0, 0, 0) flush a denormal that a float target holds and turn -0 into 0, so even these blends
+// may not be skipped.
+TEST_CASE("peels from both ends over a background of denormals and -0 execute alike in floats") {
+    const TriangleScene scene = random_triangles(85, 5);  // many pixels have one fragment
     const std::array<Way, 2> chosen{ways[7], ways[8]};
     for (const auto format : {strata::pipeline::Format::rgba16f, strata::pipeline::Format::rgba32f})
         for (const char* profile : {"geforce8_dx101", "ideal"}) {
@@ -82,7 +82,7 @@ TEST_CASE("both ends peeled over a background of denormals and -0 execute alike 
 
 // An offset moves most fragments below 0: in fixed point they wrap around and are farther than all others, in D32F
 // nearer.
-TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole, and no tile trusts a bound",
+TEST_CASE("depths beyond the range execute alike because the frame is drawn as a whole and no tile uses a bound",
           "[slow]") {
     using namespace strata::pipeline;
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
@@ -94,7 +94,7 @@ TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole,
             RenderOptions options = small_frame();
             options.depth = format;
             options.alpha = 0.4f;
-            // A unit is two codes, and in D32F a small power of two.
+            // A unit is two codes; in D32F it is a small power of two.
             const float units = format == DepthFormat::d16 ? -2e4f : format == DepthFormat::d24 ? -5e6f : -1e7f;
             options.raster.polygon_offset = {true, 0, units};
             options.execution = Execution::literal;
@@ -109,8 +109,8 @@ TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole,
         }
 }
 
-// The offset moves sloping opaque triangles below 0, and nothing of the flat ones in front of them and behind.
-TEST_CASE("an opaque depth below 0 is no bound of what is sorted: such a frame executes alike, too") {
+// The offset moves sloping opaque triangles below 0, but not the flat ones in front of and behind them.
+TEST_CASE("an opaque depth below 0 is not a bound for sorting and such a frame executes alike") {
     using namespace strata::pipeline;
     TriangleScene scene = random_triangles(86, 20);
     for (const std::size_t i : {0u, 1u})
@@ -135,9 +135,8 @@ TEST_CASE("an opaque depth below 0 is no bound of what is sorted: such a frame e
         }
 }
 
-// Tiles of 64 pixels that share a place in the cache: (5, 0) and (0, 1). Passes that blend a pixel several times.
-TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one another out and in small ones",
-          "[slow]") {
+// Tiles of 64 pixels that share a slot in the cache: (5, 0) and (0, 1). The passes blend a pixel several times.
+TEST_CASE("blends in cached tiles execute alike in frames whose tiles evict one another and in small ones", "[slow]") {
     using namespace strata::pipeline;
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
     for (const int width : {40, 330})
@@ -154,12 +153,10 @@ TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one
             }
 }
 
-// Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules.
-// Random ones.
-TEST_CASE(
-    "peels execute alike on devices that blend and convert by every rule, in every format, with ties and under "
-    "limits",
-    "[slow]") {
+// Mesa's drivers round each product of a blend and convert by binary32 products. Custom profiles may mix the rules;
+// random combinations are tested.
+TEST_CASE("peels execute alike for every rule of blending and conversion in every format with ties and limits",
+          "[slow]") {
     Random random{81};
     const std::array<Way, 2> chosen{ways[7], ways[10]};
     using namespace strata::pipeline;
@@ -184,7 +181,7 @@ TEST_CASE(
                     options.color_format = format;
                     options.alpha = random_channel(random);
                     options.background = random_color(random);
-                    options.background[3] = 1;  // resolves are for an opaque background
+                    options.background[3] = 1;  // resolves require an opaque background
                     options.execution = Execution::literal;
                     const auto drawn = [&](const RenderOptions& how) {
                         return drawn_on(profile, scene, algorithm, how);
@@ -201,7 +198,7 @@ TEST_CASE(
                 }
 }
 
-// Rows and resolves know colours by exact planes alone, even where depth is theirs.
+// Rows and resolves support only colours by exact planes, even for a depth that they support.
 TEST_CASE("colours by the chip's weights execute alike on a device whose depth is an exact plane") {
     strata::pipeline::DeviceProfile profile = *strata::pipeline::find_profile("ideal");
     profile.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;

@@ -1,4 +1,4 @@
-// Nothing that a user sees depends on how a frame was executed: literal execution is the definition.
+// Tests that results do not depend on how a frame is executed; literal execution is the definition.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -37,7 +37,7 @@ std::vector<Machine> machines() {
     return all;
 }
 
-// Every machine, ended in each of these ways.
+// Compares all executions on every machine, for each of these ways to end a frame.
 void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen) {
     const TriangleScene triangles{draw_list(scene), {}};
     for (const Ending& ending : chosen)
@@ -52,10 +52,10 @@ void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen
 
 }  // namespace
 
-TEST_CASE("algorithms of a partial order execute alike, resolved and as published, however their queries end them",
+TEST_CASE("algorithms of a partial order execute alike resolved and as published for any ending of their queries",
           "[slow]") {
     TriangleScene scene = random_triangles(79, 12);
-    scene.list.instances[0].arrives_sorted = true;  // it does not, which changes no execution
+    scene.list.instances[0].arrives_sorted = true;  // false, but this must not change any execution
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[8], ways[12]};
     for (const Ending& ending : endings)
         for (const Machine& machine : machines_of(Kind::partial_order))
@@ -73,7 +73,7 @@ TEST_CASE("algorithms of a partial order execute alike, resolved and as publishe
             }
 }
 
-TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm, however its queries end it",
+TEST_CASE("no tile size or thread count or other setting changes an algorithm's result for any ending of its queries",
           "[slow]") {
     const TriangleScene scene = random_triangles(71, 16);
     for (const Ending& ending : endings)
@@ -86,7 +86,7 @@ TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm,
         }
 }
 
-TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute alike", "[slow]") {
+TEST_CASE("scenes in one corner and without triangles and with opaque surfaces only execute alike", "[slow]") {
     for (const TriangleScene& scene : {random_triangles(72, 12, 0.25f), random_triangles(73, 0), opaque_only(74, 8)})
         for (const Machine& machine : machines()) {
             RenderOptions options = small_frame();
@@ -96,7 +96,7 @@ TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute
         }
 }
 
-TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface, counts like the frame that goes on",
+TEST_CASE("a tile that ends early with fragments exactly at its opaque surface counts like the frame that continues",
           "[slow]") {
     FragmentScene scene{16, 16};  // four tiles of 8 x 8
     const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
@@ -107,7 +107,7 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
     check_endings(scene, endings);
 }
 
-TEST_CASE("rows of pixels whose fragments all lie behind the opaque surface execute alike", "[slow]") {
+TEST_CASE("rows of pixels whose fragments are all behind the opaque surface execute alike", "[slow]") {
     FragmentScene scene{32, 16};
     const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
     for (std::size_t pixel = 0; pixel < scene.pixels.size(); ++pixel) {
@@ -121,7 +121,7 @@ TEST_CASE("rows of pixels whose fragments all lie behind the opaque surface exec
     check_endings(scene, {endings[0], endings[1], endings[5], endings[8]});
 }
 
-TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts", "[slow]") {
+TEST_CASE("kept layers are those of literal execution for any max_passes", "[slow]") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
     for (const Machine& machine : {Machine{"geforce8", "front_to_back"},
                                    {"geforce3", "depth_units"},
@@ -156,10 +156,11 @@ TEST_CASE("an algorithm that keeps layers keeps one for each distinct depth of t
         }
 }
 
-TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back", "[slow]") {
+TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits and its environment is restored",
+          "[slow]") {
     TriangleScene scene = random_triangles(78, 30);
     scene.view.view = {0.95, 0.02, 0.1, 0, -0.03, 0.99, 0.05, 0, -0.1, -0.04, 0.97, 0, 0.01, 0.02, -0.03, 1};
-    for (auto& instance : scene.list.instances) instance.model[0][0] = 1.1;  // the matrices' product must be rounded
+    for (auto& instance : scene.list.instances) instance.model[0][0] = 1.1;  // makes the matrix product inexact
     for (const Machine& machine : machines()) {
         RenderOptions options = small_frame();
         options.threads = 2;
@@ -183,9 +184,8 @@ TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits
     }
 }
 
-TEST_CASE(
-    "one renderer sorts triangles into the tiles that each algorithm asks for, and every size gives the same bits",
-    "[slow]") {
+TEST_CASE("one renderer bins triangles into the tiles that each algorithm requests and every size gives the same bits",
+          "[slow]") {
     const TriangleScene scene = random_triangles(79, 20);
     RenderOptions options = small_frame();
     options.width = 1024;

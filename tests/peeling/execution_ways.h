@@ -1,4 +1,4 @@
-// tests/peeling/execution_ways.h - ways of executing a frame, and a frame's literal execution beside each of them.
+// tests/peeling/execution_ways.h - ways of executing a frame, and their comparison with literal execution.
 #pragma once
 #include <array>
 #include <catch2/catch.hpp>
@@ -43,14 +43,15 @@ inline constexpr std::array<Way, 13> ways{
     return options;
 }
 
-// Every way against literal execution with one thread; the first difference is named.
+// Compares every way with literal execution in one thread and reports the first difference.
 inline void check_all_ways(const TriangleScene& scene, const Machine& machine, peeling::RenderOptions options,
                            std::span<const Way> chosen = ways) {
     options.execution = pipeline::Execution::literal;
     options.threads = 1;
     const peeling::RenderResult expected = render(scene.list, scene.view, machine, options);
     REQUIRE(expected.outcome == peeling::Outcome::done);
-    CHECK(difference(render(scene.list, scene.view, machine, options), expected).empty());  // twice the same
+    // the literal run is reproducible
+    CHECK(difference(render(scene.list, scene.view, machine, options), expected).empty());
     for (const Way& way : chosen) {
         const peeling::RenderResult found =
             render(scene.list, scene.view, machine, with(options, way), {.trust_idle = way.trust_idle});
@@ -61,7 +62,7 @@ inline void check_all_ways(const TriangleScene& scene, const Machine& machine, p
     }
 }
 
-// A profile that has no name.
+// Draws with a profile that is not a built-in one.
 [[nodiscard]] inline peeling::RenderResult drawn_on(const pipeline::DeviceProfile& profile, const TriangleScene& scene,
                                                     const char* algorithm, const peeling::RenderOptions& options) {
     peeling::Renderer renderer{scene.list, scene.view, profile, options};

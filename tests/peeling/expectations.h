@@ -1,6 +1,6 @@
-// tests/peeling/expectations.h - what tests expect of each algorithm, a row an algorithm: typed from the papers and the
-// pages, not read from the registry. The rows of later algorithms stand in their own tests (algorithms/NAME_test.cpp),
-// as an `ExpectedRow`.
+// tests/peeling/expectations.h - properties that tests expect of each algorithm, one row per algorithm, written from
+// the papers and the pages and not read from the registry. Later algorithms have their rows in their own tests
+// (algorithms/NAME_test.cpp), as an `ExpectedRow`.
 #pragma once
 #include <algorithm>
 #include <set>
@@ -13,10 +13,10 @@
 
 namespace strata::testing {
 
-// Which tests of execution draw it: those of single loops, those whose queries stand inside an iteration, those of
+// Which execution tests draw the algorithm: those of single loops, those with queries inside an iteration, those of
 // lists of objects.
 enum class Kind { loop, partial_order, objects };
-// From which device on an algorithm runs: devices.md 10.
+// The least capable devices on which an algorithm runs: devices.md 10.
 enum class Devices {
     everything,
     programmable,
@@ -30,13 +30,13 @@ enum class Devices {
 struct Expectation {
     std::string algorithm;
     Devices devices = Devices::everything;
-    int (*passes)(int layers) = nullptr;  // geometry passes; null where the layers do not decide
-    std::set<std::string> targets;        // what its targets are called
-    int render_targets = 1;               // of its widest pass
+    int (*passes)(int layers) = nullptr;  // number of geometry passes; null if it does not depend on the layers alone
+    std::set<std::string> targets;        // names of its targets
+    int render_targets = 1;               // in its widest pass
     int samples = 1;
-    bool loses_ties = false;  // fragments at a depth that it has composited
+    bool loses_ties = false;  // loses fragments at a depth that it has composited
     Kind kind = Kind::loop;
-    // A device that runs it, the smallest one.
+    // The least capable device that runs it.
     [[nodiscard]] std::string profile() const {
         if (devices == Devices::everything || devices == Devices::texture_shaders) return "geforce3";
         if (devices == Devices::independent_blending) return "geforce8_dx101";
@@ -58,7 +58,7 @@ struct Expectation {
     }
 };
 
-// A test's own rows come to these before main; until then they are not all.
+// The rows of single tests are added before main; until then the list is incomplete.
 [[nodiscard]] inline std::vector<Expectation>& rows_of_expectations() {
     using enum Devices;
     constexpr auto once = [](int) { return 1; };
@@ -71,7 +71,7 @@ struct Expectation {
          .passes = layers_and_one,
          .targets = {"layer", "nearest", "result"},
          .loses_ties = true},
-        // Where its two depths are one, as in scenes of given depths.
+        // Only where both depths are equal, as in scenes of given depths.
         {.algorithm = "shadow_map",
          .devices = everything,
          .passes = layers_and_one,
@@ -156,10 +156,10 @@ struct ExpectedRow {
     explicit ExpectedRow(Expectation row) { rows_of_expectations().push_back(std::move(row)); }
 };
 
-// Every algorithm.
+// The rows of all algorithms.
 [[nodiscard]] inline const std::vector<Expectation>& expectations() { return rows_of_expectations(); }
 
-// Of one kind, each on its smallest device.
+// The algorithms of one kind, each on its least capable device.
 [[nodiscard]] inline std::vector<Machine> machines_of(Kind kind) {
     std::vector<Machine> machines;
     for (const Expectation& expected : expectations())

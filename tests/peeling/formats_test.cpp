@@ -1,5 +1,5 @@
-// A picture, a front and a back in formats of their own. Models: composite_model.h with a number line a target; and,
-// for every algorithm, the picture of wide floats rounded by hand.
+// Tests pictures, fronts and backs in different formats, against composite_model.h with a separate model per target;
+// and, for every algorithm, against the picture in binary32 rounded by hand.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <optional>
@@ -23,7 +23,7 @@ using peeling::RenderResult;
 constexpr Rgba behind_all{0.25f, 0.5f, 0.8f, 1};
 constexpr std::array formats{Format::rgba8, Format::rgba16f, Format::rgba32f};
 
-// Up to seven fragments a pixel in any order, ties among them; every other pixel has an opaque surface.
+// Up to seven fragments per pixel in random order, with ties; every other pixel has an opaque surface.
 FragmentScene random_stacks() {
     FragmentScene scene{16, 8};
     Random random{17};
@@ -74,7 +74,7 @@ void check(const FragmentScene& scene, const std::string& algorithm, const Rende
     }
 }
 
-// Codes of a picture of binary32, stored in another format; weighted_sum goes below 0.
+// Codes of a binary32 picture stored in another format; weighted_sum can be negative.
 Image stored(const Image& wide, Format format) {
     Image image{format, wide.width, wide.height};
     const TargetModel target{format};
@@ -88,7 +88,7 @@ Image stored(const Image& wide, Format format) {
 
 }  // namespace
 
-TEST_CASE("front, back and picture are rounded each in its own format, and the last quad once") {
+TEST_CASE("every target is rounded in its own format and the last quad rounds once") {
     const FragmentScene scene = random_stacks();
     for (const Format color : formats)
         for (const Format picture : formats) {
@@ -105,7 +105,7 @@ TEST_CASE("front, back and picture are rounded each in its own format, and the l
         }
 }
 
-TEST_CASE("every algorithm's picture is that of binary32 stored once more, whatever its accumulators keep") {
+TEST_CASE("every algorithm's picture is the binary32 picture stored once more for any format of its accumulators") {
     const FragmentScene scene = random_stacks();
     for (const Algorithm& algorithm : algorithms())
         for (const Format color : formats)
@@ -122,8 +122,8 @@ TEST_CASE("every algorithm's picture is that of binary32 stored once more, whate
             }
 }
 
-// Sums of these depend on which zeros and infinities are added, and when.
-TEST_CASE("colours that binary32 adds otherwise than numbers leave the same bits in every way of running") {
+// Sums of these values depend on which zeros and infinities are added, and in which order.
+TEST_CASE("colours whose binary32 sums depend on order leave the same bits in every execution") {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     constexpr std::array rare{-0.0f, 0.0f, 1.0f, -0.5f, 2.0f, 3000.0f, 0x1p-140f, infinity, -infinity};
     FragmentScene scene = random_stacks();
@@ -146,7 +146,7 @@ TEST_CASE("colours that binary32 adds otherwise than numbers leave the same bits
         }
 }
 
-TEST_CASE("a back of its own is refused where nothing is composited from behind") {
+TEST_CASE("a separate back format is rejected where nothing is composited from behind") {
     const FragmentScene scene = random_stacks();
     RenderOptions options = options_for(scene);
     options.back_format = Format::rgba16f;
@@ -160,7 +160,7 @@ TEST_CASE("a back of its own is refused where nothing is composited from behind"
     CHECK_FALSE(render(scene, {"geforce8", "front_to_back"}, options).refusal);
 }
 
-TEST_CASE("the chain to the truth begins at a picture whose format is not that of its colours") {
+TEST_CASE("the chain to the truth begins at a picture in a format other than that of its colours") {
     const FragmentScene scene = random_stacks();
     const RenderOptions options = with_formats(scene, Format::rgba16f, Format::rgba8);
     const auto list = draw_list(scene);

@@ -1,5 +1,5 @@
-// Experiments whose further passes draw something else, or the same in other words. Models: the experiment without that
-// choice; fragments worked out by hand.
+// Tests experiments whose later passes draw something else, or the same in another way, against the experiment without
+// that choice, and fragments worked out by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using namespace strata::peeling;
 using namespace strata::pipeline;
 using strata::rasterizer::DepthPath;
 
-// Four layers at every pixel, and a wall before the last two of every third.
+// Four layers at every pixel, and a wall before the last two in every third pixel.
 DrawList walled_layers() {
     FragmentScene scene{8, 8};
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
@@ -48,30 +48,30 @@ void check_alike(const Measurement& found, const Measurement& plain) {
     CHECK(found.picture == plain.picture);
     CHECK(found.errors.total() == 0);
     CHECK(found.passes == plain.passes);
-    CHECK_FALSE(found.advice.epsilon);  // its proof is for one list
+    CHECK_FALSE(found.advice.epsilon);  // its proof requires a single list
 }
 
 }  // namespace
 
-TEST_CASE("further passes that draw the same in other words find the same, and get no advice") {
+TEST_CASE("later passes that draw the same in another way give the same result without advice") {
     const Measurement plain = measured(plain_experiment());
     REQUIRE(plain.advice.epsilon);
     CHECK(plain.errors.total() == 0);
     CHECK(plain.errors.layers_max == 4);
-    CHECK(plain.picture == plain.truth);  // colours are halves of halves: exact in 8 bits of none but binary32
+    CHECK(plain.picture == plain.truth);  // colours are products of halves, which only binary32 represents exactly
     const DrawList again = walled_layers();
     Experiment second_list = plain_experiment();
     second_list.render.second_list = &again;
     check_alike(measured(second_list), plain);
     Experiment second_path = plain_experiment();
-    second_path.render.vertex_paths.second = VertexPath::fused;  // identities: nothing rounds
+    second_path.render.vertex_paths.second = VertexPath::fused;  // identity matrices, so nothing rounds
     check_alike(measured(second_path), plain);
     Experiment second_clamp = plain_experiment();
     second_clamp.render.second_depth_clamp = true;  // nothing crosses near or far
     check_alike(measured(second_clamp), plain);
 }
 
-TEST_CASE("an experiment is as long as it is told to be, and one that is moved is compared and not peeled") {
+TEST_CASE("an experiment has at most its number of passes and a moved one is compared and not peeled") {
     Experiment short_one = plain_experiment();
     short_one.max_passes = 2;
     const Measurement cut = measured(short_one);
@@ -82,12 +82,12 @@ TEST_CASE("an experiment is as long as it is told to be, and one that is moved i
     const Measurement compared = measured(moved);
     CHECK_FALSE(compared.peeled);
     CHECK(compared.paths.fragments == 4 * 64);
-    CHECK(compared.paths.differing == 0);  // whole pixels away: to the bit
+    CHECK(compared.paths.differing == 0);  // moved by whole pixels: bit-identical
     CHECK(compared.passes == 0);
     CHECK(compared.picture.codes.empty());
 }
 
-TEST_CASE("a peel that compares its own codes refuses an experiment with another depth, and leaves no figure") {
+TEST_CASE("a peel that compares its own codes rejects an experiment with another depth and returns no figure") {
     Experiment e = plain_experiment("coherent_stencil");
     e.compare = DepthPath::perspective_rq;
     const Measurement m = measured(e);
@@ -97,7 +97,7 @@ TEST_CASE("a peel that compares its own codes refuses an experiment with another
     CHECK(m.paths == PathComparison{});
 }
 
-TEST_CASE("a bias is advised where it moves the stored depth alone") {
+TEST_CASE("a bias is advised only where it moves the stored depth alone") {
     for (const bool writes_quotient : {false, true}) {
         Experiment e = plain_experiment();
         e.write = writes_quotient ? DepthPath::perspective_rq : DepthPath::float32;
@@ -121,7 +121,7 @@ CapturedFragment given(std::uint32_t pixel, std::uint32_t primitive, std::uint32
 
 }  // namespace
 
-TEST_CASE("fragments of two splits are partners of their number or of a neighbour's, in their own pixel alone") {
+TEST_CASE("fragments of two splits are paired by their number or a neighbour's in their own pixel only") {
     using Pairs = std::vector<PathPair>;
     const auto pairs = [](const std::vector<CapturedFragment>& a, const std::vector<CapturedFragment>& b) {
         return pair_up(a, b, Match::quad).pairs;
@@ -130,15 +130,13 @@ TEST_CASE("fragments of two splits are partners of their number or of a neighbou
     CHECK(pairs({given(0, 3, 7)}, {given(0, 2, 9)}) == Pairs{{0, 3, 7, 9}});
     CHECK(pairs({given(0, 2, 7)}, {given(1, 3, 9)}).empty());  // another pixel
     CHECK(pairs({given(0, 2, 7)}, {given(0, 4, 9)}).empty());  // no neighbour
-    // 2 has a neighbour 3, but 3 is there by itself.
+    // 2 has the neighbour 3, but 3 is present itself.
     CHECK(pairs({given(0, 2, 7), given(0, 3, 8)}, {given(0, 3, 9)}) == Pairs{{0, 3, 8, 9}});
     CHECK(pairs({given(0, 2, 7), given(1, 3, 8)}, {given(0, 3, 9)}) == Pairs{{0, 2, 7, 9}});
 }
 
-TEST_CASE(
-    "where no epsilon up to 1 hides a fragment from itself there is no least one, and one layer alone has no "
-    "greatest") {
-    // D24: code 0 stored, the far end compared: a distance of 1, which an epsilon of exactly 1 still covers.
+TEST_CASE("an epsilon beyond 1 is not offered as least one and a single layer has no greatest epsilon") {
+    // D24: code 0 stored, the far plane compared: a distance of 1, which an epsilon of exactly 1 still covers.
     const std::uint32_t far = 0xffffff;
     const std::vector<std::uint32_t> opaque{far};
     const SafeAbsolute near_far = safe_absolute(std::vector<PathPair>{{0, 0, 0, far}}, opaque, DepthFormat::d24);
@@ -147,7 +145,7 @@ TEST_CASE(
     CHECK(near_far.contains(1));
     CHECK(near_far.contains(*near_far.lowest));
     CHECK_FALSE(near_far.contains(std::nextafter(*near_far.lowest, 0.0)));
-    // Binary32 depths need not lie below 1: a compared 3 is behind 0 by more than any epsilon.
+    // Binary32 depths need not be below 1: a compared 3 is behind 0 by more than any epsilon.
     const auto bits = [](float depth) { return std::bit_cast<std::uint32_t>(depth); };
     const std::vector<std::uint32_t> behind{bits(9.0f)};
     const SafeAbsolute beyond =

@@ -1,5 +1,5 @@
-// Model: the emulated machine itself. What the adviser calls safe is peeled, and so are the nearest values that it does
-// not.
+// Tests the adviser against the emulated machine: values that it calls safe must peel without error, and the nearest
+// values outside must not.
 #include "peeling/invariance.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ using strata::rasterizer::DepthPath;
 
 namespace {
 
-// `count` parallel planes, `gap` apart, each cut into squares of its own, seen in perspective.
+// `count` parallel planes, `gap` apart, each divided into squares, in perspective.
 struct Stack {
     int count = 4;
     float gap = 0.25f;
@@ -82,7 +82,7 @@ Measurement run(const Case& c, const Stack& stack, const Experiment& e) {
 
 bool is_right(const Measurement& m) { return m.errors.total() == 0 && m.ended; }
 
-// Whether the peel with this remedy is right exactly where the adviser says so.
+// Whether the peel with this remedy is correct exactly where the adviser says so.
 struct Verdicts {
     int tried = 0, wrong = 0;
     void add(bool safe, bool right) {
@@ -103,7 +103,7 @@ const Case with_ulps{"ideal", "front_to_back", DepthPath::float32, DepthPath::pe
 
 }  // namespace
 
-TEST_CASE("the machine peels without error at both ends of the adviser's epsilons, and not with the next ones outside",
+TEST_CASE("the machine peels without error at both ends of the adviser's epsilons and not with the next values outside",
           "[slow]") {
     Verdicts verdicts;
     int empty = 0;
@@ -128,7 +128,7 @@ TEST_CASE("the machine peels without error at both ends of the adviser's epsilon
     CHECK(verdicts.wrong == 0);
 }
 
-TEST_CASE("the same holds of absolute epsilons, to the last bit of a double", "[slow]") {
+TEST_CASE("the same is true of absolute epsilons to the last bit of a double", "[slow]") {
     Verdicts verdicts;
     for (const float gap : {0.5f, 0x1p-12f})
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
@@ -148,7 +148,7 @@ TEST_CASE("the same holds of absolute epsilons, to the last bit of a double", "[
     CHECK(verdicts.wrong == 0);
 }
 
-TEST_CASE("geforce3 peels without error at both ends of the adviser's biases, and not with the next ones outside") {
+TEST_CASE("geforce3 peels without error at both ends of the adviser's biases and not with the next values outside") {
     const Case c{"geforce3", "depth_units", DepthPath::window_z, DepthPath::perspective_rq, DepthFormat::d24};
     Verdicts verdicts;
     for (const float gap : {0.5f, 0x1p-14f}) {
@@ -165,7 +165,7 @@ TEST_CASE("geforce3 peels without error at both ends of the adviser's biases, an
     CHECK(verdicts.wrong == 0);
 }
 
-TEST_CASE("passes that see one depth find every layer once, in N + 1 passes") {
+TEST_CASE("passes that see one depth find every layer once in N + 1 passes") {
     Case c = with_ulps;
     c.compare = c.write;
     const Measurement m = run(c, {5, 0.25f}, experiment(c));
@@ -176,7 +176,7 @@ TEST_CASE("passes that see one depth find every layer once, in N + 1 passes") {
     CHECK(m.image.max_difference < 0.01);
 }
 
-TEST_CASE("a reference that is not rounded like the stored depth never ends") {
+TEST_CASE("a compared depth that is not rounded like the stored one never ends") {
     Case c = with_ulps;
     Experiment e = experiment(c);
     e.render.quantize_reference = false;
@@ -186,7 +186,7 @@ TEST_CASE("a reference that is not rounded like the stored depth never ends") {
     CHECK_FALSE(m.advice.epsilon_ulps);
 }
 
-TEST_CASE("dual peeling loses the layers that its epsilon makes one") {
+TEST_CASE("dual peeling loses the layers that its epsilon merges") {
     const Case c{"ideal", "dual", DepthPath::float32, DepthPath::float32, DepthFormat::d32f};
     Experiment e = experiment(c);
     CHECK(is_right(run(c, {4, 0x1p-12f}, e)));
@@ -194,7 +194,7 @@ TEST_CASE("dual peeling loses the layers that its epsilon makes one") {
     CHECK(run(c, {4, 0x1p-12f}, e).errors.lost > 0);
 }
 
-TEST_CASE("what a profile cannot do is a refusal, not an error") {
+TEST_CASE("what a profile cannot do is a rejection and not an error") {
     const Case c{"geforce3", "front_to_back", DepthPath::window_z, DepthPath::perspective_rq, DepthFormat::d24};
     CHECK(measure(list_of({}), perspective(), *find_profile(c.profile), experiment(c)).refusal);
 }

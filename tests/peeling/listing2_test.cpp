@@ -1,5 +1,5 @@
-// Everitt 2001, Listing 2, entered as it is printed, matrix for matrix, with its slips mended (errata.md 1): what its
-// state stores and compares, against the depth paths that the peeling algorithms use.
+// Tests Everitt 2001, Listing 2, entered as printed, matrix for matrix, with its slips corrected (errata.md 1): the
+// depths that its state stores and compares, against the depth paths of the peeling algorithms.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -21,7 +21,7 @@ using strata::rasterizer::DepthPath;
 
 constexpr int frame_width = 48, frame_height = 32;
 
-// glMatrixMode(GL_TEXTURE) and what is called after it.
+// glMatrixMode(GL_TEXTURE) and the calls after it.
 struct TextureMatrix {
     Matrix m = identity;
     TextureMatrix& translate(double x, double y, double z) { return multiply(translation(x, y, z)); }
@@ -32,7 +32,7 @@ struct TextureMatrix {
     }
 };
 
-// 2^n - 1 of the depth buffer: the driver's factor of rows that hold a depth.
+// `depth_units`: 2^n - 1 of the depth buffer, the driver's factor for rows that hold a depth.
 CoordinateUnit unit(const TextureMatrix& texture, double depth_units, bool addresses_texels) {
     CoordinateUnit u{.enabled = true, .gen = eye_position(), .matrix = texture.m};
     u.depth_units = {addresses_texels ? 1 : depth_units, addresses_texels ? 1 : depth_units, depth_units};
@@ -43,7 +43,7 @@ CoordinateUnits listing_2(const Matrix& projection, double depth_units) {
     CoordinateUnits units{};
     units[0].enabled = true;
     units[1] = unit(TextureMatrix{}.translate(0, 0, 0.5).scale(0, 0, 0.5).multiply(projection), depth_units, false);
-    Matrix m(0.0);  // row r takes what was q
+    Matrix m(0.0);  // row r gets what was q
     m[3][2] = 1;
     units[2] = unit(TextureMatrix{}.multiply(m).multiply(projection), 1, false);
     units[3] = unit(TextureMatrix{}
@@ -78,7 +78,7 @@ FragmentPath stages(Target map) {
     return path;
 }
 
-// With the coordinates that the depth path takes: attributes.md 3.3 says how many codes differ by the chip's own.
+// With the coordinates that the depth path uses; attributes.md 3.3 states how many codes differ with the chip's own.
 const DeviceProfile& device_of_paths() {
     static const DeviceProfile device = [] {
         DeviceProfile geforce3 = *find_profile("geforce3");
@@ -95,7 +95,7 @@ struct Scene {
     Frame frame;
     Scene(std::uint64_t seed, int count, DepthFormat format, const DeviceProfile& device = device_of_paths())
         : triangles{random_triangles(seed, count)} {
-        triangles.list.instances.resize(2);  // transparent: plain and textured
+        triangles.list.instances.resize(2);  // only the transparent ones: plain and textured
         triangles.list.instances[1].model = {0.8, 0.1, 0, 0, -0.2, 0.9, 0.1, 0, 0, 0.1, 1.1, 0, 0.05, 0.02, -0.3, 1};
         raster.viewport = {0, 0, frame_width, frame_height};
         raster.depth_format = format;
@@ -108,9 +108,9 @@ struct Scene {
     }
 };
 
-using Codes = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;  // of pixel and primitive
+using Codes = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;  // by pixel and primitive
 
-// The codes that a pass would store if nothing lay before anything.
+// The codes that a pass would store if no surface hid another.
 template <class Program>
 Codes codes_of(const Frame& frame, PassState state, Program&& program) {
     RegionStatistics statistics;
@@ -126,7 +126,7 @@ Codes codes_of(const Frame& frame, PassState state, Program&& program) {
     return codes;
 }
 
-// Peels by Listing 2's state alone.
+// Peels only with Listing 2's state.
 void peel(Region& region) {
     strata::peeling::SavedLayers layers;
     Target map;
@@ -154,7 +154,7 @@ void peel(Region& region) {
     region.publish(result);
 }
 
-// What Listing 2's state stores, and where its stage 3 would look and compare something else.
+// What Listing 2's state stores, and the pixels where its stage 3 would read or compare something else.
 struct Listed {
     Codes codes;
     std::size_t fragments = 0, other_pixel = 0, other_r = 0;
@@ -165,7 +165,7 @@ Listed listed(const Scene& scene) {
     PassState state;
     FragmentPathProgram listing{region, stages({})};
     listing.apply(state);
-    state.needs.units |= 0xf000;  // unit 3, which no stage looks at yet
+    state.needs.units |= 0xf000;  // unit 3, which no stage uses yet
     Listed found;
     found.codes = codes_of(scene.frame, state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         listing(in, own, out);
@@ -193,19 +193,20 @@ Codes replaced_codes(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_replace, and compares the same bits") {
+TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_replace and compares the same bits") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         const Scene scene{401, 60, format};
         const Listed found = listed(scene);
         CHECK(found.fragments > 5000);
         CHECK(found.codes == replaced_codes(scene));
-        CHECK(found.other_pixel == 0);  // s/q and t/q never leave the fragment's own pixel
-        CHECK(found.other_r == 0);      // R is the depth that was stored
+        CHECK(found.other_pixel == 0);  // s/q and t/q are always in the fragment's own pixel
+        CHECK(found.other_r == 0);      // R is the stored depth
     }
 }
 
-// attributes.md 3.3: Everitt's cure asks that both quotients come from the same coordinates, whatever these are.
-TEST_CASE("by the chip's own coordinates Listing 2 stores other codes than path depth_replace, but those it compares") {
+// attributes.md 3.3: Everitt's method requires that both quotients come from the same coordinates, whichever these are.
+TEST_CASE(
+    "by the chip's own coordinates Listing 2 stores other codes than path depth_replace but compares those it stored") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         const Scene scene{401, 60, format, *find_profile("geforce3")};
         const Listed found = listed(scene);
@@ -226,7 +227,7 @@ TEST_CASE("by the chip's own coordinates Listing 2 stores other codes than path 
     }
 }
 
-TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the bit, in every execution") {
+TEST_CASE("a peel by Listing 2's state alone is bit-identical to shadow_map_depth_replace in every execution") {
     Scene scene{402, 24, DepthFormat::d24};
     strata::peeling::RenderOptions options;
     options.width = frame_width;
@@ -240,6 +241,6 @@ TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the
         const FrameResult found = run(scene.frame, peel, execution, 2);
         CHECK(found.color == expected.frame.color);
         CHECK(found.passes.geometry == expected.frame.passes.geometry);
-        CHECK(found.work.regions == (execution == Execution::literal ? 1u : 6u));  // no lookup left its tile
+        CHECK(found.work.regions == (execution == Execution::literal ? 1u : 6u));  // no lookup was outside of its tile
     }
 }

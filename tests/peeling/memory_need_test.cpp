@@ -1,4 +1,5 @@
-// Model: sizes of the listed targets, added up by hand; whatever may grow, grown, never needs less.
+// Tests the memory needed for a frame against sizes of the listed targets, added by hand; an increase of any input
+// never reduces the need.
 #include "peeling/memory_need.h"
 
 #include <catch2/catch.hpp>
@@ -12,7 +13,7 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
 
-// Six fragments over each of 8x8 pixels.
+// Six fragments at each of 8 x 8 pixels.
 DrawList six_layers() {
     FragmentScene scene{8, 8};
     for (GivenPixel& pixel : scene.pixels)
@@ -35,7 +36,7 @@ RenderOptions options_of(int columns, int rows) {
 
 }  // namespace
 
-TEST_CASE("pictures take a word a channel and one for the depth") {
+TEST_CASE("pictures take 32 bits per channel and per depth") {
     const MemoryNeed need = need_of("dual", options_of(300, 200));
     CHECK(need.pictures == std::uint64_t{300} * 200 * 4 * (4 + 1));
     RenderOptions without = options_of(300, 200);
@@ -43,8 +44,8 @@ TEST_CASE("pictures take a word a channel and one for the depth") {
     CHECK(need_of("dual", without).pictures == std::uint64_t{300} * 200 * 4 * 4);
 }
 
-// A resolve keeps the picture and no targets of passes. Whether denormals are flushed matters to denormal depths alone.
-TEST_CASE("a resolve takes fewer words a pixel than the passes that it stands for, on devices that flush, too") {
+// A resolve keeps the picture and no targets of passes. Whether denormals are flushed matters only for denormal depths.
+TEST_CASE("a resolve takes less memory per pixel than the passes that it replaces and also on devices that flush") {
     for (const char* algorithm : {"dual"}) {
         RenderOptions options = options_of(1024, 512);
         options.tile_size = 32;
@@ -57,7 +58,7 @@ TEST_CASE("a resolve takes fewer words a pixel than the passes that it stands fo
     }
 }
 
-TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels of as many tiles as run at once") {
+TEST_CASE("targets of a whole frame have every pixel and those of tiles the pixels of as many tiles as run at once") {
     RenderOptions literal = options_of(1000, 500);
     literal.execution = Execution::literal;
     literal.nearest_depth = false;
@@ -71,8 +72,9 @@ TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels 
     CHECK(whole == tiled);
 }
 
-// weighted_average's own: sums of two words, a count and a result of one each; nothing of it is kept for a later pass.
-TEST_CASE("targets are those that the algorithm makes when it runs, and lists are the oracle's alone") {
+// weighted_average's own: sums of two 32-bit values, a count and a result of one each; nothing is kept for a later
+// pass.
+TEST_CASE("targets are those that the algorithm makes when it runs and only the oracle has lists") {
     RenderOptions literal = options_of(1000, 500);
     literal.execution = Execution::literal;
     literal.audit = false;
@@ -82,9 +84,9 @@ TEST_CASE("targets are those that the algorithm makes when it runs, and lists ar
     CHECK(need_of("a_buffer", literal).fragments >= std::uint64_t{6} * 1000 * 500 * 4);
 }
 
-TEST_CASE("a refused frame needs nothing") { CHECK(need_of("dual", options_of(64, 64), "geforce3").total() == 0); }
+TEST_CASE("a rejected frame needs nothing") { CHECK(need_of("dual", options_of(64, 64), "geforce3").total() == 0); }
 
-TEST_CASE("neither a larger frame nor more threads, memory for fragments, layers or an audit need less", "[slow]") {
+TEST_CASE("an increase of frame size or threads or any memory setting never reduces the need", "[slow]") {
     for (const char* algorithm : {"dual", "front_to_back", "depth_units", "a_buffer", "weighted_average"})
         for (const Execution execution : {Execution::literal, Execution::replay}) {
             INFO(algorithm << (execution == Execution::literal ? ", literal" : ", replay"));

@@ -1,5 +1,5 @@
-// What the entry of an algorithm says beside what its passes do. Models: tests/peeling/expectations.h, and the passes
-// by themselves on a device that lacks one feature.
+// Tests the registry's entry of each algorithm against tests/peeling/expectations.h, and against its passes on devices
+// that lack one feature.
 #include <catch2/catch.hpp>
 #include <set>
 #include <string>
@@ -23,7 +23,7 @@ FragmentScene two_layers() {
     return scene;
 }
 
-// Whether a pass of the algorithm is refused on a device that has everything but this; its entry names no needs.
+// True if a device that lacks only this feature rejects a pass of the algorithm; the features in the entry are cleared.
 bool passes_need(Algorithm algorithm, bool DeviceProfile::*has) {
     algorithm.features.clear();
     DeviceProfile profile = *find_profile("ideal");
@@ -38,7 +38,8 @@ bool passes_need(Algorithm algorithm, bool DeviceProfile::*has) {
 
 }  // namespace
 
-TEST_CASE("each algorithm has a row of expectations, renders to the targets that its entry counts, and names them") {
+TEST_CASE(
+    "each algorithm has a row of expectations and renders to as many targets as its entry states and names them") {
     CHECK(expectations().size() == strata::peeling::algorithms().size());
     for (const Algorithm& algorithm : strata::peeling::algorithms()) {
         INFO(algorithm.name);
@@ -69,7 +70,7 @@ TEST_CASE("each algorithm has a row of expectations, renders to the targets that
     }
 }
 
-TEST_CASE("an entry lists each feature that a pass of its algorithm is refused without") {
+TEST_CASE("an entry lists each feature without which a pass of its algorithm is rejected") {
     constexpr std::pair<Feature, bool DeviceProfile::*> checked_by_passes[]{
         {Feature::float_targets, &DeviceProfile::has_float_targets},
         {Feature::separate_alpha_blend, &DeviceProfile::has_separate_alpha_blend},

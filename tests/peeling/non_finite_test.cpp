@@ -1,4 +1,4 @@
-// Model: sums that overflow where the scene asks for it; which pixels do is a matter of counting.
+// Tests the diagnostics of infinities and NaN on sums that overflow at known pixels.
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -15,8 +15,7 @@ using strata::peeling::RenderResult;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Sums 40000 times every colour: two fragments of white are more than binary16 holds. Then a quad by `program` from the
-// sums.
+// Sums 40000 times every colour: two white fragments exceed binary16. Then draws a quad by `program` from the sums.
 template <class Program>
 RenderResult overflowing(const FragmentScene& scene, bool is_named, const Program& program) {
     strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("unsorted");
@@ -50,7 +49,7 @@ RenderResult overflowing(const FragmentScene& scene, bool is_named, const Progra
     return strata::peeling::Renderer{list, {}, *find_profile("geforce8"), options}.render(algorithm, {}, {});
 }
 
-// One white fragment at every pixel, two at (5, 3), (20, 3) and (1, 9): in three of six tiles.
+// One white fragment at every pixel, two at (5, 3), (20, 3) and (1, 9), in three of six tiles.
 FragmentScene scene_with_three_overflows() {
     FragmentScene scene{32, 16};
     for (GivenPixel& pixel : scene.pixels) pixel.fragments = {{0.5f, {1, 1, 1, 1}}};
@@ -75,11 +74,9 @@ const auto quotient = [](const FragmentBatch& in, const Loads& own, Outputs& out
 
 }  // namespace
 
-TEST_CASE(
-    "a target of a user's algorithm that comes to hold infinity is told by its name, its pixels and the first of "
-    "them") {
+TEST_CASE("a target of a user's algorithm that contains infinity is reported by name with its first pixel") {
     const auto found = non_finite(overflowing(scene_with_three_overflows(), true, zero));
-    REQUIRE(found.size() == 1);  // the target that was cleared to infinity is not told
+    REQUIRE(found.size() == 1);  // the target that was cleared to infinity is not reported
     CHECK(found[0].pixels == 3);
     CHECK(found[0].first_x == 5);
     CHECK(found[0].first_y == 3);
@@ -87,7 +84,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "NaN in the picture is told beside the infinity that it came from, and targets without a name have their number") {
+    "NaN in the picture is reported next to the infinity that caused it and targets without a name have their number") {
     const auto found = non_finite(overflowing(scene_with_three_overflows(), false, quotient));
     REQUIRE(found.size() == 2);
     for (const Diagnostic& d : found) {

@@ -1,5 +1,5 @@
-// What object_sorted and batched spend on objects whose order and depths are known: passes and fragments, counted by
-// hand.
+// Tests the passes and fragments of object_sorted and batched on objects with known order and depths. The expected
+// counts are made by hand.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -13,7 +13,7 @@ using strata::peeling::RenderResult;
 using strata::pipeline::DrawList;
 using strata::pipeline::Fault;
 
-// An instance for each list of depths: at every pixel of `all` a fragment at each of them, in this order.
+// One instance per list of depths: at every pixel of `all` a fragment at each depth, in this order.
 DrawList objects_at(const std::vector<std::vector<float>>& depths, FragmentScene& all) {
     DrawList list;
     list.materials = draw_list(all).materials;
@@ -32,19 +32,19 @@ DrawList objects_at(const std::vector<std::vector<float>>& depths, FragmentScene
 
 }  // namespace
 
-TEST_CASE("an object of two layers before another is asked about once: its own fragments do not occlude it") {
+TEST_CASE("an object of two layers before another is queried once because its own fragments do not occlude it") {
     FragmentScene all{4, 4};
     const DrawList list = objects_at({{0.125f, 0.25f}, {0.5f}}, all);
     const RenderResult result = render(list, {}, {"geforce8", "object_sorted"}, options_for(all));
     CHECK(result.audit.order_errors == 0u);
     CHECK(result.frame.iterations == 2);
-    CHECK(result.frame.passes.geometry == 4);  // two that ask, and one for each object
+    CHECK(result.frame.passes.geometry == 4);  // two queries, and one pass for each object
     CHECK_FALSE(has_diagnostic(result, Fault::out_of_order));
 }
 
-// Four objects to a batch, whose bounds do not touch: each batch takes a pass for each of its layers and one that finds
-// none, and each of these draws the batch's own objects alone.
-TEST_CASE("a batch draws the objects whose depths it may hold, and no others") {
+// Four objects per batch with disjoint bounds: each batch takes a pass for each of its layers and one that finds none,
+// and each of these passes draws only the batch's own objects.
+TEST_CASE("a batch draws only the objects whose depth intervals overlap its own") {
     FragmentScene all{4, 4};
     std::vector<std::vector<float>> depths;
     for (int i = 1; i <= 8; ++i) depths.push_back({static_cast<float>(i) / 16.0f});
@@ -61,7 +61,7 @@ TEST_CASE("a batch draws the objects whose depths it may hold, and no others") {
     }
 }
 
-TEST_CASE("a limit that no tile passes by runs no tile again") {
+TEST_CASE("a limit that no tile reaches runs no tile again") {
     FragmentScene all{16, 16};
     std::vector<std::vector<float>> depths;
     for (int i = 1; i <= 8; ++i) depths.push_back({static_cast<float>(i) / 16.0f});
@@ -74,8 +74,8 @@ TEST_CASE("a limit that no tile passes by runs no tile again") {
     CHECK(result.frame.work.reruns == 0);
 }
 
-// One tile of 64 has something; those that are like another are copied, and count as done.
-TEST_CASE("progress comes to the whole where most tiles are copies of an empty one") {
+// One tile of 64 has a fragment. Tiles equal to another are copied, and count as done.
+TEST_CASE("progress reaches 1 where most tiles are copies of an empty one") {
     FragmentScene scene{64, 64};
     scene.pixels[100].fragments = {{0.5f, {1, 1, 1, 0.5f}}};
     RenderOptions options = options_for(scene);
@@ -88,14 +88,14 @@ TEST_CASE("progress comes to the whole where most tiles are copies of an empty o
     CHECK(most == 1.0);
 }
 
-// A renderer prepares what an algorithm draws when it is drawn.
+// A renderer prepares an algorithm's lists when it is drawn, so its draw list must outlive it: no temporary.
 static_assert(!std::is_constructible_v<strata::peeling::Renderer, strata::pipeline::DrawList, strata::pipeline::View,
                                        strata::pipeline::DeviceProfile, RenderOptions>);
 static_assert(std::is_constructible_v<strata::peeling::Renderer, strata::pipeline::DrawList&, strata::pipeline::View,
                                       strata::pipeline::DeviceProfile, RenderOptions>);
 
-// Its bounds are one number, and a bound that is no interval is a bound.
-TEST_CASE("an object that lies flat on the near plane is drawn in its batch") {
+// Its bounds are a single number, which is a valid interval.
+TEST_CASE("an object that is flat on the near plane is drawn in its batch") {
     FragmentScene all{4, 4};
     const DrawList list = objects_at({{0.0f}, {0.5f}}, all);
     const RenderResult result = render(list, {}, {"geforce8", "batched"}, options_for(all));
@@ -103,8 +103,8 @@ TEST_CASE("an object that lies flat on the near plane is drawn in its batch") {
     CHECK(result.audit.order_errors == 0u);
 }
 
-// A layer is found by one pass and composited by the next; a limit ends the frame between any two of them.
-TEST_CASE("a limit of passes is spent to the last by layer_peel") {
+// A layer is found by one pass and composited by the next; a limit may end the frame between the two.
+TEST_CASE("layer_peel uses exactly the number of passes of its limit") {
     FragmentScene scene{4, 4};
     for (int i = 1; i <= 4; ++i) scene.pixels[5].fragments.push_back({static_cast<float>(i) / 8.0f, {1, 1, 1, 0.5f}});
     for (int most = 1; most <= 12; ++most) {

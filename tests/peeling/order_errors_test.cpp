@@ -1,4 +1,5 @@
-// Which cause an audit's order errors are given: a table, cause by cause, of keys-and-counts.md 7.3.
+// Tests the cause that is reported for an audit's order errors, against a table of the causes in keys-and-counts.md
+// 7.3.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ struct Cause {
     std::string algorithm;
     bool is_invariant = true;
     Fault fault = Fault::out_of_order;
-    std::string sentence;  // empty: nothing is said
+    std::string sentence;  // empty: nothing is reported
 };
 
 const std::vector<Cause> causes{
@@ -34,7 +35,7 @@ const std::vector<Cause> causes{
 
 }  // namespace
 
-TEST_CASE("order errors are given the cause that the algorithm's order and its depths name") {
+TEST_CASE("order errors are attributed to the cause given by the algorithm's order and its depths") {
     AuditResult audit;
     audit.order_errors = 3;
     audit.misordered = {2, 1, 0};
@@ -47,7 +48,7 @@ TEST_CASE("order errors are given the cause that the algorithm's order and its d
     }
 }
 
-TEST_CASE("options have the specification's values until they are set") {
+TEST_CASE("options have the specification's default values") {
     const RenderOptions options;
     CHECK(options.fragment_memory == 268435456u);
     CHECK(options.average_count == strata::pipeline::Format::r16f);

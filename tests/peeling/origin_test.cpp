@@ -1,6 +1,6 @@
-// Memory that begins at the lower left corner. Model: a projection that turns the scene over, drawn from the upper left
-// corner by a device with the same rules of memory, leaves the same memory; front faces are then clockwise. Its rows,
-// the last one first, are the picture.
+// Tests memory that begins at the lower left corner. A projection that flips the scene, drawn from the upper left
+// corner by a device with the same rules, must give the same memory; front faces are then clockwise. Its rows in
+// reverse order are the picture.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -25,7 +25,7 @@ using strata::rasterizer::TieRule;
 
 constexpr int width = 37, height = 23;
 
-// Both draw the same memory: from below, and turned over from above.
+// The same memory, drawn from below, and flipped from above.
 struct Both {
     TriangleScene scene;
     DeviceProfile below, above;
@@ -47,7 +47,7 @@ Both both(const char* profile, std::uint64_t seed) {
     return all;
 }
 
-// Row by row, the last one first.
+// The rows in reverse order.
 Image turned_over(const Image& image) {
     Image result = image;
     for (int y = 0; y < image.height; ++y)
@@ -59,7 +59,7 @@ Image turned_over(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("a picture from the lower left corner is memory with its rows turned round, and so are depths and layers") {
+TEST_CASE("a picture from the lower left corner is memory with its rows reversed and so are depths and layers") {
     for (const char* profile : {"geforce3", "geforce8", "llvmpipe", "softpipe"})
         for (const char* name : {"front_to_back", "unsorted", "shadow_map_depth_replace", "dual", "depth_units"}) {
             const Algorithm& algorithm = *find_algorithm(name);
@@ -83,8 +83,7 @@ TEST_CASE("a picture from the lower left corner is memory with its rows turned r
         }
 }
 
-TEST_CASE(
-    "a scissor counts from the picture's upper left corner, whatever the origin, and keeps what lies outside of it") {
+TEST_CASE("a scissor counts from the picture's upper left corner for any origin and keeps the pixels outside of it") {
     Both all = both("geforce8", 7);
     all.options.raster.scissor = strata::rasterizer::Rect{3, 2, 20, 11};
     all.turned_options.raster.scissor = strata::rasterizer::Rect{3, height - 11, 20, height - 2};
@@ -130,7 +129,7 @@ TEST_CASE("pixels that are named from the lower left corner are those of the pic
         CHECK(a.first_y == (b.first_y < 0 ? b.first_y : height - 1 - b.first_y));
     }
 
-    // Each composited fragment is one of the picture's, at its pixel.
+    // Each composited fragment belongs to the picture's pixel.
     std::vector<strata::peeling::RegionTrace> traces;
     static_cast<void>(below.render_traced(algorithm, traces));
     std::uint64_t entries = 0, strays = 0;
@@ -147,7 +146,7 @@ TEST_CASE("pixels that are named from the lower left corner are those of the pic
     CHECK(strays == 0);
 }
 
-TEST_CASE("the chain to the truth begins at the machine's picture from the lower left corner, too") {
+TEST_CASE("the chain to the truth begins at the machine's picture also from the lower left corner") {
     Both all = both("geforce8", 11);
     all.options.keep_layers = false;
     Renderer below{all.scene.list, all.scene.view, all.below, all.options};

@@ -1,5 +1,5 @@
-// Carr's algorithms and those that their paper compares itself with, over every short sequence of fragments and over
-// deep ones of all degrees of disorder: what they composite is the exact A-buffer's list in the order of their tie
+// Tests Carr's algorithms, and those that their paper compares them with, on every short sequence of fragments and on
+// long ones in every degree of disorder: they must composite the exact A-buffer's list in the order of their tie
 // policy.
 #include <catch2/catch.hpp>
 
@@ -83,7 +83,7 @@ strata::pipeline::DrawList objects(Random& random, int count, float spread, Frag
 
 }  // namespace
 
-TEST_CASE("batches of objects whose depths overlap, boundaries included, show what one peel of all of them shows") {
+TEST_CASE("batches of objects whose depths overlap even at their bounds give the picture of one peel of all of them") {
     Random random{20241106};
     for (const float spread : {0.0f, 0.5f, 3.0f}) {
         FragmentScene all{16, 16};
@@ -126,7 +126,7 @@ TEST_CASE("a limit that counts passes across loops ends a frame of tiles where i
     }
 }
 
-TEST_CASE("objects that do not overlap are ordered by occlusion queries, in n (n + 2) - 2 passes at most") {
+TEST_CASE("objects that do not overlap are ordered by occlusion queries in at most n (n + 2) - 2 passes") {
     Random random{20241107};
     FragmentScene all{16, 16};
     const auto list = objects(random, 6, 0.0f, all);  // each object at one depth
@@ -138,7 +138,7 @@ TEST_CASE("objects that do not overlap are ordered by occlusion queries, in n (n
     CHECK_FALSE(has_diagnostic(result, Fault::out_of_order));
 }
 
-TEST_CASE("objects that overlap come out wrong, and object_sorted says so") {
+TEST_CASE("objects that overlap are composited in the wrong order and object_sorted reports it") {
     Random random{20241108};
     FragmentScene all{16, 16};
     const auto list = objects(random, 6, 3.0f, all);
@@ -147,7 +147,7 @@ TEST_CASE("objects that overlap come out wrong, and object_sorted says so") {
     CHECK(diagnosed(result, Fault::out_of_order) == result.audit.misordered.pixels);
 }
 
-TEST_CASE("all 19,531 sequences of up to six fragments on five depths are composited in the order of each tie policy",
+TEST_CASE("all 19531 sequences of up to six fragments on five depths are composited in the order of each tie policy",
           "[slow]") {
     const FragmentScene scene = all_short_sequences(20241101, short_depths);
     for (const Machine& machine : machines) {
@@ -156,7 +156,7 @@ TEST_CASE("all 19,531 sequences of up to six fragments on five depths are compos
     }
 }
 
-TEST_CASE("with a 24-bit depth buffer programs quantise, say so, and order by what the buffer holds") {
+TEST_CASE("with a 24-bit depth buffer programs quantize and report it and order by what the buffer holds") {
     const FragmentScene scene = disordered(20241102, 16, 16, 40);
     for (const Machine& machine : machines) {
         RenderOptions options = options_for(scene);
@@ -165,13 +165,12 @@ TEST_CASE("with a 24-bit depth buffer programs quantise, say so, and order by wh
     }
 }
 
-TEST_CASE("sequences of every degree of disorder, with ties and opaque surfaces, are composited in order", "[slow]") {
+TEST_CASE("sequences in every degree of disorder with ties and opaque surfaces are composited in order", "[slow]") {
     const FragmentScene scene = disordered(20241103, 32, 16, 120);
     for (const Machine& machine : machines) check(scene, machine, options_for(scene));
 }
 
-TEST_CASE("10,240 sequences of 1 to 400 fragments, of every degree of disorder, are composited in order",
-          "[exhaustive]") {
+TEST_CASE("10240 sequences of 1 to 400 fragments in every degree of disorder are composited in order", "[exhaustive]") {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         const FragmentScene scene = disordered(20241110 + seed, 32, 32, 400);
         RenderOptions options = options_for(scene);
@@ -180,13 +179,13 @@ TEST_CASE("10,240 sequences of 1 to 400 fragments, of every degree of disorder, 
         for (const Machine& machine : machines)
             if (machine.algorithm != "stencil_routed_k_buffer") check(scene, machine, options);
         const FragmentScene captured =
-            disordered(20241150 + seed, 32, 32, 248);  // all that 31 passes of 8 samples take
+            disordered(20241150 + seed, 32, 32, 248);  // the most that 31 passes of 8 samples hold
         check(captured, {"geforce8", "stencil_routed_k_buffer"}, options);
     }
 }
 
 TEST_CASE(
-    "9 fragments on 8 samples: a second pass takes the ninth, and after 31 passes what is left is lost, and said") {
+    "with 9 fragments on 8 samples a second pass takes the ninth and after 31 passes the rest is lost and reported") {
     for (const int count : {0, 1, 8, 9, 16, 17, 248, 249}) {
         FragmentScene scene{4, 4};
         Random random{20241104};
@@ -197,13 +196,12 @@ TEST_CASE(
         CHECK(result.frame.passes.geometry == std::clamp((count + 7) / 8, 1, 31));
         CHECK(diagnosed(result, Fault::buffer_overflow) == (count > 248 ? 1 : 0));
         CHECK((result.audit.order_errors == 0u) == (count <= 248));
-        CHECK_FALSE(has_diagnostic(result, Fault::stencil_saturated));  // counting down to 0 is what the algorithm does
+        CHECK_FALSE(has_diagnostic(result, Fault::stencil_saturated));  // counting down to 0 is part of the algorithm
     }
 }
 
 TEST_CASE(
-    "a k-buffer of 4 is right exactly where no fragment comes after more than 4 deeper ones, and says where it is "
-    "not") {
+    "a k-buffer of 4 is exact where no fragment comes after more than 4 deeper ones and reports all other pixels") {
     const FragmentScene scene = disordered(20241105, 32, 16, 40);
     std::uint64_t wrong = 0;
     for (const GivenPixel& pixel : scene.pixels) {
@@ -217,6 +215,6 @@ TEST_CASE(
     const RenderResult result = render(scene, {"ideal", "k_buffer"});
     CHECK(wrong > 20);
     CHECK(diagnosed(result, Fault::buffer_overflow) == wrong);
-    CHECK(result.audit.misordered.pixels <= wrong);  // by key: a tie that changes places shows in colours alone
+    CHECK(result.audit.misordered.pixels <= wrong);  // by key: an exchanged tie is visible only in colours
     CHECK(result.audit.misordered.pixels > 0);
 }

@@ -1,4 +1,4 @@
-// How many passes each algorithm takes, and what is seen when they end too early.
+// Tests how many passes each algorithm takes, and its result if they end too early.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/expectations.h"
@@ -34,7 +34,7 @@ RenderResult render_with(const FragmentScene& scene, const Machine& machine, Ter
     return render(scene, machine, options);
 }
 
-// The first `count` depths alone.
+// The groups of the first `count` depths.
 DepthGroups nearest(const DepthGroups& groups, int count) {
     DepthGroups kept;
     for (const auto& group : groups)
@@ -42,7 +42,7 @@ DepthGroups nearest(const DepthGroups& groups, int count) {
     return kept;
 }
 
-// Pixels whose 8-bit codes are not those of `expected(groups)`.
+// Number of pixels whose 8-bit codes differ from `expected(groups)`.
 template <class Model>
 Differences against(const FragmentScene& scene, const RenderResult& result, Model&& expected) {
     const TargetModel target{Format::rgba8};
@@ -54,7 +54,8 @@ Differences against(const FragmentScene& scene, const RenderResult& result, Mode
 
 constexpr Rgba black{0, 0, 0, 1};
 
-// Fragments that pass `depth > peeled` and LESS in one pass over a pixel; moves `peeled` to the nearest of them.
+// Number of fragments that pass `depth > peeled` and LESS in one pass over a pixel; moves `peeled` to the nearest of
+// them.
 std::uint64_t peel_once(const std::vector<GivenFragment>& fragments, float& peeled) {
     std::uint64_t passed = 0;
     float nearest_yet = 1.0f;
@@ -87,7 +88,7 @@ TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 laye
 }
 
 TEST_CASE(
-    "the paper's exit of dual peeling costs one pass more for even numbers of layers, and shows the same picture") {
+    "the paper's exit of dual peeling takes one more pass for even numbers of layers and gives the same picture") {
     for (int n = 0; n <= 9; ++n) {
         const FragmentScene scene = stairs(n);
         const RenderResult paper = render_with(scene, {"geforce8", "dual"}, TerminationRule::paper);
@@ -120,7 +121,7 @@ TEST_CASE("E14: a pass whose back layers all have alpha 0 ends the paper's loop 
     CHECK_FALSE(has_diagnostic(exact, Fault::early_end));
 }
 
-TEST_CASE("E14 spares a tile whose back layers have alpha 0 while another tile's have not") {
+TEST_CASE("E14 does not occur in a tile whose back layers have alpha 0 while those of another tile do not") {
     FragmentScene scene{16, 16};  // four tiles of 8 x 8
     const Rgba white{1, 1, 1, 0.5f};
     scene.pixels[0].fragments = {{0.125f, white}, {0.25f, {1, 0, 0, 0.5f}}, {0.5f, {1, 1, 1, 0}}};
@@ -138,7 +139,7 @@ TEST_CASE("E14 spares a tile whose back layers have alpha 0 while another tile's
     }
 }
 
-TEST_CASE("front_to_back stopped by max_passes shows exactly the nearest layers and says that it is truncated") {
+TEST_CASE("front_to_back stopped by max_passes shows exactly the nearest layers and reports the truncation") {
     const FragmentScene scene = stairs(7);
     for (int k = 1; k <= 9; ++k) {
         RenderOptions options = options_for(scene);
@@ -152,13 +153,13 @@ TEST_CASE("front_to_back stopped by max_passes shows exactly the nearest layers 
             INFO(machine.algorithm << ", " << k << " passes, " << wrong.first);
             CHECK(wrong.pixels == 0);
             CHECK(result.frame.passes.geometry == std::min(k, 8));
-            // Pixels of more than k layers: min(i, 7) > k for i = k + 1 .. 15.
+            // Pixels of more than k layers: min(i, 7) > k for i = k + 1 to 15.
             CHECK(diagnosed(result, Fault::truncated) == static_cast<std::uint64_t>(k < 7 ? 15 - k : 0));
         }
     }
 }
 
-TEST_CASE("no algorithm takes more geometry passes than max_passes, however many an iteration has", "[slow]") {
+TEST_CASE("no algorithm takes more geometry passes than max_passes for any number of passes per iteration", "[slow]") {
     const FragmentScene scene = stairs(14);
     for (const strata::peeling::Algorithm& algorithm : strata::peeling::algorithms())
         for (const char* const profile : {"geforce3", "geforce8", "ideal"}) {
@@ -171,7 +172,8 @@ TEST_CASE("no algorithm takes more geometry passes than max_passes, however many
                 options.max_passes = most;
                 const int found = render(scene, {profile, std::string{algorithm.name}}, options).frame.passes.geometry;
                 INFO(algorithm.name << " on " << profile << ", at most " << most << " of " << all);
-                // An algorithm without iterations is whole or refused; what one pass more allows is never less.
+                // An algorithm without iterations is complete or rejected; one more allowed pass never reduces the
+                // number of passes.
                 CHECK((found <= most || (found == all && all <= 2)));
                 CHECK(found >= before);
                 CHECK(found <= all);
@@ -180,7 +182,7 @@ TEST_CASE("no algorithm takes more geometry passes than max_passes, however many
         }
 }
 
-TEST_CASE("fixed:N runs N geometry passes without a query, whatever is left or long gone") {
+TEST_CASE("fixed:N runs N geometry passes without a query even if layers are left or none were left long before") {
     const FragmentScene scene = stairs(5);
     for (int passes = 1; passes <= 8; ++passes) {
         const RenderResult peel = render_with(scene, {"geforce8", "front_to_back"}, TerminationRule::fixed, 0, passes);
@@ -269,7 +271,7 @@ TEST_CASE("dual peeling of depths .1 .1 .3 .3 mixes each tie by MAX in one pass 
         CHECK(result.frame.color.codes[4 * 9 + c] == target.code(target.stored(front[c] + (1 - front[3]) * back[c])));
 }
 
-TEST_CASE("a fragment at depth 0 is a layer and one at depth 1 is invisible, in every algorithm") {
+TEST_CASE("a fragment at depth 0 is a layer and one at depth 1 is invisible in every algorithm") {
     FragmentScene scene{8, 8};
     const Rgba red{1, 0, 0, 1}, green{0, 1, 0, 1};
     scene.pixels[0].fragments = {{0.0f, red}};
@@ -306,7 +308,7 @@ TEST_CASE("depths that one D24 code holds are one layer of a program that compar
     CHECK(fixed.audit.order_errors == 0u);
     CHECK(has_diagnostic(fixed, Fault::depth_quantized));
     CHECK_FALSE(has_diagnostic(wide, Fault::depth_quantized));
-    CHECK(dual.audit.layers_max == 2);  // it orders by the program's own z, which no buffer quantises
+    CHECK(dual.audit.layers_max == 2);  // it orders by the program's own z, which no buffer quantizes
 }
 
 TEST_CASE("depth_units reports the emulator's extension") {
@@ -314,7 +316,7 @@ TEST_CASE("depth_units reports the emulator's extension") {
     CHECK_FALSE(has_diagnostic(render(stairs(2), {"geforce8", "front_to_back"}), Fault::emulator_extension));
 }
 
-TEST_CASE("the audit is null where an algorithm has no order, and the approximations are exact for equal fragments") {
+TEST_CASE("the audit is null where an algorithm has no order and the approximations are exact for equal fragments") {
     FragmentScene scene{4, 4};
     for (int i = 1; i <= 4; ++i)
         scene.pixels[3].fragments.push_back({static_cast<float>(i) / 8.0f, {0.75f, 0.5f, 0.25f, 0.5f}});
@@ -323,5 +325,5 @@ TEST_CASE("the audit is null where an algorithm has no order, and the approximat
     CHECK(average.audit.max_difference < 1e-4);
     CHECK_FALSE(render(scene, {"ideal", "weighted_sum"}).audit.order_errors);
     CHECK_FALSE(render(scene, {"ideal", "unsorted"}).audit.order_errors);
-    CHECK(render(scene, {"ideal", "weighted_sum"}).audit.max_difference > 10);  // sum of alphas 2: it darkens
+    CHECK(render(scene, {"ideal", "weighted_sum"}).audit.max_difference > 10);  // sum of alphas 2: darkens the picture
 }

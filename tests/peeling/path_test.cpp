@@ -1,11 +1,11 @@
-// Which way a run says that it took. Model: what each way is for, written down.
+// Tests which execution path a run reports, against a list of the paths that each setting requires.
 #include <catch2/catch.hpp>
 #include <functional>
 
 #include "tests/peeling/rendering.h"
 #include "tests/pipeline/frames.h"
 
-// A namespace of its own: names of the model are short.
+// The model's short names have a namespace of their own.
 namespace strata::testing::path_model {
 namespace {
 
@@ -28,7 +28,7 @@ FragmentScene three_layers() {
 
 }  // namespace
 
-TEST_CASE("a run says which way it took, and why it did not go a faster one") {
+TEST_CASE("a run reports its path and why it did not use a faster one") {
     const auto as_is = [](RenderOptions&) {};
     const auto literal = [](RenderOptions& o) { o.execution = Execution::literal; };
     const auto counted = [](RenderOptions& o) { o.counters = true; };
@@ -71,14 +71,14 @@ TEST_CASE("a run says which way it took, and why it did not go a faster one") {
     }
 }
 
-TEST_CASE("of several tiles the slowest says the frame's way: one whose fragments take too much is rasterized") {
+TEST_CASE("of several tiles the slowest determines the frame's path such as one whose fragments exceed the memory") {
     FragmentScene scene = three_layers();
     for (int k = 0; k < 4000; ++k) scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});
     RenderOptions options = options_for(scene);
     options.audit = false;
     options.tile_size = 8;
     options.threads = 1;
-    options.fragment_memory = 64 << 10;  // too little to be cut by
+    options.fragment_memory = 64 << 10;  // too little even for a part of the tile
     const Work work = render(scene, {"geforce8", "front_to_back"}, options).frame.work;
     CHECK(work.path == Path::tiled);
     CHECK(work.why == "a tile's fragments take more than --fragment-memory");

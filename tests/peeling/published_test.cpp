@@ -1,5 +1,5 @@
-// The listings of Carr, Mech and Miller as they were printed: what each loses, repeats or never ends, by erratum; and
-// hybrid peeling, whose input is two sets.
+// Tests the listings of Carr, Mech and Miller as printed: which fragments each loses or repeats, and where it never
+// ends, by erratum; and hybrid peeling, whose input is two sets.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/disordered_sequences.h"
@@ -18,7 +18,7 @@ using strata::pipeline::Formulation;
 
 constexpr Rgba background{0.25f, 0.5f, 0.75f, 1};
 
-// A binary fraction that 2 z - 1 keeps exact.
+// A binary fraction near n / 7 for which 2 z - 1 is exact.
 float sevenths(int n) { return std::round(static_cast<float>(n) / 7.0f * 0x1p23f) * 0x1p-23f; }
 float eighths(int n) { return static_cast<float>(n) / 8.0f; }
 
@@ -46,7 +46,7 @@ RenderResult published(const FragmentScene& scene, const Machine& machine, const
     return run(draw_list(scene), scene, machine, Formulation::published, running);
 }
 
-// Pixel p shows these fragments, near to far.
+// True if pixel p composites these fragments, near to far.
 bool shows(const RenderResult& result, std::size_t p, const std::vector<GivenFragment>& near_to_far) {
     std::vector<Rgba> colors;
     for (const GivenFragment& f : near_to_far) colors.push_back(f.color);
@@ -57,7 +57,7 @@ bool shows(const RenderResult& result, std::size_t p, const std::vector<GivenFra
     return true;
 }
 
-// Both sets as one list, the ordered one last: its instance says that it arrives front to back.
+// Both sets as one list, the ordered one last; its instance is marked as submitted front to back.
 DrawList two_sets(const FragmentScene& unordered, const FragmentScene& ordered) {
     DrawList list = draw_list(unordered), second = draw_list(ordered);
     list.meshes.push_back(second.meshes.front());
@@ -67,7 +67,7 @@ DrawList two_sets(const FragmentScene& unordered, const FragmentScene& ordered) 
     return list;
 }
 
-// The two sets of every pixel as hybrid composites them: equal depths ordered set first, then in submission order.
+// The two sets of every pixel in hybrid's order: of equal depths the ordered set first, then submission order.
 std::vector<Rgba> hybrid_order(const GivenPixel& unordered, const GivenPixel& ordered) {
     GivenPixel both = unordered;
     both.fragments = ordered.fragments;
@@ -80,7 +80,8 @@ const Machine layer_peel{"geforce8", "layer_peel"}, hybrid{"geforce8", "hybrid"}
 
 }  // namespace
 
-TEST_CASE("hybrid composites an ordered and an unordered set, depths shared or not, in N + 1 iterations", "[slow]") {
+TEST_CASE("hybrid composites an ordered and an unordered set with and without shared depths in N + 1 iterations",
+          "[slow]") {
     const FragmentScene unordered = all_short_sequences(20241130, short_depths);
     FragmentScene ordered{unordered.width, unordered.height};
     Random random{20241131};
@@ -95,7 +96,7 @@ TEST_CASE("hybrid composites an ordered and an unordered set, depths shared or n
     const RenderResult result = run(two_sets(unordered, ordered), unordered, hybrid, Formulation::resolved);
     CHECK(result.audit.order_errors == 0u);
     CHECK(result.frame.iterations == 6);
-    CHECK(result.frame.passes.geometry == 17);  // 3 a layer, 2 to see that nothing is left
+    CHECK(result.frame.passes.geometry == 17);  // 3 per layer, 2 to find that nothing is left
     std::size_t wrong = 0;
     const TargetModel target{Format::rgba32f};
     for (std::size_t p = 0; p < ordered.pixels.size(); ++p) {
@@ -134,12 +135,12 @@ TEST_CASE("deep ordered sets over unordered ones are composited in order by hybr
     check_two_deep_sets(20241140, 16, 120);
 }
 
-TEST_CASE("10 times 1,024 pairs of sets, the ordered one of up to 400 fragments, are composited in order by hybrid",
+TEST_CASE("10 times 1024 pairs of sets with ordered ones of up to 400 fragments are composited in order by hybrid",
           "[exhaustive]") {
     for (std::uint64_t seed = 0; seed < 10; ++seed) check_two_deep_sets(20241160 + 2 * seed, 32, 400);
 }
 
-TEST_CASE("an ordered set that does not arrive front to back shows as it comes, and hybrid says so") {
+TEST_CASE("an ordered set that is not submitted front to back is composited as submitted and hybrid reports it") {
     FragmentScene unordered{8, 8}, ordered{8, 8};
     Random random{3};
     ordered.pixels[9].fragments = fragments_at({4, 2}, eighths, random);
@@ -148,7 +149,7 @@ TEST_CASE("an ordered set that does not arrive front to back shows as it comes, 
     CHECK(diagnosed(result, Fault::out_of_order) == 1);
 }
 
-TEST_CASE("E16, regression: B's printed factors multiply depths 3, 2, 1 of 7 below 1, and the pixel stalls") {
+TEST_CASE("E16 regression: B's printed factors multiply depths 3 2 1 of 7 below 1 and the pixel makes no progress") {
     FragmentScene scene{8, 8};
     Random random{4};
     scene.pixels[0].fragments = fragments_at({3, 2, 1}, sevenths, random);
@@ -159,7 +160,7 @@ TEST_CASE("E16, regression: B's printed factors multiply depths 3, 2, 1 of 7 bel
     CHECK(diagnosed(result, Fault::as_published) == 1);
 }
 
-TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short sequences, and what they keep is in order",
+TEST_CASE("E16: the printed factors lose layers of 2540 of the 19531 short sequences and the others are in order",
           "[slow]") {
     const FragmentScene scene =
         all_short_sequences(20241132, {sevenths(1), sevenths(2), sevenths(3), sevenths(4), sevenths(5)});
@@ -169,8 +170,7 @@ TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short seq
     CHECK(published(scene, stencil).audit.order_errors == 0u);
 }
 
-TEST_CASE(
-    "E22, regression: A as printed composites what lies at the opaque surface in every iteration, and is stopped") {
+TEST_CASE("E22 regression: A as printed composites fragments at the opaque surface in every iteration and is stopped") {
     FragmentScene scene{8, 8};
     Random random{5};
     scene.pixels[3].fragments = fragments_at({3, 6}, eighths, random);
@@ -187,7 +187,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "E23: fragments exactly on the near plane are lost as printed, and Algorithm 2 alone composites them by equality") {
+    "E23: fragments exactly on the near plane are lost as printed and only Algorithm 2 composites them by equality") {
     FragmentScene scene{8, 8};
     Random random{6};
     scene.pixels[0].fragments = fragments_at({2, 0}, eighths, random);
@@ -201,7 +201,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("E24, regression: Algorithm 1 as printed, U = 3, 3, 1 and S = 3, 4, 5, loses the ordered fragment at 3") {
+TEST_CASE("E24 regression: Algorithm 1 as printed with U = 3 3 1 and S = 3 4 5 loses the ordered fragment at 3") {
     FragmentScene unordered{8, 8}, ordered{8, 8};
     Random random{7};
     auto& u = unordered.pixels[0].fragments = fragments_at({3, 3, 1}, eighths, random);
@@ -212,8 +212,8 @@ TEST_CASE("E24, regression: Algorithm 1 as printed, U = 3, 3, 1 and S = 3, 4, 5,
 }
 
 TEST_CASE(
-    "E24, regression: Algorithm 1 as printed repeats what lies at the opaque surface while another pixel is peeled") {
-    FragmentScene scene{16, 8};  // the other pixel in another tile
+    "E24 regression: Algorithm 1 as printed repeats fragments at the opaque surface while another pixel is peeled") {
+    FragmentScene scene{16, 8};  // the other pixel is in another tile
     Random random{8};
     auto& first = scene.pixels[0].fragments = fragments_at({6, 0, 6}, eighths, random);
     auto& second = scene.pixels[9].fragments = fragments_at({1, 2}, eighths, random);
@@ -227,7 +227,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("E25, regression: Algorithm 2 as printed composites a finished pixel's last layer again in every iteration") {
+TEST_CASE("E25 regression: Algorithm 2 as printed composites a finished pixel's last layer again in every iteration") {
     FragmentScene scene{16, 8};
     Random random{9};
     auto& first = scene.pixels[0].fragments = fragments_at({1}, eighths, random);
@@ -241,9 +241,7 @@ TEST_CASE("E25, regression: Algorithm 2 as printed composites a finished pixel's
     }
 }
 
-TEST_CASE(
-    "as printed, a listing differs from the exact order at the pixels that its diagnostics count, and nowhere else",
-    "[slow]") {
+TEST_CASE("a listing as printed differs from the exact order only at the pixels that its diagnostics count", "[slow]") {
     const FragmentScene scene = all_short_sequences(20241133, short_depths);
     for (const Machine& machine : {layer_peel, stencil, blend, ideal}) {
         const RenderResult result = published(scene, machine);
@@ -261,7 +259,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("dual, regression: depths .1, .1, .3, .3 merge into one layer in front and one behind") {
+TEST_CASE("dual regression: depths .1 .1 .3 .3 merge into one layer in front and one behind") {
     FragmentScene scene{8, 8};
     Random random{10};
     scene.pixels[0].fragments = fragments_at({1, 1, 3, 3}, eighths, random);

@@ -1,6 +1,6 @@
-// Frames that come seldom: sums and counts that stop growing, colours that MAX does not order, depths that blending
-// flushes, limits of a pass or two, lists in parts, ties that are equal in everything. Models: literal execution;
-// pixels counted by hand; the same frame with room enough.
+// Tests rare frames: sums and counts that stop growing, colours that MAX cannot order, depths that blending flushes,
+// limits of one or two passes, lists in parts, fragments that are equal in everything. The expected results are those
+// of literal execution, counts of pixels made by hand, or the same frame with enough memory.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -18,7 +18,7 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
 
-// `layers` fragments at one pixel of 8 by 8, one at some others.
+// `layers` fragments at one pixel of 8 x 8, one at some others.
 FragmentScene one_deep_pixel(int layers) {
     FragmentScene scene{8, 8};
     for (int i = 0; i < layers; ++i) scene.pixels[19].fragments.push_back({0.5f, {0.25f, 0.5f, 1, 0.25f}});
@@ -32,7 +32,7 @@ RenderResult on(const DeviceProfile& profile, const DrawList& list, const char* 
     return renderer.render(*find_algorithm(algorithm));
 }
 
-// The same frame literally and in tiles: pictures, statistics and audits.
+// Draws the same frame literally and in tiles and compares pictures, statistics and audits.
 void check_both_ways(const DeviceProfile& profile, const DrawList& list, const char* algorithm, RenderOptions options,
                      const View& view = {}) {
     options.execution = Execution::literal;
@@ -50,7 +50,7 @@ void check_both_ways(const DeviceProfile& profile, const DrawList& list, const c
 
 }  // namespace
 
-TEST_CASE("a count of 2048 and a sum that is infinite are reported at their pixels, on every instruction set") {
+TEST_CASE("a count of 2048 and a sum that is infinite are reported at their pixels on every instruction set") {
     const DeviceProfile& profile = *find_profile("geforce8");
     for (const strata::Simd simd : strata::available_simd())
         for (const Execution execution : {Execution::literal, Execution::replay}) {
@@ -67,7 +67,7 @@ TEST_CASE("a count of 2048 and a sum that is infinite are reported at their pixe
             CHECK(diagnosed(full, Fault::half_saturated) == 1);
             for (const Diagnostic& d : full.frame.diagnostics)
                 if (d.fault == Fault::half_saturated) CHECK((d.first_x == 3 && d.first_y == 2));
-            options.alpha = 3e5f;  // a sum of one such alpha, 75,000, is beyond the halves
+            options.alpha = 3e5f;  // the sum of one such alpha, 75,000, exceeds a half
             CHECK(diagnosed(stuck(1), Fault::half_saturated) == 4);
             options.average_count = Format::r32f;
             CHECK(diagnosed(stuck(1), Fault::half_saturated) == 4);
@@ -82,7 +82,7 @@ TEST_CASE("a binary32 count is a whole number up to 2^30") {
     CHECK(strata::peeling::scalar::OneAverage::whole(-1.0f) == 0);
 }
 
-TEST_CASE("tiles leave what the frame does where colours are signed zeros or depths are flushed", "[slow]") {
+TEST_CASE("tiles give the frame's result where colours are signed zeros or depths are flushed", "[slow]") {
     FragmentScene signed_zeros{16, 8};
     Random random{19};
     for (GivenPixel& pixel : signed_zeros.pixels)
@@ -103,7 +103,7 @@ TEST_CASE("tiles leave what the frame does where colours are signed zeros or dep
                 }
 }
 
-TEST_CASE("a resolve cuts blended colours where its profile does") {
+TEST_CASE("a resolve rounds blended colours like its profile") {
     DeviceProfile cuts = *find_profile("geforce8");
     cuts.blend_rounding = BlendRounding::truncate;
     const TriangleScene scene = random_triangles(23, 20);
@@ -118,7 +118,8 @@ TEST_CASE("a resolve cuts blended colours where its profile does") {
           on(*find_profile("geforce8"), scene.list, "dual", options, scene.view).frame.color);
 }
 
-TEST_CASE("a limit of any number of passes ends every algorithm at that number, in tiles as in the frame", "[slow]") {
+TEST_CASE("a limit of any number of passes ends every algorithm at that number in tiles and in the whole frame",
+          "[slow]") {
     const TriangleScene scene = random_triangles(24, 14);
     RenderOptions options;
     options.width = options.height = 24;
@@ -133,7 +134,7 @@ TEST_CASE("a limit of any number of passes ends every algorithm at that number, 
         }
 }
 
-TEST_CASE("masks that --alpha makes transparent are dropped by every peel, and the rest is in order") {
+TEST_CASE("masked materials that --alpha makes transparent are dropped by every peel and the rest is in order") {
     const TriangleScene scene = random_triangles(25, 20);
     RenderOptions options;
     options.width = options.height = 32;
@@ -147,7 +148,8 @@ TEST_CASE("masks that --alpha makes transparent are dropped by every peel, and t
     }
 }
 
-TEST_CASE("an A-buffer with room for a few pixels' lists at a time leaves and counts what one with room for all does") {
+TEST_CASE(
+    "an A-buffer with memory for a few pixels' lists at a time has the result and counts of one with memory for all") {
     const FragmentScene scene = one_deep_pixel(40);
     const auto composited = [&](std::uint64_t bytes) {
         TestFrame test{scene, "geforce8"};
@@ -163,7 +165,7 @@ TEST_CASE("an A-buffer with room for a few pixels' lists at a time leaves and co
     }
 }
 
-TEST_CASE("batches know no bounds of a w buffer's depths, and peel it as they peel any other") {
+TEST_CASE("batches have no bounds for a w buffer's depths and peel it like any other") {
     DeviceProfile w_peels = *find_profile("ideal");
     w_peels.raster = find_profile("geforce3")->raster;
     const TriangleScene scene = random_triangles(27, 16);
@@ -178,7 +180,7 @@ TEST_CASE("batches know no bounds of a w buffer's depths, and peel it as they pe
     CHECK(by_w.frame.color == on(w_peels, scene.list, "front_to_back", options, scene.view).frame.color);
 }
 
-TEST_CASE("fragments that are equal in everything may stand for each other in the audit") {
+TEST_CASE("fragments that are equal in everything are interchangeable in the audit") {
     FragmentScene equal_tiles{4, 4};
     for (GivenPixel& pixel : equal_tiles.pixels)
         for (const float depth : {0.5f, 0.25f, 0.5f, 0.25f, 0.5f})
@@ -191,12 +193,12 @@ TEST_CASE("fragments that are equal in everything may stand for each other in th
     }
 }
 
-TEST_CASE("an order that is almost sorted is sorted whatever it was, and no tie policy leaves it as it is") {
+TEST_CASE("an order that is far from sorted is sorted as well and tie policy none leaves an order unchanged") {
     std::vector<KeyedFragment> fragments(300);
     FragmentOrder near_order;
     for (std::uint32_t i = 0; i < fragments.size(); ++i) {
         fragments[i].key = i / 3;
-        fragments[i].exact_code = 299 - i;  // the other way round: more steps than an insertion sort is given
+        fragments[i].exact_code = 299 - i;  // reversed: more steps than the insertion sort is allowed
         near_order.push_back(std::uint64_t{fragments[i].key} << 32 | i);
     }
     FragmentOrder sorted;

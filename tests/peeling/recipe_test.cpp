@@ -1,5 +1,5 @@
-// The files that tools/new_algorithm.py writes: the listing compiled as it is and run. Models: unsorted, which draws
-// the same; lines by hand.
+// Tests the files that tools/new_algorithm.py writes: the listing is compiled unchanged and run. It must draw the same
+// as `unsorted`; the expected lines are written by hand.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
@@ -32,8 +32,7 @@ std::size_t times(const std::string& text, const std::string& what) {
 
 }  // namespace
 
-TEST_CASE(
-    "a new algorithm as the recipe begins it draws, is audited, and is refused by a device that lacks what it names") {
+TEST_CASE("a new algorithm from the recipe draws and is audited and is rejected by a device that lacks its features") {
     const std::vector<Algorithm> entries = listing::drawn_by_recipe::entries();
     REQUIRE(entries.size() == 1);
     CHECK(entries[0].name == "drawn_by_recipe");

@@ -1,4 +1,4 @@
-// Who runs what: the table of devices.md 10, row by row, and the sentence of every refusal.
+// Tests which device runs which algorithm, against the table of devices.md 10, and the message of every rejection.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -20,12 +20,12 @@ FragmentScene one_fragment() {
     return scene;
 }
 
-// The sentence of a refused run; empty if it ran.
+// The message of a rejected run; empty if it ran.
 std::string sentence(const Machine& machine, const RenderOptions& options) {
     const RenderResult result = render(one_fragment(), machine, options);
     CHECK((result.outcome == Outcome::refused) == result.refusal.has_value());
     if (!result.refusal) return "";
-    CHECK(result.frame.color.codes.empty());  // nothing half-made
+    CHECK(result.frame.color.codes.empty());  // no partial result
     return result.refusal->sentence(*find_profile(machine.profile));
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("the table of algorithms and profiles is that of devices.md 10") {
         }
 }
 
-TEST_CASE("a refused algorithm names the first feature that is missing, its extension and who has it") {
+TEST_CASE("a rejected algorithm names the first missing feature with its extension and the devices that have it") {
     CHECK(sentence({"geforce3", "front_to_back"}) == no_programs);
     CHECK(sentence({"geforce3", "dual"}) == no_float);
     CHECK(sentence({"geforce3", "weighted_average"}) == no_float);
@@ -66,14 +66,14 @@ TEST_CASE("a refused algorithm names the first feature that is missing, its exte
           "profile llvmpipe has no 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
 }
 
-TEST_CASE("the fix of shadow-map peeling is refused by its extension where there are no texture shaders") {
+TEST_CASE("depth replace is rejected by its extension where there are no texture shaders") {
     for (const std::string profile : {"geforce8", "geforce8_dx101", "llvmpipe"})
         CHECK(sentence({profile, "shadow_map_depth_replace"}) ==
               "profile " + profile +
                   " has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
 
-TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
+TEST_CASE("depth formats that a device lacks are rejected for every algorithm") {
     const auto with_depth = [](const Machine& machine, DepthFormat format) {
         RenderOptions options = options_for(one_fragment());
         options.depth = format;
@@ -96,7 +96,7 @@ TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
           "llvmpipe, llvmpipe_sse, softpipe or swiftshader");
 }
 
-TEST_CASE("float colour on geforce3 is refused") {
+TEST_CASE("float colour on geforce3 is rejected") {
     RenderOptions options = options_for(one_fragment());
     for (const Format format : {Format::rgba16f, Format::rgba32f}) {
         options.color_format = format;
@@ -105,7 +105,7 @@ TEST_CASE("float colour on geforce3 is refused") {
     }
 }
 
-TEST_CASE("a depth pass is refused for a colour format as any algorithm is: by its outcome, opaque surfaces or none") {
+TEST_CASE("a depth pass is rejected for a colour format like any algorithm with and without opaque surfaces") {
     const strata::peeling::Algorithm& unsorted = *strata::peeling::find_algorithm("unsorted");
     for (const bool has_opaque : {false, true}) {
         FragmentScene scene = one_fragment();
@@ -120,7 +120,7 @@ TEST_CASE("a depth pass is refused for a colour format as any algorithm is: by i
     }
 }
 
-TEST_CASE("a depth pass is refused for a depth format and a size as any algorithm is") {
+TEST_CASE("a depth pass is rejected for a depth format and a size like any algorithm") {
     const FragmentScene scene = one_fragment();
     const auto list = draw_list(scene);
     const auto refusals_of = [&](const char* profile, const RenderOptions& options) {
@@ -139,7 +139,7 @@ TEST_CASE("a depth pass is refused for a depth format and a size as any algorith
     CHECK(refusals_of("geforce8", options));
 }
 
-TEST_CASE("depth paths run where their machine exists, and are refused by name elsewhere") {
+TEST_CASE("depth paths run on their own machines and are rejected by name on others") {
     using strata::rasterizer::DepthPath;
     const auto with_path = [](const Machine& machine, DepthPath path) {
         RenderOptions options = options_for(one_fragment());
@@ -164,7 +164,7 @@ TEST_CASE("depth paths run where their machine exists, and are refused by name e
     CHECK(with_path({"geforce3", "depth_units"}, DepthPath::float32_plane).empty());
 }
 
-TEST_CASE("a viewport beyond the device's limit is refused before anything of its size is made") {
+TEST_CASE("a viewport beyond the device's limit is rejected before memory of its size is allocated") {
     const auto with_size = [](const Machine& machine, int width, int height) {
         RenderOptions options = options_for(one_fragment());
         options.width = width;
@@ -182,7 +182,7 @@ TEST_CASE("a viewport beyond the device's limit is refused before anything of it
     CHECK(with_size({"ideal", "unsorted"}, 16384, 1).empty());
 }
 
-TEST_CASE("layers of an algorithm that composites on the fly are refused") {
+TEST_CASE("layers of an algorithm that composites immediately are rejected") {
     RenderOptions options = options_for(one_fragment());
     options.keep_layers = true;
     CHECK(sentence({"geforce8", "weighted_average"}, options) ==
@@ -192,7 +192,7 @@ TEST_CASE("layers of an algorithm that composites on the fly are refused") {
     CHECK(sentence({"geforce3", "depth_units"}, options).empty());
 }
 
-TEST_CASE("a reversed depth range is refused by name, and depth clamping where the device has none") {
+TEST_CASE("a reversed depth range is rejected by name and depth clamping where the device has none") {
     RenderOptions options = options_for(one_fragment());
     options.raster.depth_clamp = true;
     CHECK(sentence({"geforce8", "dual"}, options).empty());
@@ -210,14 +210,14 @@ TEST_CASE("a reversed depth range is refused by name, and depth clamping where t
               "--depth-order greater");
 }
 
-TEST_CASE("fragments of a refused run are refused with the same sentence") {
+TEST_CASE("fragments of a rejected run are rejected with the same message") {
     const DrawList list = draw_list(one_fragment());
     strata::peeling::Renderer renderer{list, {}, *find_profile("geforce3"), options_for(one_fragment())};
     CHECK(renderer.fragments(*strata::peeling::find_algorithm("unsorted")).all.size() == 1);
     CHECK_THROWS_WITH(renderer.fragments(*strata::peeling::find_algorithm("dual")), no_float);
 }
 
-TEST_CASE("options that no profile could mean are input errors that name the field, what it takes and what it got") {
+TEST_CASE("invalid options are input errors with the field and the expected and found values") {
     const auto message = [](auto change) -> std::string {
         RenderOptions options = options_for(one_fragment());
         change(options);
@@ -241,7 +241,7 @@ TEST_CASE("options that no profile could mean are input errors that name the fie
     CHECK(message([](RenderOptions& o) { o.termination = {.rule = TerminationRule::ratio, .ratio = -0.5}; }) ==
           "render options: termination.ratio: expected a number of at least 0, found -0.500000");
     CHECK(message([](RenderOptions& o) {
-              o.termination = {.ratio = -0.5};  // which no rule asks for
+              o.termination = {.ratio = -0.5};  // not used by the default rule
           }).find("termination") == std::string::npos);
     CHECK(message([](RenderOptions& o) { o.alpha = std::nanf(""); }) ==
           "render options: alpha: expected a finite number, found nan");
@@ -261,7 +261,7 @@ TEST_CASE("options that no profile could mean are input errors that name the fie
           "draw list: instances[0].mesh: expected less than 0, found 3");
 }
 
-TEST_CASE("a w buffer is the chip's own, and needs a view with perspective") {
+TEST_CASE("only the chip has a w buffer and it needs a perspective view") {
     RenderOptions options = options_for(one_fragment());
     options.depth_path = strata::rasterizer::DepthPath::w_buffer;
     options.depth = DepthFormat::d24;
@@ -273,7 +273,7 @@ TEST_CASE("a w buffer is the chip's own, and needs a view with perspective") {
           "profile geforce8 has no w buffer; use --profile geforce3 with --depth-format d16, d24, d16f or d24f");
 }
 
-TEST_CASE("a stored w is compared with w alone, and a stored depth with no w") {
+TEST_CASE("a stored w is compared only with w and a stored depth never with w") {
     using strata::rasterizer::DepthPath;
     View view;
     view.projection = Matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.02f, -1, 0, 0, -0.202f, 0};  // near 0.1, far 10

@@ -1,5 +1,5 @@
-// What a renderer answers to rare choices: sentences of refusals typed a second time, pictures and counts that a choice
-// must not change, and diagnostics for figures that the test makes up.
+// Tests rare options of a renderer: messages of rejections, listed here independently; pictures and counts that an
+// option must not change; and diagnostics for invented figures.
 #include <catch2/catch.hpp>
 
 #include "peeling/audit/audit_result.h"
@@ -21,7 +21,7 @@ using strata::rasterizer::DepthPath;
 
 const View parallel_view{};
 
-// Three layers, near to far or far to near, over four pixels by four.
+// Three layers, near to far or far to near, at 4 x 4 pixels.
 FragmentScene three_layers(bool near_first) {
     FragmentScene scene{4, 4};
     for (GivenPixel& pixel : scene.pixels)
@@ -52,7 +52,7 @@ RenderOptions four_by_four() { return options_for(three_layers(true)); }
 
 }  // namespace
 
-TEST_CASE("reports spell the tie policies as keys-and-counts.md does, and an unknown algorithm is none") {
+TEST_CASE("reports name the tie policies as in keys-and-counts.md and an unknown algorithm is not found") {
     CHECK(name(TiePolicy::none) == "none");
     CHECK(name(TiePolicy::first) == "first");
     CHECK(name(TiePolicy::last) == "last");
@@ -62,7 +62,7 @@ TEST_CASE("reports spell the tie policies as keys-and-counts.md does, and an unk
     CHECK(find_algorithm("no_such_peel") == nullptr);
 }
 
-TEST_CASE("a colour format is one that is listed and holds colours") {
+TEST_CASE("a colour format must be a listed one with colours") {
     RenderOptions options = four_by_four();
     options.color_format = Format::d24;
     CHECK(error_of(options).find("color_format: expected a colour format") != std::string::npos);
@@ -77,7 +77,7 @@ TEST_CASE("a colour format is one that is listed and holds colours") {
     CHECK(error_of(options).find("back_format: expected a colour format") != std::string::npos);
 }
 
-TEST_CASE("the chip's own depths want its fixed point or 16 and 24-bit floats, and a reference that the device has") {
+TEST_CASE("the chip's own depths need one of its formats and a compared depth that the device has") {
     DeviceProfile float_depth = *find_profile("geforce3");
     float_depth.has_d32f = true;
     for (const DepthPath path : {DepthPath::window_z, DepthPath::w_buffer}) {
@@ -95,8 +95,7 @@ TEST_CASE("the chip's own depths want its fixed point or 16 and 24-bit floats, a
     CHECK(lacking->sentence(*find_profile("geforce8")).find("depth replace by texture shaders") != std::string::npos);
 }
 
-TEST_CASE(
-    "an algorithm is refused without a way to run, without render targets enough, and for a w that is 1 everywhere") {
+TEST_CASE("an algorithm is rejected without a body or without enough render targets or for a constant w") {
     const DrawList list = draw_list(three_layers(true));
     Algorithm neither;
     neither.name = "neither";
@@ -113,7 +112,7 @@ TEST_CASE(
               .find("w buffer for a parallel projection") != std::string::npos);
 }
 
-TEST_CASE("a light's map is of z even where w is stored, and there is none in a format that the device lacks") {
+TEST_CASE("a light's map stores z even where w is stored and is rejected in a format that the device lacks") {
     DrawList list = draw_list(three_layers(true));
     list.light = ShadowLight{};
     RenderOptions options = four_by_four();
@@ -132,7 +131,7 @@ TEST_CASE("a light's map is of z even where w is stored, and there is none in a 
               .find("reversed depth together with a light") != std::string::npos);
 }
 
-TEST_CASE("a depth pass is refused for its size and for its depth as any frame is") {
+TEST_CASE("a depth pass is rejected for its size and for its depth like any frame") {
     const DrawList list = draw_list(three_layers(true));
     RenderOptions large = four_by_four();
     large.width = 16384;
@@ -147,7 +146,7 @@ TEST_CASE("a depth pass is refused for its size and for its depth as any frame i
     CHECK(result.refusal.value().sentence(*find_profile("geforce8")).find("16-bit depth buffers") != std::string::npos);
 }
 
-TEST_CASE("a traced frame keeps its traces and leaves its audit alone") {
+TEST_CASE("a traced frame keeps its traces and does not change its audit") {
     const DrawList list = draw_list(three_layers(true));
     Renderer renderer{list, parallel_view, *find_profile("geforce8"), four_by_four()};
     std::vector<RegionTrace> traces;
@@ -161,7 +160,7 @@ TEST_CASE("a traced frame keeps its traces and leaves its audit alone") {
     CHECK(audited.frame.color == traced.frame.color);
 }
 
-TEST_CASE("a log of passes names those of every loop, whatever execution was asked for") {
+TEST_CASE("a log of passes has those of every loop for any requested execution") {
     const DrawList list = draw_list(three_layers(false));
     for (const auto& algorithm : algorithms()) {
         if (!algorithm.runs_loops) continue;
@@ -170,7 +169,7 @@ TEST_CASE("a log of passes names those of every loop, whatever execution was ask
         Renderer renderer{list, parallel_view, *find_profile("ideal"), options};
         const RenderResult logged = renderer.render(algorithm, {}, {.log_passes = true});
         INFO(algorithm.name);
-        CHECK(logged.frame.work.tile_size == 0);  // as a whole
+        CHECK(logged.frame.work.tile_size == 0);  // as a whole frame
         int transparent = 0;
         for (const auto& pass : logged.frame.pass_log.passes) transparent += pass.is_opaque_priming ? 0 : 1;
         CHECK(transparent >= logged.frame.passes.geometry);
@@ -178,7 +177,7 @@ TEST_CASE("a log of passes names those of every loop, whatever execution was ask
     }
 }
 
-TEST_CASE("fragments of a reversed frame are told with the depths that they have, not with their keys") {
+TEST_CASE("fragments of a reversed frame have their depths and not their keys") {
     FragmentScene scene{2, 2};
     for (GivenPixel& pixel : scene.pixels) pixel = {{{0.25f, {1, 1, 1, 0.5f}}, {0.75f, {1, 0, 0, 0.5f}}}, {}};
     const DrawList list = draw_list(scene);
@@ -192,10 +191,10 @@ TEST_CASE("fragments of a reversed frame are told with the depths that they have
         CHECK(f.shader_z == depth);
         CHECK(f.code == std::bit_cast<std::uint32_t>(depth));
     }
-    CHECK(found.opaque == std::vector<std::uint32_t>(4, 0));  // reversed, the far end is 0
+    CHECK(found.opaque == std::vector<std::uint32_t>(4, 0));  // the reversed far plane is 0
 }
 
-TEST_CASE("memory is foretold of an algorithm that carries values as of the function that it calls") {
+TEST_CASE("the predicted memory of an algorithm with captured values is that of the function that it calls") {
     const DrawList list = draw_list(three_layers(true));
     const Algorithm& listed = *find_algorithm("front_to_back");
     Algorithm carrying = listed;
@@ -218,7 +217,7 @@ TEST_CASE("memory is foretold of an algorithm that carries values as of the func
 }
 
 TEST_CASE(
-    "a frame whose window starts elsewhere on its surface shows the same picture, and names pixels of the surface") {
+    "a frame with another window origin on its surface shows the same picture and reports pixels of the surface") {
     const TriangleScene scene = random_triangles(7, 12);
     RenderOptions options;
     options.width = options.height = 32;
@@ -238,7 +237,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("an ordered set is named by its mesh or by its material, and spares hybrid its passes") {
+TEST_CASE("an ordered set is named by its mesh or its material and saves passes of hybrid") {
     const DrawList list = [] {
         DrawList made = draw_list(three_layers(true));
         made.meshes[0].name = "panes";
@@ -257,7 +256,7 @@ TEST_CASE("an ordered set is named by its mesh or by its material, and spares hy
     CHECK(passes({"transparent"}) == passes({"panes"}));
 }
 
-TEST_CASE("triangles are submitted as listed unless an order is asked for, which is a permutation") {
+TEST_CASE("triangles are submitted as listed unless an order is requested and that is a permutation") {
     const DrawList list = draw_list(three_layers(true));
     const DeviceProfile& profile = *find_profile("ideal");
     for (const DepthPath path : {DepthPath::float32, DepthPath::perspective_rq, DepthPath::depth_replace}) {
@@ -272,7 +271,7 @@ TEST_CASE("triangles are submitted as listed unless an order is asked for, which
                                    .depth = {path, DepthFormat::d32f}}};
         CHECK(takes_quotient(lists.settings().depth) == (path != DepthPath::float32));
         CHECK(lists.submission(ListOrder::given).empty());
-        // Sixteen triangles a layer, given near first: far first they are the same runs the other way round.
+        // Sixteen triangles per layer, given near first: far first they are the same runs in reverse.
         const std::vector<std::uint32_t> order = lists.submission(ListOrder::back_to_front);
         REQUIRE(order.size() == 48);
         std::size_t wrong = 0;
@@ -294,14 +293,14 @@ std::string diagnosed_as(const Algorithm& algorithm, const RenderOptions& option
 
 }  // namespace
 
-TEST_CASE("order errors and lost ties are put down to the first cause that holds") {
+TEST_CASE("order errors and lost ties are attributed to the first cause that applies") {
     AuditResult audit;
     audit.order_errors = 5;
     audit.lost_by_ties = 2;
     RenderOptions options;
     Algorithm peel;
     peel.exact = true;
-    CHECK(diagnosed_as(peel, options, {}, audit).empty());  // a policy that loses no tie, and no cause
+    CHECK(diagnosed_as(peel, options, {}, audit).empty());  // a policy that loses no tie, and no other cause
     peel.ties = TiePolicy::unique;
     CHECK(diagnosed_as(peel, options, {}, audit) == "merged_ties: 2 later fragments of equal depth lost; ");
     peel.ties = TiePolicy::merged;
@@ -318,7 +317,7 @@ TEST_CASE("order errors and lost ties are put down to the first cause that holds
           "unlike_depths: 5 places lost or repeated: blending flushes denormal depths to zero; ");
     CHECK(diagnosed_as(peel, options, {.is_invariant = false, .are_flushed = true}, audit) ==
           "unlike_depths: 5 places lost, repeated or misplaced; ");
-    peel.order = ListOrder::objects;  // exact: its objects are no cause
+    peel.order = ListOrder::objects;  // exact, so its objects are not a cause
     CHECK(diagnosed_as(peel, options, {.is_invariant = false, .are_flushed = false}, audit) ==
           "unlike_depths: 5 places lost, repeated or misplaced; ");
     peel.exact = false;
@@ -328,7 +327,7 @@ TEST_CASE("order errors and lost ties are put down to the first cause that holds
     CHECK(diagnosed_as(peel, options, {}, audit).empty());
 }
 
-TEST_CASE("a program that compares fixed-point depths is told to quantise them, if it does or compares its own codes") {
+TEST_CASE("a program that compares fixed-point depths is reported as quantizing if it does or compares its own codes") {
     const auto noted = [](const Algorithm& algorithm, DepthFormat format, bool quantizes) {
         std::vector<Diagnostic> all;
         note_machine(algorithm, format, quantizes, all);
@@ -343,8 +342,8 @@ TEST_CASE("a program that compares fixed-point depths is told to quantise them, 
     CHECK(noted(programmed, DepthFormat::d24, false));
 }
 
-TEST_CASE("depths that blending flushes end a peel in float targets after six passes a layer, and are named") {
-    // The whole depth range lies below 2^-126: on a device that flushes, every depth that is blended becomes 0.
+TEST_CASE("depths that blending flushes end a peel in float targets after six passes per layer and are reported") {
+    // The whole depth range is below 2^-126: on a device that flushes, every blended depth becomes 0.
     const DrawList list = draw_list(three_layers(false));
     RenderOptions options = four_by_four();
     options.raster.depth_far = 0x1p-127f;

@@ -1,4 +1,4 @@
-// The sentence that an audit's figures call for, or none; what is asked of a device that none had.
+// Tests the diagnostics for given figures of an audit, and for given properties of a device.
 #include "peeling/render_diagnostics.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool says_quantized(const char* algorithm, DepthFormat format, bool quantizes) {
 }  // namespace
 
 TEST_CASE(
-    "an approximation's order errors are named where its passes see unlike depths, and not where they are its own") {
+    "an approximation's order errors are reported where its passes see different depths and not if they are its own") {
     REQUIRE_FALSE(find_algorithm("k_buffer")->exact);
     CHECK(audited("k_buffer", true).empty());
     const auto unlike = audited("k_buffer", false);
@@ -40,7 +40,7 @@ TEST_CASE(
     CHECK(unlike[0].first_y == 0);
 }
 
-TEST_CASE("a program's conversion of its depth is noted where it converts, and where the buffer is no binary32") {
+TEST_CASE("a program's conversion of its depth is reported where it converts and where the buffer is not binary32") {
     REQUIRE_FALSE(find_algorithm("front_to_back")->compares_own_codes);
     CHECK(says_quantized("front_to_back", DepthFormat::d24, true));
     CHECK_FALSE(says_quantized("front_to_back", DepthFormat::d24, false));

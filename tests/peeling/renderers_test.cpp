@@ -1,4 +1,5 @@
-// Model: a renderer that draws one frame and goes. What another one has drawn before, or draws between, must not show.
+// Tests that frames do not depend on earlier or concurrent ones: each must equal that of a renderer that draws only
+// this frame.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <set>
@@ -18,7 +19,7 @@ using peeling::Renderer;
 using peeling::RenderOptions;
 using peeling::RenderResult;
 
-// Tiles of two sizes at the edges: no side is a multiple of one.
+// Tiles of two sizes at the edges, because no side is a multiple of the tile size.
 RenderOptions options_sized(int width, int height) {
     RenderOptions options;
     options.width = width;
@@ -40,7 +41,8 @@ RenderResult alone(const TriangleScene& scene, const RenderOptions& options, con
 
 }  // namespace
 
-TEST_CASE("frames in sequence are those of a renderer each, whatever order, tile size and depth the one before had") {
+TEST_CASE(
+    "frames in sequence equal those of separate renderers for any order and tile size and depth of earlier ones") {
     const TriangleScene scene = random_triangles(801, 40);
     RenderOptions plain = options_sized(150, 100), two_lists = plain;
     two_lists.vertex_paths.second = pipeline::VertexPath::toward_zero;
@@ -51,7 +53,7 @@ TEST_CASE("frames in sequence are those of a renderer each, whatever order, tile
         Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options};
         std::string wrong;
         std::set<int> sizes_used;
-        // Forward and back, so that each has another one before it.
+        // Forwards and backwards, so that each frame has different predecessors.
         for (std::size_t turn = 0; turn < 2 * sequence.size(); ++turn) {
             const std::size_t i = turn < sequence.size() ? turn : 2 * sequence.size() - 1 - turn;
             const RenderResult found = renderer.render(*sequence[i]);
@@ -60,11 +62,11 @@ TEST_CASE("frames in sequence are those of a renderer each, whatever order, tile
             sizes_used.insert(found.frame.work.tile_size);
         }
         CHECK(wrong == "");
-        CHECK(sizes_used.size() >= 3);  // 0 for a whole frame, and two of tiles
+        CHECK(sizes_used.size() >= 3);  // 0 for a whole frame, and two tile sizes
     }
 }
 
-TEST_CASE("two renderers of different scenes and sizes that draw in turns do not disturb each other") {
+TEST_CASE("two renderers of different scenes and sizes that draw alternately do not disturb each other") {
     const TriangleScene first = random_triangles(802, 30), second = random_triangles(803, 60, 0.4f);
     const RenderOptions large = options_sized(90, 70), small = options_sized(33, 41);
     const pipeline::DeviceProfile& profile = *pipeline::find_profile("geforce8");
@@ -79,9 +81,9 @@ TEST_CASE("two renderers of different scenes and sizes that draw in turns do not
     CHECK(wrong == "");
 }
 
-TEST_CASE("a triangle that is dropped is told by its number in the list as given, whatever order the algorithm draws") {
+TEST_CASE("a dropped triangle is reported by its index in the given list for any order that the algorithm draws") {
     TriangleScene scene = random_triangles(804, 8);
-    scene.list.instances.resize(1);  // transparent
+    scene.list.instances.resize(1);  // only the transparent one
     auto& mesh = scene.list.meshes[0];
     const std::uint32_t broken = mesh.indices[3 * 5];
     mesh.positions[broken].x = std::numeric_limits<float>::quiet_NaN();

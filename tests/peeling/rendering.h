@@ -1,4 +1,4 @@
-// tests/peeling/rendering.h - one call from a test's scene to a finished frame, and images against a model.
+// tests/peeling/rendering.h - renders a test's scene in one call, and compares images with a model.
 #pragma once
 #include <cstdint>
 #include <sstream>
@@ -13,7 +13,7 @@ struct Machine {
     std::string profile, algorithm;
 };
 
-// How a frame is run: replay with 0 bytes rasterizes every pass, tile by tile.
+// An execution of a frame; replay with 0 bytes rasterizes every pass, tile by tile.
 struct Running {
     pipeline::Execution execution = pipeline::Execution::replay;
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
@@ -61,7 +61,7 @@ inline constexpr Running all_ways_of_running[]{{pipeline::Execution::literal}, {
     return false;
 }
 
-// How many pixels' codes are not `expected(pixel)`, an Rgba of the codes, and what the first of them holds.
+// Number of pixels whose codes differ from `expected(pixel)`, an Rgba of the codes, and a description of the first.
 struct Differences {
     std::uint64_t pixels = 0;
     std::string first;

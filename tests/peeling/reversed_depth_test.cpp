@@ -1,5 +1,5 @@
-// Reversed depth (GREATER, near at 1) and clip space from 0 to 1. Models: the same fragments with depth 1 - d, every d
-// and 1 - d exact in binary32; fragments sorted by a plain loop; the real numbers of depths behind a perspective
+// Tests reversed depth (GREATER, near at 1) and clip space from 0 to 1, against the same fragments with depth 1 - d,
+// where d and 1 - d are exact in binary32; fragments sorted by a plain loop; and the real depths of a perspective
 // projection.
 #include <algorithm>
 #include <bit>
@@ -23,7 +23,7 @@ using strata::peeling::RenderResult;
 using strata::rasterizer::ClipDepth;
 using strata::rasterizer::DepthOrder;
 
-// Depths k / 64 from 0 to 1, both included, ties among them; some pixels have an opaque surface.
+// Depths k / 64 from 0 to 1 inclusive, with ties; some pixels have an opaque surface.
 FragmentScene mixed_scene(unsigned seed) {
     std::mt19937 random{seed};
     FragmentScene scene{8, 8};
@@ -44,7 +44,7 @@ FragmentScene mixed_scene(unsigned seed) {
     return scene;
 }
 
-// A scene draws clip z = 2 d - 1. These projections make it the z of the convention, with every operation exact.
+// A scene draws clip z = 2 d - 1. These projections convert it to the z of the convention, with every operation exact.
 View view_under(ClipDepth clip, DepthOrder order) {
     View view;
     if (clip == ClipDepth::zero_to_one) {
@@ -70,7 +70,7 @@ std::uint32_t reversed_code(std::uint32_t code) {
     return std::bit_cast<std::uint32_t>(1.0f - std::bit_cast<float>(code));
 }
 
-// Whether `reversed` holds 1 - d wherever `forward` holds d.
+// True if `reversed` is 1 - d wherever `forward` is d.
 bool are_reversed(const Image& forward, const Image& reversed) {
     if (forward.codes.size() != reversed.codes.size() || forward.format != reversed.format) return false;
     for (std::size_t i = 0; i < forward.codes.size(); ++i)
@@ -126,7 +126,7 @@ TEST_CASE("a program reads the window depth under either depth order") {
     }
 }
 
-TEST_CASE("under GREATER every algorithm composites what it does under LESS, and its depths are 1 - d", "[slow]") {
+TEST_CASE("under GREATER every algorithm composites the same as under LESS and its depths are 1 - d", "[slow]") {
     int ran = 0, refused = 0;
     for (const unsigned seed : {1u, 2u}) {
         const FragmentScene scene = mixed_scene(seed);
@@ -191,7 +191,7 @@ TEST_CASE("layers of a reversed peel are the fragments of each pixel from the gr
         }
     RenderOptions options = options_under(scene, ClipDepth::zero_to_one, DepthOrder::greater);
     options.keep_layers = true;
-    // The scene's d is what is stored: nothing turns it round on the way.
+    // The scene's d is stored without reversal.
     const View as_drawn = view_under(ClipDepth::zero_to_one, DepthOrder::less);
     for (const char* name : {"front_to_back", "depth_units"}) {
         const RenderResult result = render(draw_list(scene), as_drawn, {"ideal", name}, options);
@@ -211,9 +211,8 @@ TEST_CASE("layers of a reversed peel are the fragments of each pixel from the gr
     }
 }
 
-TEST_CASE("reversed float depth tells walls apart that forward depth merges") {
-    // Near 1, far at infinity: clip z is e - 1 under LESS and 1 under GREATER, w is e; all of them exact for the
-    // distances here.
+TEST_CASE("reversed float depth distinguishes walls that forward depth merges") {
+    // Near 1, far at infinity: clip z is e - 1 under LESS and 1 under GREATER, w is e; all exact for these distances.
     for (const float distance : {0x1p10f, 0x1p14f, 0x1p20f}) {
         const float gap = distance * 0x1p-8f;
         INFO(distance);
@@ -236,13 +235,14 @@ TEST_CASE("reversed float depth tells walls apart that forward depth merges") {
             return render(list, view, {"geforce8", "front_to_back"}, options).audit.layers_max;
         };
         CHECK(layers(DepthOrder::greater) == 2);
-        // 1 - 2^-20 is a number of binary32, and less than half a step away it is the nearest.
+        // 1 - 2^-20 is a binary32, and is the nearest one for depths less than half a step away.
         CHECK(layers(DepthOrder::less) == (forward_steps < 0.5 ? 1 : 2));
         CHECK((forward_steps < 0.5) == (distance == 0x1p20f));
     }
 }
 
-TEST_CASE("reversed depth is refused by name where it has no float buffer, a comparison between codes, or a light") {
+TEST_CASE(
+    "reversed depth is rejected by name without a float buffer or with a comparison between codes or with a light") {
     const FragmentScene scene = mixed_scene(4);
     const auto refusal_of = [&](const auto& change, const char* profile = "ideal") {
         RenderOptions options = options_under(scene, ClipDepth::minus_one_to_one, DepthOrder::greater);

@@ -1,4 +1,4 @@
-// The model: each sample's frame drawn by itself, and the mean of the codes in whole numbers.
+// Tests sampled frames against each sample's frame drawn separately and the mean of the codes in integers.
 #include "peeling/sampled_renderer.h"
 
 #include <catch2/catch.hpp>
@@ -52,7 +52,7 @@ struct Sampled {
 
 }  // namespace
 
-TEST_CASE("a frame of n samples is n frames at the samples, resolved to the mean of their codes") {
+TEST_CASE("a frame of n samples is n frames at the samples resolved to the mean of their codes") {
     const TriangleScene scene = random_triangles(1201, 40);
     for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, Machine{"geforce8_dx101", "dual"},
                                    Machine{"geforce8", "weighted_average"}, Machine{"geforce3", "depth_units"}})
@@ -88,7 +88,7 @@ TEST_CASE("a frame of n samples is n frames at the samples, resolved to the mean
         }
 }
 
-TEST_CASE("one sample is the frame at the centre, as without samples") {
+TEST_CASE("a frame of one sample is the frame at the pixel centre as without samples") {
     const TriangleScene scene = random_triangles(1202, 30);
     const Machine machine{"geforce8", "front_to_back"};
     const Sampled one = sampled(scene, machine, sampled_options(), 1);
@@ -97,7 +97,7 @@ TEST_CASE("one sample is the frame at the centre, as without samples") {
     CHECK(one.result.frame.depth == plain.frame.depth);
 }
 
-TEST_CASE("every execution and size of tiles draws the same samples") {
+TEST_CASE("every execution and tile size draws the same samples") {
     const TriangleScene scene = random_triangles(1203, 40);
     for (const char* algorithm : {"front_to_back", "dual", "k_buffer"}) {
         const Machine machine{"ideal", algorithm};
@@ -112,7 +112,7 @@ TEST_CASE("every execution and size of tiles draws the same samples") {
     }
 }
 
-TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample, from its own end") {
+TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample counted from its own end") {
     const TriangleScene scene = random_triangles(1204, 24);
     for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, Machine{"geforce8_dx101", "dual"}}) {
         RenderOptions options = sampled_options();
@@ -148,7 +148,7 @@ TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample, fr
     }
 }
 
-TEST_CASE("Quincunx is GeForce3's of two samples, and no other device's") {
+TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
     const TriangleScene scene = random_triangles(1206, 20);
     const auto& algorithm = *find_algorithm("depth_units");
     using strata::pipeline::Resolve;
@@ -179,7 +179,7 @@ TEST_CASE("Quincunx is GeForce3's of two samples, and no other device's") {
     CHECK(refusal_of("geforce3", 4).starts_with("profile geforce3 has no Quincunx filter of 4 samples"));
 }
 
-TEST_CASE("what no device can draw with several samples is refused") {
+TEST_CASE("features that no device supports with several samples are rejected") {
     const TriangleScene scene = random_triangles(1205, 4);
     const auto refusal_of = [&](const Machine& machine, int samples) {
         const RenderResult result = sampled(scene, machine, sampled_options(), samples).result;

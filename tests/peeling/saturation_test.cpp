@@ -1,5 +1,5 @@
-// What weighted_average tells of half precision that has run out. The model counts: from 2,048 on a half holds every
-// second number alone, so a count that goes up by one stands still.
+// Tests the diagnostic of weighted_average when half precision is exceeded: from 2,048 on a half represents only even
+// numbers, so a count that increases by one stops.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/rendering.h"
@@ -23,7 +23,7 @@ FragmentScene deep_pixels() {
 
 }  // namespace
 
-TEST_CASE("a count of fragments that half precision cannot hold is told, with its pixels, in every way of running",
+TEST_CASE("a count of fragments that a half cannot represent is reported with its pixels in every execution",
           "[slow]") {
     const FragmentScene scene = deep_pixels();
     for (const Running& running : all_ways_of_running)

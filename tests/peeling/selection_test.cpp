@@ -1,5 +1,5 @@
-// Passes that visit only what they keep. Models: visiting everything, pass by pass, from the same targets; and counts
-// of layers that the scene was built with.
+// Tests passes that visit only selected fragments, against visiting all fragments, pass by pass, from the same targets;
+// and against the scene's known number of layers.
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <tuple>
@@ -27,7 +27,7 @@ RenderOptions frame_of_many_tiles() {
 
 enum class Arrival : std::uint8_t { shuffled, near_to_far, far_to_near, nearly_sorted };
 
-// `layers` at every pixel, by default in an submission order that is no order of depth.
+// `layers` at every pixel, by default in a submission order unrelated to depth.
 FragmentScene deep_scene(std::uint32_t layers, Arrival arrival = Arrival::shuffled, int side = 16) {
     FragmentScene scene{side, side};
     Random random{5};
@@ -35,7 +35,7 @@ FragmentScene deep_scene(std::uint32_t layers, Arrival arrival = Arrival::shuffl
         std::vector<std::uint32_t> order(layers);
         for (std::uint32_t k = 0; k < layers; ++k) order[k] = k;
         if (arrival == Arrival::shuffled) std::shuffle(order.begin(), order.end(), random);
-        // Some neighbours swapped; and below, every fifth fragment as deep as the one before it.
+        // Some neighbours are swapped; and below, every fifth fragment has the depth of the previous one.
         const bool is_nearly_sorted = arrival == Arrival::nearly_sorted;
         for (std::uint32_t k = 1; k < layers && is_nearly_sorted;
              k += static_cast<std::uint32_t>(random_int(random, 2, 60)))
@@ -58,7 +58,7 @@ const std::vector<Machine> one_layer_peels{{"geforce3", "depth_units"},
 
 }  // namespace
 
-TEST_CASE("every selection keeps the promise that it makes of its program, on every algorithm and format", "[slow]") {
+TEST_CASE("every selection keeps the contract with its program for every algorithm and format", "[slow]") {
     const TriangleScene scene = random_triangles(91, 24);
     for (const auto& algorithm : strata::peeling::algorithms())
         for (const char* profile : {"geforce3", "geforce8", "geforce8_dx101", "ideal"})
@@ -77,7 +77,7 @@ TEST_CASE("every selection keeps the promise that it makes of its program, on ev
                 }
 }
 
-TEST_CASE("selections by another depth, with codes to spare and as published keep their promises, too", "[slow]") {
+TEST_CASE("selections by another depth and with spare codes and as published keep their contract", "[slow]") {
     const TriangleScene scene = random_triangles(92, 24);
     const auto check = [&](const char* algorithm, const RenderOptions& options, const char* what) {
         for (const char* profile : {"geforce3", "geforce8_dx101", "ideal"}) {
@@ -116,9 +116,9 @@ TEST_CASE("selections by another depth, with codes to spare and as published kee
     }
 }
 
-// As published, a run begins by ending where the registers are cleared to, at depth 0, and what lies there is
-// composited although it is not before the opaque surface.
-TEST_CASE("as published, coherent_ideal composites what lies at depth 0 at an opaque surface there") {
+// As published, a run begins by ending at the value to which the registers are cleared, depth 0, and fragments there
+// are composited although they are not before the opaque surface.
+TEST_CASE("as published coherent_ideal composites fragments at depth 0 at an opaque surface there") {
     FragmentScene scene{8, 8};
     for (auto& pixel : scene.pixels) {
         pixel.opaque = GivenFragment{0.0f, {0, 0, 1, 1}};
@@ -137,7 +137,7 @@ TEST_CASE("as published, coherent_ideal composites what lies at depth 0 at an op
 
 // In a range up to 2^-120 the depths between these ends are denormal: a profile that flushes them stores 0. Ends that
 // are normal in every pixel write no range, and so do not flush it again.
-TEST_CASE("what lies between a peel's ends is left as its blend leaves it, denormal depths among them") {
+TEST_CASE("fragments between a peel's ends give the result of its blend including denormal depths") {
     FragmentScene scene{8, 8};
     Random random{93};
     for (auto& pixel : scene.pixels)
@@ -153,7 +153,7 @@ TEST_CASE("what lies between a peel's ends is left as its blend leaves it, denor
     }
 }
 
-TEST_CASE("a selection that its program does not keep is found where selections are checked") {
+TEST_CASE("a selection whose contract its program breaks is detected where selections are checked") {
     TestFrame frame{deep_scene(5), "geforce8"};
     frame.frame.replay = {std::uint64_t{1} << 20, {}};
     bool drops_the_nearest = false;
@@ -181,7 +181,7 @@ TEST_CASE("a selection that its program does not keep is found where selections 
     CHECK_NOTHROW(run_with({}));
 }
 
-TEST_CASE("stencil routing visits every fragment once, however many passes it takes", "[slow]") {
+TEST_CASE("stencil routing visits every fragment once for any number of passes", "[slow]") {
     for (const std::uint32_t layers : {7u, 16u, 64u, 240u}) {
         const FragmentScene scene = deep_scene(layers);
         RenderOptions options = options_for(scene);
@@ -192,8 +192,7 @@ TEST_CASE("stencil routing visits every fragment once, however many passes it ta
     }
 }
 
-TEST_CASE("coherent peeling in the order that it is made for visits each fragment once a pass of its iteration",
-          "[slow]") {
+TEST_CASE("coherent peeling in its intended order visits each fragment once per pass of its iteration", "[slow]") {
     for (const auto& [profile, algorithm, passes] :
          {std::tuple{"geforce8", "coherent_stencil", 6u}, std::tuple{"geforce8", "coherent_blend", 5u},
           std::tuple{"ideal", "coherent_ideal", 2u}})
@@ -210,7 +209,7 @@ TEST_CASE("coherent peeling in the order that it is made for visits each fragmen
         }
 }
 
-TEST_CASE("runs in deep columns are what visiting everything finds, in every submission order", "[slow]") {
+TEST_CASE("runs in deep pixels are those that visiting everything finds in every submission order", "[slow]") {
     for (const auto& [profile, algorithm] :
          {std::pair{"geforce8", "coherent_stencil"}, std::pair{"geforce8", "coherent_blend"},
           std::pair{"ideal", "coherent_ideal"}})
@@ -225,9 +224,8 @@ TEST_CASE("runs in deep columns are what visiting everything finds, in every sub
         }
 }
 
-TEST_CASE(
-    "the fragments that a peel visits grow with its layers, and not with their square, in much memory and in little",
-    "[slow]") {
+TEST_CASE("the number of fragments that a peel visits grows with its layers and not with their square for any memory",
+          "[slow]") {
     for (const Machine& machine : one_layer_peels)
         for (const std::uint32_t layers : {16u, 64u, 256u, 1024u}) {
             const FragmentScene scene = deep_scene(layers);

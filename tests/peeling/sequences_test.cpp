@@ -1,5 +1,5 @@
-// Every exact algorithm over every short sequence of fragments, and over deep random ones, against the scalar models of
-// tests/support/composite_model.h.
+// Tests every exact algorithm on every short sequence of fragments, and on long random ones, against the scalar models
+// of tests/support/composite_model.h.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/expectations.h"
@@ -16,7 +16,7 @@ namespace pipeline = strata::pipeline;
 
 constexpr Rgba background{0.25f, 0.5f, 0.8f, 1};
 
-// `count` pixels of up to `longest` fragments; depths k / 64 with ties, k = 0 and k = 64 (invisible) among them. Every
+// `count` pixels of up to `longest` fragments; depths k / 64 with ties, including k = 0 and k = 64 (invisible). Every
 // other pixel has an opaque surface at one of these depths.
 FragmentScene random_sequences(std::uint64_t seed, std::size_t count, int longest) {
     FragmentScene scene{32, 16};
@@ -47,8 +47,8 @@ Statistics statistics(const FragmentScene& scene) {
     return s;
 }
 
-// What stands behind the transparent fragments, as the target holds it. A surface at depth 1 fails LESS against the
-// clear.
+// The colour behind the transparent fragments as the target stores it. A surface at depth 1 fails LESS against the
+// clear value.
 Rgba behind(const GivenPixel& pixel, const TargetModel& target) {
     const bool opaque = pixel.opaque && pixel.opaque->depth < 1.0f;
     Rgba color = opaque ? pixel.opaque->color : background;
@@ -69,7 +69,7 @@ Rgba model(const std::string& algorithm, const TargetModel& target, const DepthG
     return oracle;
 }
 
-// What an alpha test GREATER 0 leaves: on 8-bit targets, alphas below half a code are 0.
+// The scene after an alpha test GREATER 0: on 8-bit targets, alphas below half a code are 0.
 FragmentScene without_alpha_zero(FragmentScene scene, Format format) {
     const float least = format == Format::rgba8 ? 0.5f / 255.0f : 0x1p-149f;
     for (GivenPixel& pixel : scene.pixels)
@@ -77,7 +77,7 @@ FragmentScene without_alpha_zero(FragmentScene scene, Format format) {
     return scene;
 }
 
-// What of the colours reaches a fragment: of a geforce3's vertices their 14 leading bits.
+// The scene with colours as fragments get them: geforce3 keeps the 14 leading bits of a vertex colour.
 FragmentScene as_interpolated(FragmentScene scene, const Machine& machine) {
     if (machine.profile != "geforce3") return scene;
     const auto cut = [](Rgba& color) {
@@ -105,7 +105,7 @@ void check_image(const FragmentScene& scene, const Machine& machine, const Rende
     CHECK(wrong.pixels == 0);
 }
 
-// The same composite in binary64, without the target's rounding, where no tie changes the picture.
+// Compares with the same composite in binary64, without the target's rounding, where no tie changes the picture.
 void check_accuracy(const FragmentScene& scene, const RenderResult& result) {
     const TargetModel target{result.frame.color.format};
     double worst = 0;
@@ -141,7 +141,7 @@ void check_scene(const FragmentScene& given, const Machine& machine, strata::pee
     if (machine.profile == "ideal") check_accuracy(scene, result);
 }
 
-// Everything that devices.md 10 lets run.
+// Every combination that devices.md 10 allows.
 std::vector<Machine> machines() {
     std::vector<Machine> all{{"geforce3", "depth_units"},
                              {"geforce3", "shadow_map"},
@@ -157,23 +157,23 @@ std::vector<Machine> machines() {
 
 }  // namespace
 
-TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what the listing's arithmetic gives",
+TEST_CASE("all 19531 sequences of up to six fragments on five depths give the result of the listing's arithmetic",
           "[slow]") {
     const FragmentScene scene = all_short_sequences(20240601, short_depths);
-    // geforce8_dx101 differs from geforce8 in what it can run: its dual_independent is the new part.
+    // geforce8_dx101 differs from geforce8 only in the algorithms that it can run: dual_independent is the additional
+    // one.
     for (const Machine& machine : machines())
         if (machine.profile != "geforce8_dx101" || machine.algorithm == "dual_independent")
             check_scene(scene, machine, options_for(scene));
 }
 
-TEST_CASE(
-    "deep random sequences, with and without an opaque surface among them, show what the listing's arithmetic gives",
-    "[slow]") {
+TEST_CASE("long random sequences with and without an opaque surface give the result of the listing's arithmetic",
+          "[slow]") {
     const FragmentScene scene = random_sequences(20240602, 400, 64);
     for (const Machine& machine : machines()) check_scene(scene, machine, options_for(scene));
 }
 
-TEST_CASE("half-float and binary32 targets of a device round every blend as the listing's arithmetic says") {
+TEST_CASE("half-float and binary32 targets of a device round every blend as in the listing's arithmetic") {
     const FragmentScene scene = random_sequences(20240603, 400, 12);
     for (const char* algorithm : {"depth_units", "front_to_back", "dual", "dual_independent"})
         for (const Format format : {Format::rgba16f, Format::rgba32f}) {
@@ -193,7 +193,7 @@ TEST_CASE("half-float and binary32 targets of a device round every blend as the 
         }
 }
 
-TEST_CASE("the depth image holds the nearest visible depth, or the opaque surface's, or 1") {
+TEST_CASE("the depth image holds the nearest visible depth or the opaque surface's or 1") {
     const FragmentScene scene = random_sequences(20240604, 400, 12);
     for (const Machine& machine :
          {Machine{"geforce8", "dual"}, {"geforce8", "front_to_back"}, {"ideal", "depth_units"}}) {

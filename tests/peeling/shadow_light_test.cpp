@@ -1,4 +1,5 @@
-// Ordinary shadow mapping, against the geometry of a floor, a blocker and a light: no depth map in the model.
+// Tests ordinary shadow mapping against the geometry of a floor, a blocker and a light, without a depth map in the
+// model.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -21,7 +22,7 @@ Mesh square(double half_side, double z) {
     return mesh;
 }
 
-// The eye looks down -z and sees x and y of the world from -1 to 1. `w`: the light's divisor, 1 or 3 - z.
+// The eye looks along -z and sees x and y of the world from -1 to 1. `w`: the light's divisor, 1 or 3 - z.
 DrawList floor_and_blocker(AlphaMode mode, bool perspective) {
     DrawList list;
     list.materials = {{.name = "white", .alpha_mode = AlphaMode::opaque, .double_sided = true, .unlit = true},
@@ -34,7 +35,7 @@ DrawList floor_and_blocker(AlphaMode mode, bool perspective) {
     list.meshes = {square(1, floor_z), square(half, blocker_z)};
     list.instances = {{.mesh = 0, .material = 0}, {.mesh = 1, .material = 1}};
     ShadowLight light;
-    light.view = {1, 0, 0, 0, 0, 1, 0, 0, -0.4, 0.3, 1, 0, 0, 0, 0, 1};  // x - 0.4 z, y + 0.3 z: it comes in at a slant
+    light.view = {1, 0, 0, 0, 0, 1, 0, 0, -0.4, 0.3, 1, 0, 0, 0, 0, 1};  // x - 0.4 z, y + 0.3 z: slanted light
     light.projection = perspective ? Matrix{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, 0, 3}
                                    : Matrix{0.7, 0, 0, 0, 0, 0.7, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
     light.size_px = 256;
@@ -55,7 +56,7 @@ Place seen_by_light(double x, double y, double z, bool perspective) {
     return {(x - 0.4 * z) / w, (y + 0.3 * z) / w};
 }
 
-// Positive inside the blocker's outline as the light sees it, in its clip space.
+// Positive inside the blocker's outline as the light sees it, in the light's clip space.
 double inside(double x, double y, bool perspective) {
     const Place p = seen_by_light(x, y, floor_z, perspective);
     const Place low = seen_by_light(-half, -half, blocker_z, perspective),
@@ -65,7 +66,7 @@ double inside(double x, double y, bool perspective) {
 
 }  // namespace
 
-TEST_CASE("the floor is dark where the blocker stands between it and the light, and nowhere else") {
+TEST_CASE("the floor is dark only where the blocker is between it and the light") {
     for (const bool perspective : {false, true})
         for (const char* profile : {"geforce3", "geforce8", "ideal"}) {
             strata::peeling::RenderOptions options;
@@ -80,7 +81,9 @@ TEST_CASE("the floor is dark where the blocker stands between it and the light, 
                     const double wx = (x + 0.5) * 2 / size - 1, wy = 1 - (y + 0.5) * 2 / size;
                     if (std::max(std::abs(wx), std::abs(wy)) < half + 0.05) continue;  // the blocker itself
                     const double depth_inside = inside(wx, wy, perspective);
-                    if (std::abs(depth_inside) < 2.0 / 256) continue;  // a texel of the map more or less
+                    if (std::abs(depth_inside) < 2.0 / 256)
+                        continue;  // within a texel of the map from the shadow's
+                                   // border
                     const std::uint32_t code = result.frame.color.codes[result.frame.color.index(x, y)];
                     const bool is_float = result.frame.color.format == Format::rgba32f;
                     const float value = is_float ? std::bit_cast<float>(code) : static_cast<float>(code) / 255.0f;
@@ -93,9 +96,9 @@ TEST_CASE("the floor is dark where the blocker stands between it and the light, 
         }
 }
 
-// The eye's first plane keeps what lies right of the window's middle, as the eye sees it. What the light sees it does
-// not cut: the shadow of the blocker's left half still falls on the floor's right half.
-TEST_CASE("a clip plane of the eye cuts what the eye sees and not the light's map") {
+// The eye's first plane keeps what is right of the window's middle for the eye. It does not clip the light's view: the
+// shadow of the blocker's left half still falls on the right half of the floor.
+TEST_CASE("a clip plane of the eye clips the eye's view and not the light's map") {
     const DrawList list = floor_and_blocker(AlphaMode::opaque, false);
     strata::peeling::RenderOptions options;
     options.width = options.height = size;
@@ -116,14 +119,14 @@ TEST_CASE("a clip plane of the eye cuts what the eye sees and not the light's ma
     CHECK(left == 0);
 }
 
-TEST_CASE("transparent surfaces let the light through, and colours in shadow are the same in every execution") {
+TEST_CASE("transparent surfaces transmit light and colours in shadow are the same in every execution") {
     const DrawList list = floor_and_blocker(AlphaMode::blend, true);
     strata::peeling::RenderOptions options;
     options.width = options.height = size;
     options.threads = 1;
     options.execution = Execution::literal;
     const auto lit = render(list, from_above, {"geforce8", "dual"}, options);
-    std::uint32_t darkest = 255;  // of the floor's right half, where the shadow would lie
+    std::uint32_t darkest = 255;  // in the right half of the floor, where the shadow is expected
     for (int y = 0; y < size; ++y)
         for (int x = size * 3 / 4; x < size; ++x)
             darkest = std::min(darkest, lit.frame.color.codes[lit.frame.color.index(x, y)]);

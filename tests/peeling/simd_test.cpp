@@ -1,4 +1,5 @@
-// Model: the same frames one after the other, and the host program's own choice of Highway's targets.
+// Tests renderers with different instruction sets against the same frames drawn one after the other, and that the host
+// program's own choice of Highway targets is preserved.
 #include "rasterizer/base/simd.h"
 
 #include <catch2/catch.hpp>
@@ -30,7 +31,7 @@ std::vector<RenderResult> frames(const TriangleScene& scene, Simd simd) {
     return all;
 }
 
-// A program that has Highway use SSE4 alone, as one may to save power; gives everything back at the end.
+// A host program that restricts Highway to SSE4, for instance to save power; restores the setting at the end.
 class HostOfSse4 {
   public:
     HostOfSse4() { narrow(HWY_SSE4); }
@@ -65,16 +66,16 @@ TEST_CASE("two renderers with different instruction sets draw the same bits at t
     }
 }
 
-TEST_CASE("the sets that the processor has are those that Highway finds") {
+TEST_CASE("the instruction sets of the processor are those that Highway finds") {
     for (const auto& [simd, target] : {std::pair{Simd::avx2, HWY_AVX2}, {Simd::avx512, HWY_AVX3}}) {
         const bool is_compiled = (HWY_TARGETS & target) != 0 && HWY_ARCH_X86;
         CHECK(strata::has_simd(simd) == (is_compiled && (hwy::SupportedTargets() & target) != 0));
     }
 }
 
-TEST_CASE("a frame leaves what Highway uses for the host program, and the thread's own choice, as they were") {
+TEST_CASE("a frame does not change the host program's Highway targets or the thread's own choice") {
     const TriangleScene scene = random_triangles(1208, 12);
-    const std::vector<Simd> available = strata::available_simd();  // before the host narrows them
+    const std::vector<Simd> available = strata::available_simd();  // before the host restricts them
     const HostOfSse4 host;
     const std::size_t before = HostOfSse4::index();
     const Simd own = strata::chosen_simd();
@@ -86,7 +87,7 @@ TEST_CASE("a frame leaves what Highway uses for the host program, and the thread
     CHECK(strata::available_simd() == available);
 }
 
-TEST_CASE("an instruction set that the processor lacks is refused by a renderer, by name of the option") {
+TEST_CASE("a renderer rejects an instruction set that the processor lacks by the name of the option") {
     const TriangleScene scene = random_triangles(1209, 1);
     for (const Simd simd : {Simd::avx2, Simd::avx512}) {
         RenderOptions options;

@@ -1,4 +1,4 @@
-// The order in which triangles are submitted.
+// Tests the order in which triangles are submitted.
 #include "peeling/sort.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using strata::rasterizer::TriangleSoup;
 
-// Triangles whose clip z are whole numbers of -3 .. 3: ties in plenty. Runs of 7, 5 and 8 triangles.
+// Triangles whose clip z are integers from -3 to 3, with many ties. Runs of 7, 5 and 8 triangles.
 TriangleSoup soup_of_twenty(Random& random) {
     TriangleSoup soup;
     for (std::uint32_t i = 0; i < 60; ++i) {
@@ -31,7 +31,7 @@ double sum(const TriangleSoup& soup, std::uint32_t t) {
     return double{soup.vertices[3 * t].z} + soup.vertices[3 * t + 1].z + soup.vertices[3 * t + 2].z;
 }
 
-// Each triangle stands behind exactly those that `goes_first` says.
+// Checks that each triangle is after exactly those for which `goes_first` is true.
 template <class Before>
 std::size_t misplaced(const std::vector<std::uint32_t>& order, Before&& goes_first) {
     std::size_t wrong = 0;
@@ -52,7 +52,8 @@ bool is_permutation_of(std::vector<std::uint32_t> order, std::uint32_t count) {
 
 }  // namespace
 
-TEST_CASE("exact order is by the sum of clip z, near first, reverse far first, ties in submission order") {
+TEST_CASE(
+    "exact order is by the sum of clip z with near first and reverse is far first and ties are in submission order") {
     Random random{503};
     for (int round = 0; round < 50; ++round) {
         TriangleSoup soup = soup_of_twenty(random);
@@ -72,7 +73,7 @@ TEST_CASE("exact order is by the sum of clip z, near first, reverse far first, t
     }
 }
 
-TEST_CASE("N buckets cut the range of the keys into N equal parts, and within a bucket triangles stay as listed") {
+TEST_CASE("N buckets divide the range of the keys into N equal parts and within a bucket triangles stay as listed") {
     Random random{504};
     for (const int buckets : {1, 2, 3, 7, 1000}) {
         const TriangleSoup soup = soup_of_twenty(random);
@@ -81,8 +82,8 @@ TEST_CASE("N buckets cut the range of the keys into N equal parts, and within a 
             least = std::min(least, sum(soup, t));
             greatest = std::max(greatest, sum(soup, t));
         }
-        // Bucket i: i (greatest - least) <= N (key - least) < (i + 1) (greatest - least), in whole numbers; the last is
-        // closed.
+        // Bucket i: i (greatest - least) <= N (key - least) < (i + 1) (greatest - least), in integers; the last one
+        // includes its upper end.
         const auto bucket = [&](std::uint32_t t) {
             int i = 0;
             while (i + 1 < buckets && (i + 1) * (greatest - least) <= buckets * (sum(soup, t) - least)) ++i;
@@ -95,7 +96,7 @@ TEST_CASE("N buckets cut the range of the keys into N equal parts, and within a 
     }
 }
 
-TEST_CASE("a shuffle moves exactly its fraction of the sorted triangles, and its seed decides which") {
+TEST_CASE("a shuffle moves exactly its fraction of the sorted triangles and its seed decides which") {
     Random random{505};
     const TriangleSoup soup = soup_of_twenty(random);
     const auto sorted = submission_order(soup, {.rule = SortRule::exact});
@@ -113,7 +114,7 @@ TEST_CASE("a shuffle moves exactly its fraction of the sorted triangles, and its
           submission_order(soup, {.rule = SortRule::shuffle, .fraction = 0.5, .seed = 4}));
 }
 
-TEST_CASE("parts are submitted one after the other, each sorted or as listed") {
+TEST_CASE("parts are submitted one after the other and each is sorted or as listed") {
     Random random{506};
     const TriangleSoup soup = soup_of_twenty(random);
     const auto order =
@@ -127,8 +128,8 @@ TEST_CASE("parts are submitted one after the other, each sorted or as listed") {
           }) == 0);
 }
 
-TEST_CASE("the buckets of a part cut the range of its own keys, however far other parts lie") {
-    // Ten triangles of keys 9, 8 ... 0 between others a thousand times as far; five buckets take two each.
+TEST_CASE("the buckets of a part divide the range of its own keys regardless of those of other parts") {
+    // Ten triangles with keys 9 to 0 between others a thousand times as far; five buckets take two each.
     TriangleSoup soup;
     for (std::uint32_t t = 0; t < 30; ++t)
         for (std::uint32_t corner = 0; corner < 3; ++corner) {

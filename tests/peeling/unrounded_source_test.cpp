@@ -1,5 +1,5 @@
-// Blends of a source that is no code (fragment-stages.md 8.2), as real numbers give them: Direct3D allows it, and
-// devices do it.
+// Tests blends whose source is not rounded to a code (fragment-stages.md 8.2) against real numbers. Direct3D allows
+// this, and devices do it.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -15,8 +15,8 @@ struct Differing {
     int codes = 0, most = 0, channels = 0;
 };
 
-// Each blend in real numbers and rounded once to a code; where they lie within 2^-12 of the middle of two codes either
-// is right.
+// Computes each blend in real numbers and rounds once to a code; within 2^-12 of the middle between two codes either is
+// accepted.
 [[nodiscard]] Differing from_real_numbers(const FragmentScene& scene, const Image& picture, const Rgba& background) {
     Differing found;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)
@@ -40,7 +40,7 @@ struct Differing {
 
 }  // namespace
 
-TEST_CASE("sources that are not made codes blend as real numbers do, rounded once, and codes differ by few") {
+TEST_CASE("unrounded sources blend as in real numbers rounded once and rounded sources differ by at most 3 codes") {
     Random random{811};
     FragmentScene scene{16, 16};
     for (GivenPixel& pixel : scene.pixels)

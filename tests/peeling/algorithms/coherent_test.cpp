@@ -1,5 +1,5 @@
-// Coherent layer peeling pass by pass: the paper's Figure 2, its limits of 128 and 255, and how many iterations it
-// takes.
+// Tests coherent layer peeling pass by pass: the paper's Figure 2, its limits of 128 and 255, and the number of
+// iterations.
 #include "peeling/loops/coherent.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
 
-// Depths of one pixel in units of 1/128, in submission order, before a surface at `opaque`.
+// One pixel with these depths in units of 1/128, in submission order, before a surface at `opaque`.
 FragmentScene one_pixel(const std::vector<int>& depths, int opaque = 0) {
     FragmentScene scene{4, 4};
     Random random{7};
@@ -26,7 +26,7 @@ FragmentScene one_pixel(const std::vector<int>& depths, int opaque = 0) {
     return scene;
 }
 
-// The passes of an iteration, one at a time, over the frame; depths are in units of 1/128.
+// The passes of an iteration, run one at a time over the frame; depths are in units of 1/128.
 struct Passes {
     TestFrame test;
     strata::pipeline::RegionStatistics statistics;
@@ -41,7 +41,7 @@ struct Passes {
         return 128.0 * std::bit_cast<float>(region.storage(target).depth(0)[0]);
     }
     [[nodiscard]] std::uint32_t stencil() const { return region.storage(peel.stencil).stencil(0)[0]; }
-    // Depths of pixel 0 that were composited since the last call, in units.
+    // Depths of pixel 0 that were composited since the last call, in units of 1/128.
     std::vector<double> composited() {
         std::vector<double> depths;
         for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)
@@ -79,8 +79,9 @@ const Machine stencil{"geforce8", "coherent_stencil"}, blend{"geforce8", "cohere
 
 }  // namespace
 
-// s1 .. s10 arrive at 90, 80, 20, 10, 30, 40, 70, 95, 60, 50; s4 at 10 is peeled; the opaque surface lies at 100.
-TEST_CASE("Figure 2: every stencil and depth value of the passes, the inverted count of 4 included") {
+// s1 to s10 are submitted at depths 90, 80, 20, 10, 30, 40, 70, 95, 60, 50; s4 at 10 is peeled; the opaque surface is
+// at 100.
+TEST_CASE("Figure 2: every stencil and depth value of the passes including the inverted count of 4") {
     for (const FirstPasses* first : {&listing::coherent_stencil::passes, &listing::coherent_blend::passes}) {
         Passes passes{one_pixel({90, 80, 20, 10, 30, 40, 70, 95, 60, 50}, 100)};
         CoherentPeel& peel = passes.peel;
@@ -107,12 +108,12 @@ TEST_CASE("Figure 2: every stencil and depth value of the passes, the inverted c
     }
 }
 
-TEST_CASE("regression: A, arrival 1, 1, 2: pass 3 leaves 254, the run ends at 1, pass 6 composites both") {
+TEST_CASE("regression: A on depths 1 1 2: pass 3 leaves 254 and ends the run at 1 so that pass 6 composites both") {
     Passes passes{one_pixel({1, 1, 2})};
     CoherentPeel& peel = passes.peel;
     static_cast<void>(listing::coherent_stencil::passes.find_nearest(peel));
     listing::coherent_stencil::passes.find_previous(peel);
-    CHECK(passes.depth(peel.previous) == 128);  // none
+    CHECK(passes.depth(peel.previous) == 128);  // none found
     count_run(peel);
     CHECK(passes.stencil() == 254);
     find_breaker(peel);
@@ -124,9 +125,10 @@ TEST_CASE("regression: A, arrival 1, 1, 2: pass 3 leaves 254, the run ends at 1,
     CHECK(passes.composited() == Depths{1, 1});
 }
 
-TEST_CASE("E18, regression: the GPU's passes order 1, 2, 3, 1, 2, which section 4.2 taken literally does not") {
+TEST_CASE("E18 regression: the GPU's passes order 1 2 3 1 2 and section 4.2 taken literally does not") {
     const std::vector<int> arrival{1, 2, 3, 1, 2};
-    // As the text says: s after sn, not before D(sn), and not behind its predecessor in the whole list, interrupts.
+    // As the text says: the run is interrupted by s if s is after sn, not before D(sn), and not behind its predecessor
+    // in the whole list.
     const auto literal = [&](int peeled) {
         int nearest = 99, least = 99;
         for (const int d : arrival) nearest = d > peeled ? std::min(nearest, d) : nearest;
@@ -150,7 +152,7 @@ TEST_CASE("E18, regression: the GPU's passes order 1, 2, 3, 1, 2, which section 
         CHECK(render(one_pixel(arrival), machine).audit.order_errors == 0u);
 }
 
-TEST_CASE("layers in order take one iteration up to 127, then one for every 128") {
+TEST_CASE("layers in order take one iteration up to 127 and then one for every 128") {
     for (const int n : {1, 2, 17, 126, 127, 128, 129, 255, 256, 257, 300}) {
         const FragmentScene scene = stack(n, true);
         INFO(n << " layers");
@@ -161,7 +163,7 @@ TEST_CASE("layers in order take one iteration up to 127, then one for every 128"
     }
 }
 
-TEST_CASE("reversed layers take one iteration for every two, as the paper's worst case says", "[slow]") {
+TEST_CASE("reversed layers take one iteration for every two as in the paper's worst case", "[slow]") {
     for (const int n : {1, 2, 3, 4, 31, 64, 127, 254, 255}) {
         const FragmentScene scene = stack(n, false);
         INFO(n << " layers");
@@ -172,8 +174,7 @@ TEST_CASE("reversed layers take one iteration for every two, as the paper's wors
 }
 
 TEST_CASE(
-    "E19, regression: 300 reversed layers saturate A's stencil and take 174 iterations, B's 151, an empty one "
-    "included",
+    "E19 regression: 300 reversed layers saturate A's stencil and take 174 iterations and B's 151 with an empty one",
     "[slow]") {
     const FragmentScene scene = stack(300, false);
     CHECK(iterations(stencil, scene, TerminationRule::paper) == 174);
@@ -183,7 +184,7 @@ TEST_CASE(
     CHECK(diagnosed(render(scene, blend), Fault::stencil_saturated) == 0);
 }
 
-TEST_CASE("E20: a count of 128 in pass 3 is said, and a shorter run's is not") {
+TEST_CASE("E20: a count of 128 in pass 3 is reported and that of a shorter run is not") {
     for (const Machine& machine : {stencil, blend}) {
         CHECK(diagnosed(render(stack(126, true), machine), Fault::count_limit) == 0);
         CHECK(diagnosed(render(stack(128, true), machine), Fault::count_limit) == 1);
@@ -191,8 +192,8 @@ TEST_CASE("E20: a count of 128 in pass 3 is said, and a shorter run's is not") {
     }
 }
 
-TEST_CASE("E20: fragments that arrive in short runs never count to 128, however many they are") {
-    std::vector<int> zigzag;  // 100 to 1, then 200 to 101: two runs out of order, none longer than 2
+TEST_CASE("E20: fragments that are submitted in short runs never count to 128 in any number") {
+    std::vector<int> zigzag;  // 100 to 1, then 200 to 101: two descending sequences, so no run is longer than 2
     for (const int start : {100, 200})
         for (int depth = start; depth > start - 100; --depth) zigzag.push_back(depth);
     for (const Machine& machine : {stencil, blend}) {
@@ -201,7 +202,7 @@ TEST_CASE("E20: fragments that arrive in short runs never count to 128, however 
     }
 }
 
-TEST_CASE("E21: equal depths at the bound of a peel are composited in submission order, and said") {
+TEST_CASE("E21: equal depths at the bound of a peel are composited in submission order and reported") {
     for (const Machine& machine : {stencil, blend, ideal, Machine{"geforce8", "layer_peel"}}) {
         const RenderResult tied = render(one_pixel({3, 2, 2, 1}), machine);
         INFO(machine.algorithm);

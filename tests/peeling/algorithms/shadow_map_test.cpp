@@ -1,4 +1,5 @@
-// Peeling by a shadow map: right where the compared depth is the stored one, and how it fails where it is not.
+// Tests peeling by a shadow map: it is correct where the compared depth is the stored one, and otherwise fails in known
+// ways.
 #include <catch2/catch.hpp>
 
 #include "tests/peeling/rendering.h"
@@ -13,7 +14,7 @@ using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
 using strata::rasterizer::DepthPath;
 
-// Transparent triangles under a perspective view, none of whose alphas stores as 0.
+// Transparent triangles in a perspective view, none with an alpha that is stored as 0.
 TriangleScene visible_triangles(std::uint64_t seed, int count) {
     TriangleScene scene = random_triangles(seed, count);
     for (Mesh& mesh : scene.list.meshes)
@@ -39,7 +40,7 @@ RenderResult run(const TriangleScene& scene, const Machine& machine, const Rende
 }  // namespace
 
 TEST_CASE(
-    "the fix peels what sequential depth units peel with the same replaced depth: image, layers, depths, passes") {
+    "with depth replace the result equals that of sequential depth units in every layer and depth and pass count") {
     const TriangleScene scene = visible_triangles(411, 60);
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         RenderOptions options = options_of(64, 48);
@@ -63,7 +64,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("without the fix some fragments survive their own peel and some layers are lost, and the audit counts them") {
+TEST_CASE(
+    "without depth replace some fragments survive their own peel and some layers are lost and the audit counts them") {
     const TriangleScene scene = visible_triangles(412, 60);
     RenderOptions options = options_of(64, 48);
     const RenderResult broken = run(scene, {"geforce3", "shadow_map"}, options);
@@ -73,7 +75,7 @@ TEST_CASE("without the fix some fragments survive their own peel and some layers
     CHECK(broken.frame.color != fixed.frame.color);
 }
 
-TEST_CASE("a compared depth that is not rounded like the buffer's never ends, and Diagnostics says why") {
+TEST_CASE("a compared depth that is not rounded like the stored one never ends and a diagnostic gives the reason") {
     const TriangleScene scene = visible_triangles(413, 12);
     RenderOptions options = options_of(32, 32);
     options.quantize_reference = false;
@@ -85,7 +87,7 @@ TEST_CASE("a compared depth that is not rounded like the buffer's never ends, an
         if (d.fault == Fault::endless) CHECK_THAT(d.detail, Catch::Contains("not rounded like the stored one"));
 }
 
-TEST_CASE("layers are selectable, and a peel that is cut short says so") {
+TEST_CASE("layers are selectable and a truncated peel is reported") {
     const TriangleScene scene = visible_triangles(414, 60);
     RenderOptions options = options_of(64, 48);
     options.max_passes = 3;
@@ -98,7 +100,7 @@ TEST_CASE("layers are selectable, and a peel that is cut short says so") {
     for (std::size_t i = 0; i < 3; ++i) CHECK(three.frame.layers[i].color == all.frame.layers[i].color);
 }
 
-TEST_CASE("a bias in the written depth keeps fragments from surviving their own peel") {
+TEST_CASE("a bias in the written depth prevents fragments from surviving their own peel") {
     const TriangleScene scene = visible_triangles(415, 40);
     RenderOptions options = options_of(64, 48);
     const RenderResult none = run(scene, {"geforce3", "shadow_map"}, options);

@@ -1,5 +1,5 @@
-// Model: the audit of a literal run with memory for everything, whose figures audit_test knows; the sizes of a
-// fragment's lists and of a trace's entries, for the memory that one pixel needs.
+// Tests the memory of an audit. The expected figures are those of a literal run with memory for everything, which
+// audit_test checks; the memory for one pixel follows from the sizes of list and trace entries.
 #include <atomic>
 #include <catch2/catch.hpp>
 
@@ -25,11 +25,11 @@ struct Way {
 
 struct Audited {
     AuditResult result;
-    std::size_t bodies = 0;  // that were run
+    std::size_t bodies = 0;  // number of bodies that were run
     std::size_t regions = 0;
 };
 
-// A peel that forgets every third layer it composites, so that there is something to find.
+// A peel that skips every third layer that it should composite, so that the audit finds errors.
 Algorithm forgetful() {
     Algorithm a = *find_algorithm("front_to_back");
     a.resolve_loop = nullptr;
@@ -61,7 +61,7 @@ Audited audit(const FragmentScene& scene, const Algorithm& algorithm, const Way&
     return {audit.finish(result), bodies, result.work.regions};
 }
 
-// Up to `deepest` fragments a pixel, many of them of equal depth; the right half of the frame is blank.
+// Up to `deepest` fragments per pixel, many of them of equal depth; the right half of the frame is empty.
 FragmentScene scene_of(int deepest) {
     FragmentScene scene{64, 32};
     Random random{601};
@@ -94,7 +94,7 @@ std::string sentence(const FragmentScene& scene, const Algorithm& algorithm, std
 
 }  // namespace
 
-TEST_CASE("an audit's figures depend neither on its memory nor on tiles, threads and execution", "[slow]") {
+TEST_CASE("an audit's figures depend neither on its memory nor on tiles and threads and execution", "[slow]") {
     const FragmentScene scene = scene_of(12);
     const Algorithm algorithm = GENERATE(forgetful(), *find_algorithm("dual"), *find_algorithm("layer_peel"),
                                          *find_algorithm("unsorted"), *find_algorithm("a_buffer"));
@@ -112,37 +112,36 @@ TEST_CASE("an audit's figures depend neither on its memory nor on tiles, threads
         }
 }
 
-TEST_CASE("what does not fit into the memory is run again in parts, and nothing is run again where all fits",
-          "[slow]") {
+TEST_CASE("regions that exceed the memory are run again in parts and none is run again if all fit", "[slow]") {
     const FragmentScene scene = scene_of(12);
     const Algorithm peel = forgetful();
     for (const Execution execution : {Execution::literal, Execution::replay}) {
         const Audited all = audit(scene, peel, {.execution = execution});
         const Audited little = audit(scene, peel, {.bytes = 1300, .execution = execution});
-        CHECK(all.bodies <= all.regions);  // blank tiles share one
+        CHECK(all.bodies <= all.regions);  // empty tiles share one run
         CHECK(little.bodies > all.bodies + 100);
         CHECK(little.result == all.result);
     }
     const Audited unordered =
         audit(scene, *find_algorithm("unsorted"), {.bytes = 1300, .execution = Execution::replay});
-    CHECK(unordered.bodies <= unordered.regions);  // there is no trace to be had again
+    CHECK(unordered.bodies <= unordered.regions);  // without an order there is no trace, so nothing is run again
 }
 
-TEST_CASE("what a blank tile is found to have done is counted in every tile that is like it") {
+TEST_CASE("errors found in an empty tile are counted in every tile that is equal to it") {
     FragmentScene scene{32, 16};
-    scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});  // the first tile is not blank
+    scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});  // the first tile is not empty
     Algorithm busy = *find_algorithm("front_to_back");
     busy.run_with = nullptr;
     busy.run = [](Region& region) {
         find_algorithm("front_to_back")->run(region);
-        if (region.rect().width() > 2) region.trace({2, 7, 0, Side::front, false});  // a layer that is none
+        if (region.rect().width() > 2) region.trace({2, 7, 0, Side::front, false});  // a layer without a fragment
     };
     const AuditResult found = audit(scene, busy, {.execution = Execution::replay, .tile_size = 8}).result;
-    CHECK(found.order_errors == 8u);  // one a tile
+    CHECK(found.order_errors == 8u);  // one per tile
     CHECK(found.misordered == PixelCount{8, 2, 0});
 }
 
-TEST_CASE("a blank tile whose trace does not fit is looked at again in its own place") {
+TEST_CASE("an empty tile whose trace exceeds the memory is audited again at its own position") {
     FragmentScene scene{32, 16};
     scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});
     Algorithm busy = *find_algorithm("front_to_back");
@@ -154,12 +153,13 @@ TEST_CASE("a blank tile whose trace does not fit is looked at again in its own p
     for (const std::uint64_t bytes : {std::uint64_t{1} << 30, std::uint64_t{1300}}) {
         const AuditResult found =
             audit(scene, busy, {.bytes = bytes, .execution = Execution::replay, .tile_size = 8}).result;
-        CHECK(found.order_errors == 32u * 16);  // one a pixel
+        CHECK(found.order_errors == 32u * 16);  // one per pixel
         CHECK(found.misordered == PixelCount{32 * 16, 0, 0});
     }
 }
 
-TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence names it and what is enough", "[slow]") {
+TEST_CASE("if one pixel's fragments exceed the memory the message names the pixel and the sufficient number of bytes",
+          "[slow]") {
     constexpr int fragments = 300;
     const FragmentScene scene = deep_pixel(fragments);
     for (const char* name : {"front_to_back", "unsorted"}) {
@@ -174,7 +174,7 @@ TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence nam
     }
 }
 
-TEST_CASE("a pixel whose trace has no end is told with the memory doubled") {
+TEST_CASE("a pixel whose trace is too long is reported with the memory doubled") {
     Algorithm endless = *find_algorithm("front_to_back");
     endless.run_with = nullptr;
     endless.run = [](Region& region) {
@@ -186,7 +186,7 @@ TEST_CASE("a pixel whose trace has no end is told with the memory doubled") {
     CHECK(sentence(deep_pixel(1), endless, 1 << 17) == "");
 }
 
-TEST_CASE("a renderer without fragment memory audits with the least, and refuses a pixel that needs more", "[slow]") {
+TEST_CASE("a renderer without fragment memory audits with the minimum and rejects a pixel that needs more", "[slow]") {
     const auto refusal = [](int fragments) -> std::string {
         const FragmentScene scene = deep_pixel(fragments);
         RenderOptions options = options_for(scene);
@@ -203,7 +203,7 @@ TEST_CASE("a renderer without fragment memory audits with the least, and refuses
           std::string::npos);
 }
 
-TEST_CASE("all fragments of a frame are refused beforehand if they exceed the memory", "[slow]") {
+TEST_CASE("capturing all fragments of a frame is rejected in advance if they exceed the memory", "[slow]") {
     const FragmentScene scene = deep_pixel(270000);
     const DrawList list = draw_list(scene);
     const auto fragments = [&](std::uint64_t memory) {

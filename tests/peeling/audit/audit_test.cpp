@@ -1,4 +1,4 @@
-// The auditor audited: broken algorithms are caught with the number of places that are wrong, and the pixel.
+// Tests the audit on algorithms with deliberate mistakes: it must report the expected number of errors and the pixel.
 #include "peeling/audit/audit.h"
 
 #include <catch2/catch.hpp>
@@ -32,7 +32,8 @@ void composite(Region& region, Target layer, Target depth, Target result, Side s
     }));
 }
 
-// Peels layers nearest first, but composites them as the mistake says. OVER of the nearest first is the reverse order.
+// Peels layers from the nearest, and composites them with the given mistake. OVER from the nearest composites in
+// reverse order.
 template <Mistake mistake>
 void peel(Region& region) {
     const Target result = region.make_color(), layer = region.make_color();
@@ -74,7 +75,7 @@ RenderResult broken_frame(const FragmentScene& scene, const Algorithm& broken, E
     const DrawList list = draw_list(scene);
     RenderOptions options = options_for(scene);
     options.execution = execution;
-    options.fragment_memory = 0;  // else replay runs the resolve of what was broken
+    options.fragment_memory = 0;  // otherwise replay would run the correct resolve
     options.tile_size = 8;
     Renderer renderer{list, {}, *find_profile("geforce8"), options};
     return renderer.render(broken);
@@ -105,7 +106,7 @@ void check(void (*run)(Region&), const Expected& expected) {
     }
 }
 
-// Where a fragment stands in a policy's order, counted one by one over all the others; -1 if it is not kept.
+// A fragment's index in a policy's order, found by counting over all other fragments; -1 if it is not kept.
 int place(const std::vector<std::uint32_t>& keys, std::size_t own, TiePolicy policy) {
     int nearer = 0, earlier = 0, later = 0, nearer_keys = 0, keys_in_all = 0;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -117,8 +118,7 @@ int place(const std::vector<std::uint32_t>& keys, std::size_t own, TiePolicy pol
         earlier += keys[i] == keys[own] && i < own ? 1 : 0;
         later += keys[i] == keys[own] && i > own ? 1 : 0;
     }
-    const bool in_front_half =
-        2 * nearer_keys < keys_in_all;  // the middle one of an odd number is peeled as the near one
+    const bool in_front_half = 2 * nearer_keys < keys_in_all;  // the middle one of an odd number counts as near
     switch (policy) {
         case TiePolicy::none:
         case TiePolicy::first: return nearer + earlier;
@@ -134,7 +134,7 @@ int place(const std::vector<std::uint32_t>& keys, std::size_t own, TiePolicy pol
 
 TEST_CASE("an algorithm without a mistake has no order errors") { check(peel<Mistake::none>, {0, {}}); }
 
-TEST_CASE("layers composited in reverse are errors at every place but the middle one") {
+TEST_CASE("layers composited in reverse are errors at every index except the middle one") {
     check(peel<Mistake::wrong_order>, {4 + 4, {2, 4, 9}});
 }
 
@@ -143,14 +143,15 @@ TEST_CASE("a lost layer shifts all that follow") {
     check(peel<Mistake::loses_second>, {3 + 4, {2, 4, 9}});
 }
 
-TEST_CASE("a layer blended twice shifts all that follow, the shallow pixel included") {
+TEST_CASE("a layer blended twice shifts all that follow also in the shallow pixel") {
     // Found 1 1: one too many; 1 1 2 3 4: three places and one; 1 1 2 3 4 5: four and one.
     check(peel<Mistake::blends_first_twice>, {1 + 4 + 5, {3, 12, 3}});
 }
 
 TEST_CASE("fragments of equal depth in the wrong submission order are errors although their keys agree") {
     FragmentScene scene{8, 8};
-    for (const float depth : {0.75f, 0.75f, 0.5f, 0.25f, 0.25f, 0.25f})  // back to front: OVER in this order is LAST
+    // Back to front: OVER in this order puts the last submitted of equal depths in front.
+    for (const float depth : {0.75f, 0.75f, 0.5f, 0.25f, 0.25f, 0.25f})
         scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
     CHECK(broken_frame(scene, algorithm(find_algorithm("unsorted")->run, TiePolicy::last), Execution::replay)
               .audit.order_errors == 0u);
@@ -158,12 +159,12 @@ TEST_CASE("fragments of equal depth in the wrong submission order are errors alt
               .audit.order_errors == 4u);  // 2 of 2, 2 of 3
     const RenderResult unique =
         broken_frame(scene, algorithm(find_algorithm("unsorted")->run, TiePolicy::unique), Execution::replay);
-    CHECK(unique.audit.order_errors == 6u);  // three places differ, three are too many
+    CHECK(unique.audit.order_errors == 6u);  // three indices differ, three fragments are too many
     CHECK(unique.audit.lost_by_ties == 3);
     CHECK(unique.audit.ties == PixelCount{1, 2, 1});
 }
 
-TEST_CASE("unsorted fragments are misordered unless they arrive back to front") {
+TEST_CASE("unsorted fragments are misordered unless they are submitted back to front") {
     FragmentScene scene{8, 8};
     for (const float depth : {0.25f, 0.5f, 0.75f}) scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
     const RenderResult result =
@@ -202,7 +203,7 @@ TEST_CASE("every tie policy places every fragment as counting the others does") 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the largest difference is that of the picture from all fragments in binary64, with and without ties") {
+TEST_CASE("the largest difference is that of the picture from all fragments in binary64 with and without ties") {
     FragmentScene scene{16, 16};
     Random random{302};
     for (GivenPixel& pixel : scene.pixels)
@@ -225,7 +226,7 @@ TEST_CASE("the largest difference is that of the picture from all fragments in b
     CHECK(result.audit.max_difference_without_ties == Approx(without_ties).epsilon(1e-12));
 }
 
-TEST_CASE("a float key orders like the float, and -0 like 0") {
+TEST_CASE("a float key orders like the float and -0 like 0") {
     const std::vector<float> ascending{-1.0f, -0x1p-149f, 0.0f, 0x1p-149f, 0x1p-126f, 0.5f, 1.0f, 2.0f};
     for (std::size_t i = 1; i < ascending.size(); ++i)
         CHECK(ordered_code(ascending[i - 1]) < ordered_code(ascending[i]));

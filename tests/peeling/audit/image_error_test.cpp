@@ -1,4 +1,5 @@
-// Model: the formulas of the header with the C library's logarithm, which is near enough to compare to 10 digits.
+// Tests the error measures of images against the formulas of the header with the C library's logarithm, compared to 10
+// digits.
 #include "peeling/audit/image_error.h"
 
 #include <bit>
@@ -19,11 +20,11 @@ Image grey(int width, int height) { return Image(Format::rgba8, width, height); 
 
 }  // namespace
 
-TEST_CASE("equal pictures differ by nothing and have no signal-to-noise ratio") {
+TEST_CASE("equal pictures have no difference and no signal-to-noise ratio") {
     CHECK(image_error(grey(3, 2), grey(3, 2)) == ImageError{});
 }
 
-TEST_CASE("largest difference, root mean square and PSNR are what their formulas say, alpha left out") {
+TEST_CASE("largest difference and root mean square and PSNR follow their formulas without alpha") {
     Random random{4};
     for (int i = 0; i < 50; ++i) {
         Image a = grey(5, 4), b(Format::rgba32f, 5, 4);
@@ -45,7 +46,7 @@ TEST_CASE("largest difference, root mean square and PSNR are what their formulas
     }
 }
 
-TEST_CASE("the difference image holds image minus truth with its sign") {
+TEST_CASE("the difference image is image minus truth with its sign") {
     Image a = grey(1, 1), b = grey(1, 1);
     a.codes = {0, 255, 51, 7};
     b.codes = {255, 0, 51, 9};

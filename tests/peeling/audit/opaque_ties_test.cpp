@@ -1,5 +1,4 @@
-// Model: fragments at the very depth of an opaque one of their pixel, as the scene was written: they are counted by
-// hand.
+// Tests the count of fragments at exactly the depth of an opaque surface, on a scene in which they are counted by hand.
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -11,8 +10,8 @@ using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
 
-// Opaque at depth 0.5 where y is even. Fragments at 0.25, 0.5 and 0.75 of (2, 0), two at 0.5 of (1, 2), and one at 0.5
-// of (0, 1) and one at the far end of (3, 3), where nothing opaque is.
+// Opaque at depth 0.5 where y is even. Fragments at 0.25, 0.5 and 0.75 of (2, 0); two at 0.5 of (1, 2); and, without an
+// opaque surface, one at 0.5 of (0, 1) and one at the far plane of (3, 3).
 FragmentScene scene_of_ties() {
     FragmentScene scene{4, 4};
     const Rgba grey{0.5f, 0.5f, 0.5f, 0.5f};
@@ -27,8 +26,7 @@ FragmentScene scene_of_ties() {
 
 }  // namespace
 
-TEST_CASE(
-    "fragments at the very depth of an opaque surface are counted, by the keys of every algorithm that is audited") {
+TEST_CASE("fragments at exactly the depth of an opaque surface are counted by the keys of every audited algorithm") {
     for (const Algorithm& algorithm : algorithms())
         for (const auto& [profile, depth] :
              {std::pair{"geforce8", DepthFormat::d24}, std::pair{"ideal", DepthFormat::d32f}}) {
@@ -43,7 +41,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("a scene whose surfaces and fragments have depths of their own has no ties with the opaque") {
+TEST_CASE("a scene whose surfaces and fragments have distinct depths has no ties with opaque surfaces") {
     FragmentScene scene{4, 4};
     scene.pixels[5].opaque = {0.5f, {1, 0, 0, 1}};
     scene.pixels[5].fragments = {{0.25f, {1, 1, 1, 0.5f}}, {0.75f, {1, 1, 1, 0.5f}}};

@@ -1,4 +1,5 @@
-// Model: pairs found by looking at every two fragments; bins written down by hand.
+// Tests the pairing of fragments of two captures against a comparison of every two fragments; the expected histogram
+// bins are written by hand.
 #include "peeling/audit/path_pairs.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ std::vector<UlpBin> bins_of(std::vector<std::int64_t> differences) {
 
 }  // namespace
 
-TEST_CASE("fragments of two captures are paired by pixel and primitive, and the others counted") {
+TEST_CASE("fragments of two captures are paired by pixel and primitive and the others counted") {
     Random random{3};
     int wrong = 0;
     for (int i = 0; i < 300; ++i) {
@@ -63,7 +64,7 @@ TEST_CASE("fragments of two captures are paired by pixel and primitive, and the 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("where diagonals differ, a fragment's partner is its quad's other triangle unless its own is there") {
+TEST_CASE("where diagonals differ a fragment's partner is its quad's other triangle unless its own is present") {
     using Captured = std::vector<CapturedFragment>;
     const auto pairs = [](const Captured& a, const Captured& b) { return pair_up(a, b, Match::quad).pairs; };
     CHECK(pairs({fragment(0, 4, 1)}, {fragment(0, 5, 2)}) == std::vector<PathPair>{{0, 4, 1, 2}});
@@ -73,14 +74,14 @@ TEST_CASE("where diagonals differ, a fragment's partner is its quad's other tria
     CHECK(pair_up(Captured{fragment(0, 4, 1)}, Captured{fragment(0, 5, 2)}).unmatched == 2);
 }
 
-TEST_CASE("the histogram of differences has bins for 0, 1, 2, 3 to 4, 5 to 8 and so on, on both sides") {
+TEST_CASE("the histogram of differences has bins that double in width from 2 on for both signs") {
     CHECK(bins_of({0, 0, 1, 2, 3, 4, 5, 8, 9}) ==
           std::vector<UlpBin>{{0, 0, 2}, {1, 1, 1}, {2, 2, 1}, {3, 4, 2}, {5, 8, 2}, {9, 16, 1}});
     CHECK(bins_of({-1, -2, -3, -4, -5, 7}) ==
           std::vector<UlpBin>{{-8, -5, 1}, {-4, -3, 2}, {-2, -2, 1}, {-1, -1, 1}, {5, 8, 1}});
 }
 
-TEST_CASE("the largest difference is named with its sign and its first fragment") {
+TEST_CASE("the largest difference is reported with its sign and its first fragment") {
     PairedFragments fragments;
     fragments.pairs = {{0, 0, 5, 5}, {1, 4, 9, 7}, {2, 1, 3, 5}, {3, 2, 8, 7}};
     const PathComparison found = compare(fragments);

@@ -1,4 +1,4 @@
-// Model: layers and traces typed by hand, one pixel a line.
+// Tests the count of duplicated and lost layers on layers and traces written by hand, one pixel per line.
 #include "peeling/audit/peel_errors.h"
 
 #include <catch2/catch.hpp>
@@ -11,11 +11,11 @@ using strata::pipeline::TraceEntry;
 namespace {
 
 struct Pixel {
-    std::vector<std::uint32_t> layers;      // of its fragments, in submission order
-    std::vector<std::uint32_t> composited;  // keys; a fragment's key is ten times its layer, plus one
+    std::vector<std::uint32_t> layers;      // layer of each fragment, in submission order
+    std::vector<std::uint32_t> composited;  // composited keys; a fragment's key is ten times its layer, plus one
 };
 
-// Two regions, side by side, of a frame two rows high.
+// Two adjacent regions of a frame two rows high.
 PeelErrors errors_of(const std::vector<Pixel>& pixels) {
     const int width = static_cast<int>(pixels.size() / 2);
     std::vector<LayerFragment> fragments;
@@ -36,7 +36,7 @@ PeelErrors errors_of(const std::vector<Pixel>& pixels) {
 
 }  // namespace
 
-TEST_CASE("a layer composited twice is one duplicate however often it came, one never composited is one loss") {
+TEST_CASE("a layer composited several times is one duplicate and one never composited is one loss") {
     const PeelErrors errors = errors_of({{{1, 2, 3}, {11, 21, 31}},
                                          {{1, 2, 3}, {11, 11, 11, 11}},
                                          {{}, {}},

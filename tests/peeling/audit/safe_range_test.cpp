@@ -1,5 +1,5 @@
-// Model: the peel as Everitt 2001 tells it, fragment by fragment: what is nearest of all that lies behind the depth
-// peeled last.
+// Tests the safe ranges of epsilon and bias against a peel after Everitt 2001, fragment by fragment: each pass finds
+// the nearest fragment behind the depth that was peeled last.
 #include "peeling/audit/safe_range.h"
 
 #include <catch2/catch.hpp>
@@ -17,11 +17,12 @@ namespace {
 enum class Moved { compare, stored };
 
 struct Errors {
-    int duplicated = 0, lost = 0, hidden = 0;  // hidden: behind the opaque surface, and composited
+    int duplicated = 0, lost = 0, hidden = 0;  // hidden: fragments behind the opaque surface that were composited
     [[nodiscard]] bool none() const { return duplicated == 0 && lost == 0 && hidden == 0; }
 };
 
-// One pixel, `passes` passes; n moves the compare, or the stored depth (then clamped to the format's 0 and `far`).
+// Peels one pixel in `passes` passes. n is added to the compared depth, or to the stored depth (which is then clamped
+// to 0 and `far`).
 Errors peel(const std::vector<PathPair>& pixel, std::int64_t opaque, std::int64_t n, Moved moved) {
     std::set<std::int64_t> layers;
     for (const PathPair& f : pixel)
@@ -57,7 +58,7 @@ struct Field {
     std::vector<std::uint32_t> opaque;
 };
 
-// Few codes, so that ties, neighbours and exclusions all occur; differences of up to `noise`.
+// Few codes, so that ties, neighbours and exclusions all occur; the depths differ by up to `noise`.
 Field random_field(Random& random, int codes, int noise) {
     Field field;
     const int pixels = random_int(random, 1, 3);
@@ -88,7 +89,7 @@ Errors peel(const Field& field, std::int64_t n, Moved moved) {
     return all;
 }
 
-// How many of 4,000 random fields have an n for which "safe" and "no error" are not the same.
+// Number of 4,000 random fields with an n for which "safe" and "no error" are not the same.
 int wrong_fields(Moved moved, int codes, int noise) {
     Random random{1};
     int wrong = 0;
@@ -117,7 +118,7 @@ TEST_CASE("a bias of the stored depth peels without duplicate and loss exactly i
     CHECK(wrong_fields(Moved::stored, 200, 9) == 0);
 }
 
-TEST_CASE("where no epsilon is safe, the named fragments alone exclude each other") {
+TEST_CASE("where no epsilon is safe the named fragments by themselves exclude each other") {
     Random random{2};
     int empty = 0, wrong = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -127,7 +128,7 @@ TEST_CASE("where no epsilon is safe, the named fragments alone exclude each othe
         ++empty;
         std::vector<PathPair> named{range.repeated, range.front, range.behind};
         named[0].pixel = 0;
-        named[1].pixel = named[2].pixel = 1;  // even if they share a pixel
+        named[1].pixel = named[2].pixel = 1;  // even if they are in one pixel
         const std::vector<std::uint32_t> opaque(2, 40u);
         if (!safe_epsilon(named, opaque).is_empty()) ++wrong;
     }
@@ -135,9 +136,9 @@ TEST_CASE("where no epsilon is safe, the named fragments alone exclude each othe
     CHECK(wrong == 0);
 }
 
-// Of D24 codes 20 and 30 with references of 22 and 31: the first hides behind itself from 2 codes on, the second is
-// lost at 11.
-TEST_CASE("an absolute epsilon is safe between the same two numbers however many pixels ask for it") {
+// D24 codes 20 and 30 with compared codes 22 and 31: the first fragment is hidden behind itself from 2 codes on, the
+// second is lost at 11.
+TEST_CASE("an absolute epsilon is safe between the same two numbers for any number of pixels") {
     const std::vector<PathPair> pixel{{0, 0, 20, 22}, {0, 1, 30, 31}};
     std::vector<PathPair> four;
     for (std::uint32_t p = 0; p < 4; ++p)
@@ -156,7 +157,7 @@ TEST_CASE("an absolute epsilon is safe between the same two numbers however many
     CHECK(*alone.highest < 11 * code * (1 + 1e-9));
 }
 
-TEST_CASE("without fragments every epsilon is safe, with one layer every one from its difference on") {
+TEST_CASE("without fragments every epsilon is safe and with one layer every one from its difference on") {
     const std::vector<std::uint32_t> opaque{100};
     CHECK(safe_epsilon({}, opaque) == SafeRange{});
     const std::vector<PathPair> one{{0, 0, 10, 13}};

@@ -1,5 +1,5 @@
-// Model: the passes themselves, one depth after the other, fragment by fragment, on the colour targets of
-// color_machine.h.
+// Tests the peel loop over blocks against its passes, one depth after the other, fragment by fragment, on the colour
+// targets of color_machine.h.
 #include "peeling/loops/block_passes.h"
 
 #include <bit>
@@ -12,7 +12,7 @@
 #include "tests/support/color_machine.h"
 #include "tests/support/random_numbers.h"
 
-// A namespace of its own: names of the model are short.
+// The model's short names have a namespace of their own.
 namespace strata::peeling::block_passes_model {
 namespace {
 
@@ -47,7 +47,7 @@ float random_value(Random& random, const BlockRules& rules, Colors colors) {
     return std::bit_cast<float>(rare[static_cast<std::size_t>(kind - 22)]);
 }
 
-// Sixteen lists of `depth` fragments or fewer; half of the scenes have depths of several fragments.
+// Sixteen lists of at most `depth` fragments; in half of the scenes fragments share depths.
 struct PassScene {
     std::vector<std::uint64_t> levels;
     std::vector<Color> color;
@@ -80,7 +80,7 @@ struct PassScene {
         block.color = color.data();
     }
 
-    // A list's colours, depth by depth.
+    // A list's colours, grouped by depth.
     [[nodiscard]] std::vector<std::vector<Color>> depths(std::size_t lane) const {
         std::vector<std::vector<Color>> all;
         for (std::size_t k = 0; k < block.visible[lane]; ++k) {
@@ -116,7 +116,7 @@ struct PassScene {
     }
 };
 
-// None, or one about where the deepest list ends.
+// No limit, or one near the end of the deepest list.
 std::uint32_t any_limit(Random& random, std::uint32_t depth) {
     const int limit = random_int(random, -4, static_cast<int>(depth) + 2);
     return limit < 0 ? ~0u : static_cast<std::uint32_t>(limit);
@@ -125,8 +125,7 @@ std::uint32_t any_limit(Random& random, std::uint32_t depth) {
 }  // namespace
 
 TEST_CASE(
-    "a block is peeled from both ends like its passes, by every rule of a target and under limits, on every "
-    "instruction set") {
+    "a block is peeled from both ends like its passes by every rule of a target and limit on every instruction set") {
     Random random{92};
     for (BlockRules rules : all_rules()) {
         std::uint64_t wrong = 0, refused = 0, pixels = 0;
@@ -160,7 +159,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("colours that MAX does not order are told on float targets, wherever they stand, on every instruction set") {
+TEST_CASE("colours that MAX cannot order are reported on float targets at any position on every instruction set") {
     Random random{94};
     const std::array<float, 6> foreign{-0.0f,  -0.5f, 1024.5f, std::nanf(""), std::numeric_limits<float>::infinity(),
                                        -1e-40f};
@@ -183,7 +182,7 @@ TEST_CASE("colours that MAX does not order are told on float targets, wherever t
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the last quad puts a front over what is behind it, and leaves every code that nothing stands before") {
+TEST_CASE("the last quad composites a front over what is behind it and leaves codes without a front unchanged") {
     Random random{95};
     std::uint64_t wrong = 0;
     for (const BlockRules& rules : all_rules()) {

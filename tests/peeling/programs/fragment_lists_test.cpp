@@ -1,4 +1,4 @@
-// Model: fragments counted and picked one by one from the scene that they were given in.
+// Tests lists of fragments against the scene's fragments, counted and selected one by one.
 #include "peeling/programs/fragment_lists.h"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ FragmentScene random_scene(Random& random) {
     return scene;
 }
 
-// Rows from `first` on that fit, or pixels of its own row; counted up from the smallest range.
+// The longest range of whole rows from `first` that fits, or of pixels in its row; extended from the smallest range.
 PixelRange expected_range(const std::vector<std::uint32_t>& coverage, std::uint32_t width, std::uint32_t first,
                           std::uint64_t most) {
     PixelRange best{first, first + 1};
@@ -38,7 +38,7 @@ PixelRange expected_range(const std::vector<std::uint32_t>& coverage, std::uint3
 
 }  // namespace
 
-TEST_CASE("a range is the longest run of whole rows, or of pixels of one row, whose fragments fit") {
+TEST_CASE("a range is the longest run of whole rows or of pixels of one row whose fragments fit") {
     Random random{501};
     std::size_t wrong = 0;
     for (int round = 0; round < 400; ++round) {
@@ -55,7 +55,7 @@ TEST_CASE("a range is the longest run of whole rows, or of pixels of one row, wh
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a range's rectangle has its pixels, in their order") {
+TEST_CASE("a range's rectangle has its pixels in their order") {
     const strata::rasterizer::Rect region{5, 7, 9, 12};
     CHECK(rect_of({0, 20}, region) == region);
     CHECK(rect_of({4, 12}, region) == strata::rasterizer::Rect{5, 8, 9, 10});
@@ -64,7 +64,7 @@ TEST_CASE("a range's rectangle has its pixels, in their order") {
     CHECK(rect_of({2, 3}, {3, 3, 4, 8}) == strata::rasterizer::Rect{3, 5, 4, 6});
 }
 
-TEST_CASE("lists hold the fragments before the opaque surface in submission order, whatever ranges they are made of") {
+TEST_CASE("lists have the fragments before the opaque surface in submission order for any ranges") {
     Random random{502};
     const FragmentScene scene = random_scene(random);
     const auto extent = GENERATE(Extent::frame, Extent::tile);

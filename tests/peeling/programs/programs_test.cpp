@@ -1,5 +1,5 @@
-// The lane loops of fragment programs on every instruction set against the scalar loops that define them, bit by bit,
-// and those against the papers' words.
+// Tests the lane loops of fragment programs on every instruction set against the scalar loops that define them, bit by
+// bit, and the scalar loops against the papers' definitions.
 #include "peeling/programs/programs.h"
 
 #include <catch2/catch.hpp>
@@ -34,7 +34,7 @@ constexpr std::array<float, 12> depths{0.0f,
                                        std::numeric_limits<float>::infinity(),
                                        std::numeric_limits<float>::quiet_NaN()};
 
-// What a peel reads and writes; all lanes random, depths often equal.
+// Inputs and outputs of a peel; all lanes are random, depths are often equal.
 struct Peel {
     FragmentBatch in{};
     ColorLanes min_max{}, front{};
@@ -91,7 +91,7 @@ bool same(const Peel& a, const Peel& b) {
     return equal;
 }
 
-// No lambda: that would be constexpr, and the compiler would run it for seconds.
+// A named function, because a lambda would be constexpr and compilers would evaluate it for seconds.
 std::size_t wrong_codes(strata::rasterizer::DepthFormat format, std::uint32_t step) {
     std::size_t count = 0;
     float before = -1.0f;
@@ -122,7 +122,7 @@ TEST_CASE("fragment programs compute the same bits on every instruction set") {
     }
 }
 
-TEST_CASE("the average of n fragments covers as n of them would, whatever the instruction set") {
+TEST_CASE("the average of n fragments has the coverage of the n fragments on every instruction set") {
     testing::Random random{79};
     auto sums = std::make_unique<ColorLanes>(), background = std::make_unique<ColorLanes>();
     auto found = std::make_unique<ColorLanes>();
@@ -147,11 +147,11 @@ TEST_CASE("the average of n fragments covers as n of them would, whatever the in
                 worst = std::max(worst, std::fabs(double{(*found)[c][i]} - expected) / std::max(1.0, expected));
             }
         INFO("instruction set " << static_cast<int>(simd));
-        CHECK(worst < 1e-4);  // rounding of binary32, up to 300 factors
+        CHECK(worst < 1e-4);  // rounding of binary32 in up to 300 factors
     }
 }
 
-TEST_CASE("a visible fragment between the peeled depths is near, far or between, and one outside is none of them") {
+TEST_CASE("a visible fragment between the peeled depths is near or far or between and one outside is none of them") {
     testing::Random random{78};
     int wrong = 0;
     for (int round = 0; round < 100; ++round) {
@@ -171,7 +171,7 @@ TEST_CASE("a visible fragment between the peeled depths is near, far or between,
     CHECK(wrong == 0);
 }
 
-TEST_CASE("every stored depth comes back from a float colour, and greater codes have greater values", "[slow]") {
+TEST_CASE("every stored depth is read back from a float colour and greater codes have greater values", "[slow]") {
     using strata::rasterizer::DepthFormat;
     CHECK(wrong_codes(DepthFormat::d16, 1) == 0);
     CHECK(wrong_codes(DepthFormat::d24, 1) == 0);
@@ -179,10 +179,10 @@ TEST_CASE("every stored depth comes back from a float colour, and greater codes 
     CHECK(depth_as_float(0xffffffu, DepthFormat::d24) == 1.0f);
 }
 
-TEST_CASE("E8: a pixel whose fragments all have alpha 0, and one without any, keep the background under the average") {
+TEST_CASE("E8: a pixel whose fragments all have alpha 0 and one without any keep the background under the average") {
     ColorLanes sums{}, background{}, out{};
     Lanes<float> n{};
-    n[0] = 3;  // three fragments, no alpha; lane 1 has none
+    n[0] = 3;  // three fragments without alpha; lane 1 has none
     for (std::size_t c = 0; c < 4; ++c) background[c][0] = background[c][1] = 0.25f;
     resolve_average(sums, n, background, out, 2);
     for (std::size_t c = 0; c < 3; ++c) CHECK((out[c][0] == 0.25f && out[c][1] == 0.25f));

@@ -1,5 +1,5 @@
-// Models: every sample's channels by TargetStorage::code and the formats' definitions, put in order by
-// std::stable_sort, composited as the header's rule says.
+// Tests the compositing of samples: every sample's channels are read by TargetStorage::code and the formats'
+// definitions, sorted by std::stable_sort, and composited by the rule in the header.
 #include "peeling/programs/sample_lists.h"
 
 #include <bit>
@@ -49,7 +49,7 @@ Rgba plain_composite(std::vector<PlainSample> samples, const Rgba& background) {
         front[3] = front[3] * (1.0f - s.color[3]);
     }
     for (std::size_t c = 0; c < 3; ++c) front[c] = front[c] + front[3] * background[c];
-    // An opaque background leaves an opaque pixel; through another one, what shows less what it hides.
+    // An opaque background gives an opaque pixel; a transparent one is multiplied by the transmittance in front of it.
     return {front[0], front[1], front[2], background[3] == 1 ? 1.0f : 1.0f - front[3] * (1.0f - background[3])};
 }
 
@@ -58,7 +58,7 @@ TargetStorage random_target(Random& random, Format format, int samples) {
     for (int s = 0; s < samples; ++s)
         for (std::size_t w = 0; w < target.texels(s).words(); ++w)
             for (std::uint32_t p = 0; p < plane_pixels; ++p) {
-                // Channels of every width from 0 to 1: 0x3bff is a half, 0x3c003c00 two halves and a binary32.
+                // Channels of every format from 0 to 1: 0x3bff is a half, 0x3c003c00 two halves or a binary32.
                 const auto bits = static_cast<std::uint32_t>(random_int(random, 0, 0x3bff));
                 target.texels(s).plane(w).words[p] =
                     bits << 16 | static_cast<std::uint32_t>(random_int(random, 0, 0x3bff));
@@ -103,8 +103,7 @@ int wrong_pixels(Random& random, Format format, UnormRounding rounding) {
 
 }  // namespace
 
-TEST_CASE(
-    "samples of a pixel are composited nearest first, equal sample_depths by number, with the bits of one by one") {
+TEST_CASE("samples of a pixel are composited from the nearest and of equal sample_depths by number") {
     Random random{43};
     for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
         for (const UnormRounding rounding : {UnormRounding::half_up, UnormRounding::product_even}) {

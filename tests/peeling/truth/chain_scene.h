@@ -1,5 +1,5 @@
-// tests/peeling/truth/chain_scene.h - random triangles in perspective, some opaque, some through the near plane, some
-// textured.
+// tests/peeling/truth/chain_scene.h - random triangles in perspective: some are opaque, some cross the near plane, some
+// are textured.
 #pragma once
 #include "pipeline/vertices/draw_list.h"
 #include "tests/support/random_numbers.h"

@@ -1,5 +1,6 @@
-// Model: the emulated machine itself, whose pictures a chain without exact links, or with exact blending alone, must
-// have to the bit; and a chain whose links are made exact one after the other, which must end at the truth.
+// Tests chains from the machine's picture to the exact one. A chain without exact links, or with only exact blending,
+// must be bit-identical to a picture of the emulated machine; a chain whose links become exact one after the other must
+// end at the truth.
 #include "peeling/truth/chain.h"
 
 #include <catch2/catch.hpp>
@@ -29,7 +30,8 @@ ChainSceneParts parts_of(std::uint64_t seed) {
     return {.transparent = 30, .opaque = 6, .has_texture = seed % 2 == 1, .has_mask = seed % 4 >= 2};
 }
 
-// Every triangle twice, the second one a little behind in other colours: depths that lie close together at every pixel.
+// Every triangle twice, the second one a little behind in other colours, so that depths are close together at every
+// pixel.
 void double_surfaces(Mesh& mesh) {
     const auto count = mesh.positions.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -41,7 +43,7 @@ void double_surfaces(Mesh& mesh) {
     }
 }
 
-// The numbers of a chain, and those of the picture of an algorithm, in the same machine.
+// The picture of a chain, and that of an algorithm on the same machine.
 struct Both {
     RealImage chain, machine;
 };
@@ -56,7 +58,7 @@ Both both(const DrawList& list, const std::string& profile, const RenderOptions&
 
 }  // namespace
 
-TEST_CASE("a chain without an exact link has the picture of sequential depth units, to the bit", "[slow]") {
+TEST_CASE("a chain without an exact link is bit-identical to the picture of sequential depth units", "[slow]") {
     for (const char* profile : {"geforce3", "geforce8", "ideal"})
         for (std::uint64_t seed = 0; seed < 4; ++seed) {
             INFO(profile << ", seed " << seed);
@@ -66,7 +68,7 @@ TEST_CASE("a chain without an exact link has the picture of sequential depth uni
         }
 }
 
-TEST_CASE("a chain refuses a device whose planes are stepped or whose spans are floats") {
+TEST_CASE("a chain rejects a device whose planes are stepped or whose spans are floats") {
     const DrawList list = random_chain_list(0, parts_of(0));
     for (const char* profile : {"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader"})
         CHECK_THROWS_WITH(
@@ -74,8 +76,7 @@ TEST_CASE("a chain refuses a device whose planes are stepped or whose spans are 
             Catch::Contains("expected exact planes, snapped edges and a guard band") && Catch::Contains(profile));
 }
 
-TEST_CASE("a chain without an exact link follows every depth path and format, colour format and snapping grid",
-          "[slow]") {
+TEST_CASE("a chain without an exact link follows every depth path and format and snapping grid", "[slow]") {
     const DrawList list = random_chain_list(11, parts_of(11));
     RenderOptions options = chain_options();
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24})
@@ -95,7 +96,7 @@ TEST_CASE("a chain without an exact link follows every depth path and format, co
     }
 }
 
-TEST_CASE("exact blending alone, on exact depths, gives the picture of the A-buffer, to the bit", "[slow]") {
+TEST_CASE("exact blending alone on exact depths is bit-identical to the picture of the A-buffer", "[slow]") {
     RenderOptions options = chain_options();
     options.depth_path = DepthPath::exact;
     Chain chain = machine_chain;
@@ -108,7 +109,7 @@ TEST_CASE("exact blending alone, on exact depths, gives the picture of the A-buf
         }
 }
 
-TEST_CASE("links made exact one after the other end at the truth, and every link moves some picture", "[slow]") {
+TEST_CASE("links made exact one after the other end at the truth and every link changes some picture", "[slow]") {
     RenderOptions options = chain_options();
     options.depth = DepthFormat::d16;
     const DeviceProfile& device = *find_profile("geforce3");
@@ -126,14 +127,14 @@ TEST_CASE("links made exact one after the other end at the truth, and every link
         CHECK(before == render_chain(scene, exact_chain));
         CHECK(exact_up_to(links.size()) == exact_chain);
     }
-    // What binary32 does to a clip position, geforce3's grid of 1/16 pixel swallows unless a corner lies on its lines.
+    // geforce3's grid of 1/16 pixel hides binary32 errors of a clip position unless a corner is on its lines.
     for (std::size_t i = 1; i < links.size(); ++i) {
         INFO(links[i].name);
         CHECK(moved[i] > 0);
     }
 }
 
-TEST_CASE("the truth depends on nothing that a device does") {
+TEST_CASE("the truth does not depend on the device") {
     const DrawList list = random_chain_list(40, {.transparent = 30, .opaque = 6, .has_texture = true});
     RenderOptions options = chain_options();
     const RealImage truth = render_chain({list, chain_view, *find_profile("geforce3"), options}, exact_chain);

@@ -1,6 +1,6 @@
-// Panes that cover the frame, at depths and in colours that are constant: every chain, whichever of its links are
-// exact, shows what a plain loop composites from the far end. And the lookups, corners and sides that random scenes do
-// not meet. Model: that loop in long double; formulas of sRGB and of the convention turned round.
+// Tests chains on panes that cover the frame at constant depths and colours: for any set of exact links the result is
+// that of a plain loop that composites from the far end in long double. Also tests lookups, corners and sides that
+// random scenes do not reach, against formulas of sRGB and of reversed conventions.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,13 +17,13 @@ using namespace strata::pipeline;
 using strata::components;
 
 struct Pane {
-    float z = -2;  // of the world; the eye looks along -z
+    float z = -2;  // in the world; the eye looks along -z
     strata::Rgba color{};
     AlphaMode mode = AlphaMode::blend;
     float cutoff = 0.5f;
 };
 
-// Far beyond the frame on every side: no pixel meets a border.
+// Far beyond the frame on every side, so no pixel is near a border.
 Mesh square_at(float z, const strata::Rgba& color) {
     Mesh mesh;
     mesh.positions = {{-50, -50, z}, {50, -50, z}, {50, 50, z}, {-50, 50, z}};
@@ -50,7 +50,7 @@ DrawList list_of_panes(const std::vector<Pane>& panes) {
 
 using RealColor = std::array<long double, 3>;
 
-// OVER from the far end; a mask below its cutoff is not there, and every other opaque pane hides what is behind it.
+// OVER from the far end; a mask below its cutoff is skipped, and every other opaque pane hides what is behind it.
 RealColor composite(std::vector<Pane> panes, const strata::Rgba& background, std::optional<float> alpha) {
     std::sort(panes.begin(), panes.end(), [](const Pane& a, const Pane& b) { return a.z < b.z; });
     RealColor color;
@@ -79,7 +79,7 @@ RenderOptions pane_options() {
     return options;
 }
 
-// The largest distance of any pixel from one colour.
+// The largest difference of any pixel from one colour.
 double distance(const RealImage& image, const RealColor& expected) {
     double largest = 0;
     for (std::size_t i = 0; i < image.rgb.size(); ++i)
@@ -95,7 +95,7 @@ Chain chain_of(unsigned bits) {
 
 }  // namespace
 
-TEST_CASE("every chain of links composites panes as a plain loop does, to what its formats round away", "[slow]") {
+TEST_CASE("every chain of links composites panes like a plain loop within the rounding of its formats", "[slow]") {
     std::vector<Pane> glass_alone;
     for (const Pane& pane : all_panes)
         if (pane.mode == AlphaMode::blend) glass_alone.push_back(pane);
@@ -110,15 +110,15 @@ TEST_CASE("every chain of links composites panes as a plain loop does, to what i
                     const Chain chain = chain_of(bits);
                     const RealImage image = render_chain({list, chain_view, *find_profile(profile), options}, chain);
                     INFO(profile << ", links " << bits << (alpha ? ", all transparent" : ""));
-                    // A layer rounds to a code of 1/255 or half of it; binary32 colours to 2^-24.
+                    // A layer rounds to half a code or a code of 1/255; binary32 colours to 2^-24.
                     const bool is_fine = chain.color && chain.blend && chain.store;
                     CHECK(distance(image, expected) < (is_fine ? 1e-6 : 7.0 / 255));
                 }
             }
 }
 
-TEST_CASE("a mask whose alpha rises from left to right hides what is behind it on the right alone, in every chain") {
-    // Alpha is 1/2 in the middle of the frame, where the cutoff lies, and 0.0125 less or more at either side.
+TEST_CASE("a mask whose alpha rises from left to right hides what is behind it only on the right in every chain") {
+    // Alpha is 1/2 in the middle of the frame, where the cutoff is, and 0.0125 less or more in the columns next to it.
     DrawList list = list_of_panes({all_panes[0], all_panes[1], all_panes[5]});
     Mesh& mask = list.meshes[1];
     for (const std::size_t corner : {0u, 3u}) mask.colors[corner].a = 0.25f;
@@ -134,7 +134,7 @@ TEST_CASE("a mask whose alpha rises from left to right hides what is behind it o
         double largest = 0;
         for (std::size_t i = 0; i < image.rgb.size(); ++i) {
             const std::size_t column = i / 3 % 8;
-            if (column == 3 || column == 4) continue;  // 8-bit alphas cannot tell these from the cutoff
+            if (column == 3 || column == 4) continue;  // 8-bit alphas do not distinguish these from the cutoff
             const RealColor& expected = column < 4 ? left : right;
             largest = std::max(largest, std::fabs(image.rgb[i] - static_cast<double>(expected[i % 3])));
         }
@@ -143,7 +143,7 @@ TEST_CASE("a mask whose alpha rises from left to right hides what is behind it o
     }
 }
 
-TEST_CASE("planes at unsnapped corners are those of snapped ones where the depth is constant") {
+TEST_CASE("planes at unsnapped corners equal those of snapped ones where the depth is constant") {
     DeviceProfile unsnapped = *find_profile("geforce8");
     unsnapped.raster.plane_origin = strata::rasterizer::PlaneOrigin::unsnapped;
     const DrawList list = list_of_panes(all_panes);
@@ -154,7 +154,7 @@ TEST_CASE("planes at unsnapped corners are those of snapped ones where the depth
                    composite(all_panes, options.background, {})) < 1e-6);
 }
 
-TEST_CASE("the chain knows exact planes, snapped edges and a guard band, and refuses each other rule by itself") {
+TEST_CASE("the chain rejects every rule other than exact planes or snapped edges or a guard band") {
     const DrawList list = list_of_panes(all_panes);
     const RenderOptions options = pane_options();
     for (int rule = 0; rule < 3; ++rule) {
@@ -167,7 +167,7 @@ TEST_CASE("the chain knows exact planes, snapped edges and a guard band, and ref
     }
 }
 
-TEST_CASE("the truth of a scene turned upside down, or clipped as Direct3D clips, is the same picture") {
+TEST_CASE("the truth of a scene upside down or with Direct3D's clip space is the same picture") {
     const DrawList list = random_chain_list(61, {.transparent = 20, .opaque = 5, .has_texture = true});
     RenderOptions options = pane_options();
     options.width = 24;
@@ -198,7 +198,7 @@ TEST_CASE("the truth of a scene turned upside down, or clipped as Direct3D clips
     CHECK(largest < 1e-9);
 }
 
-TEST_CASE("the truth leaves out what is culled, has no area or is not finite, whichever way positions come") {
+TEST_CASE("the truth omits triangles that are culled or have no area or are not finite in any vertex format") {
     const std::vector<Pane> one_pane{{-2, {1, 0, 0, 0.5f}}};
     const strata::Rgba background = pane_options().background;
     for (const bool transform_is_exact : {false, true})
@@ -228,7 +228,7 @@ TEST_CASE("the truth leaves out what is culled, has no area or is not finite, wh
         }
 }
 
-TEST_CASE("an exact lookup decodes sRGB in colours and not in alpha, and counts a rectangle's texels by themselves") {
+TEST_CASE("an exact lookup decodes sRGB in colours and not in alpha and counts a rectangle's texels by themselves") {
     Texture texture;
     texture.width = 2;
     texture.wrap_s = TextureWrap::repeat;
@@ -249,12 +249,11 @@ TEST_CASE("an exact lookup decodes sRGB in colours and not in alpha, and counts 
     texture.filter = TextureFilter::linear;
     CHECK(real_sample(texture, 0.5, 0.5)[3] == 188 / 255.0);
     CHECK(real_sample(texture, 1.0, 0.5)[3] == Approx((188 + 51) / 510.0));
-    CHECK(real_sample(texture, 9.0, 0.5)[3] == 51 / 255.0);  // clamped, though the wrap says repeat
+    CHECK(real_sample(texture, 9.0, 0.5)[3] == 51 / 255.0);  // clamped, though the wrap mode is repeat
 }
 
-TEST_CASE(
-    "a square of two triangles on a grid covers every centre once, those on its left and upper sides among them") {
-    // Sides through centres, upright and level; whichever way the corners turn.
+TEST_CASE("a square of two triangles on a grid covers every centre once including those on its left and upper sides") {
+    // Sides through pixel centres, vertical and horizontal, in either winding.
     const auto corner = [](int x, int y) { return RealCorner{.x = x + 0.5, .y = y + 0.5}; };
     for (const bool is_turned : {false, true}) {
         const std::array<RealCorner, 4> p{corner(1, 1), corner(5, 1), corner(5, 4), corner(1, 4)};

@@ -1,5 +1,5 @@
-// Model: the formulas of the header in long double, with the C library's logarithm; pictures whose SSIM is known by
-// hand.
+// Tests the error measures in real numbers against the formulas of the header in long double with the C library's
+// logarithm, and on pictures whose SSIM is known.
 #include "peeling/truth/real_error.h"
 
 #include <catch2/catch.hpp>
@@ -20,11 +20,11 @@ RealImage flat(int width, int height, double value) {
 
 }  // namespace
 
-TEST_CASE("numbers that are equal have no error, whatever they are") {
+TEST_CASE("equal numbers have no error for any value") {
     CHECK(real_error(flat(9, 7, 0.3), flat(9, 7, 0.3)) == RealError{});
 }
 
-TEST_CASE("one pixel of a hundred off by a code is what every measure says of it") {
+TEST_CASE("one pixel of a hundred that is one code off gives the expected value of every measure") {
     const RealImage truth = flat(10, 10, 0.5);
     RealImage image = truth;
     image.rgb[3 * 42 + 1] += 1 / 255.0;
@@ -37,7 +37,7 @@ TEST_CASE("one pixel of a hundred off by a code is what every measure says of it
     CHECK(error.ssim > 0.99);
 }
 
-TEST_CASE("two flat pictures are as similar as their means, and a picture and its negative oppose each other") {
+TEST_CASE("two flat pictures are as similar as their means and a picture and its negative have negative similarity") {
     const double a = 0.25, b = 0.5;
     CHECK(real_error(flat(16, 12, a), flat(16, 12, b)).ssim ==
           Approx((2 * a * b + 1e-4) / (a * a + b * b + 1e-4)).epsilon(1e-9));
@@ -50,7 +50,7 @@ TEST_CASE("two flat pictures are as similar as their means, and a picture and it
     CHECK(real_error(stripes, negative).ssim == Approx((9e-4 - 0.5) / (9e-4 + 0.5)).epsilon(1e-9));
 }
 
-TEST_CASE("the mean of windows is that of a loop over them, in a picture that is no multiple of a window") {
+TEST_CASE("the mean over windows is that of a loop over them in a picture that is not a multiple of a window") {
     Random random{8};
     RealImage a = flat(13, 11, 0), b = a;
     for (std::size_t i = 0; i < a.rgb.size(); ++i) {

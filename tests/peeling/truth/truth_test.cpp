@@ -1,6 +1,6 @@
-// Model: rational arithmetic from the matrices and positions to the last pixel, in homogeneous coordinates: a pixel's
-// point solves v = b0 v0 + b1 v1 + b2 v2 for the ray through its centre, so nothing is divided by w, clipped or
-// snapped.
+// Tests the truth against rational arithmetic from the matrices and positions to the pixel, in homogeneous coordinates:
+// a pixel's point solves v = b0 v0 + b1 v1 + b2 v2 for the ray through its centre, so nothing is divided by w, clipped
+// or snapped.
 #include "peeling/truth/truth.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -35,7 +35,7 @@ struct RationalFragment {
     std::array<Rational, 4> color;
 };
 
-// b of the point at the pixel, times the determinant; positive inside where the determinant is.
+// The weights b of the point at the pixel, times the determinant; inside they have the sign of the determinant.
 std::array<Rational, 3> ray_weights(const std::array<RationalVector, 3>& v, const Rational& x, const Rational& y) {
     std::array<Rational, 3> b;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -45,7 +45,7 @@ std::array<Rational, 3> ray_weights(const std::array<RationalVector, 3>& v, cons
     return b;
 }
 
-// The sides of random triangles do not pass through pixel centres: there is no tie to settle.
+// The sides of random triangles do not pass through pixel centres, so there are no ties.
 void add_fragment_of(const Mesh& mesh, const Material& material, std::size_t triangle, int px, int py,
                      std::vector<RationalFragment>& out) {
     std::array<RationalVector, 3> v;
@@ -59,11 +59,11 @@ void add_fragment_of(const Mesh& mesh, const Material& material, std::size_t tri
         whole += b[i];
     }
     if (whole == 0) return;
-    // The point in front of the eye: signs of all b are those of their sum, and of w's.
+    // The point is in front of the eye: all b have the sign of their sum, and of w.
     const bool all_up = b[0] >= 0 && b[1] >= 0 && b[2] >= 0, all_down = b[0] <= 0 && b[1] <= 0 && b[2] <= 0;
     if (!(all_up || all_down)) return;
     if (w / whole <= 0 || z / w < -1 || z / w > 1) return;
-    // Seen counter-clockwise where the determinant is positive: single-sided materials show that side alone.
+    // Counterclockwise where the determinant is positive: single-sided materials show that side only.
     if (!material.double_sided && !all_up) return;
     RationalFragment fragment{z / w, {}};
     const auto tint = components(all_up ? material.front : material.back);
@@ -99,7 +99,7 @@ std::array<Rational, 3> rational_pixel(const DrawList& list, const Rgba& backgro
 
 }  // namespace
 
-TEST_CASE("the truth is what rational arithmetic says of every pixel, to 2^-40", "[slow]") {
+TEST_CASE("the truth agrees with rational arithmetic at every pixel to 2^-40", "[slow]") {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const DrawList list = random_chain_list(seed, {.transparent = 10, .opaque = 4});
         RenderOptions options;
@@ -128,14 +128,14 @@ TEST_CASE("the truth is what rational arithmetic says of every pixel, to 2^-40",
 
 namespace {
 
-// The exact side of p of the way from a to b, by rationals: 1 is right of it with y down.
+// The exact side of p for the line from a to b, in rationals: 1 is right of it with y down.
 int rational_side(const RealCorner& a, const RealCorner& b, double x, double y) {
     const Rational e = (Rational(b.x) - Rational(a.x)) * (Rational(y) - Rational(a.y)) -
                        (Rational(b.y) - Rational(a.y)) * (Rational(x) - Rational(a.x));
     return e.sign();
 }
 
-// By definition: right of every side of a clockwise triangle, or on one that runs right or up.
+// By definition: right of every side of a clockwise triangle, or on a side that runs right or up.
 bool is_covered(std::array<RealCorner, 3> corner, double x, double y) {
     if (rational_side(corner[0], corner[1], corner[2].x, corner[2].y) < 0) std::swap(corner[1], corner[2]);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -149,9 +149,8 @@ bool is_covered(std::array<RealCorner, 3> corner, double x, double y) {
 
 }  // namespace
 
-TEST_CASE(
-    "a centre on or beside a side is where rationals see it, and belongs to one triangle of two that share the side",
-    "[slow]") {
+TEST_CASE("a centre on or next to a side is where rational arithmetic has it and belongs to one of two triangles",
+          "[slow]") {
     // Every third side passes through the centre exactly; the others miss it by what binary64 drops of the products.
     Random random{5};
     std::size_t wrong = 0, shared = 0;
@@ -174,7 +173,7 @@ TEST_CASE(
     CHECK(shared == 3000);
 }
 
-TEST_CASE("an exact bilinear lookup weighs four texels by uncut fractions") {
+TEST_CASE("an exact bilinear lookup weights four texels by untruncated fractions") {
     Texture texture;
     texture.width = 2;
     texture.wrap_s = TextureWrap::clamp_to_edge;
