@@ -1,11 +1,11 @@
-// tests/rasterizer/chip_scene.h - random triangles for the chip's interpolators: corners that its kernels know, and
-// corners that they leave to the definitions.
+// tests/rasterizer/chip_scene.h - random triangles for the chip's interpolators: some have corners that the SIMD
+// kernels support, others must fall back to the scalar definitions.
 #pragma once
 #include "tests/rasterizer/scene.h"
 
 namespace strata::rasterizer {
 
-// The rules of NV20 that its fragments' values follow.
+// The rules that NV20 uses for values of fragments.
 [[nodiscard]] inline RasterRules chip_rules() {
     RasterRules rules{.subpixel_bits = 4, .z_clip = ZClip::per_fragment};
     rules.window_z = WindowZ::buffer_units;
@@ -21,8 +21,8 @@ namespace strata::rasterizer {
     return rules;
 }
 
-// Depths of corners: spread over the format's range and beyond both its ends, equal, 0, a unit apart, too far apart for
-// products of binary64, and around the least depth (window_z.h).
+// Depths of corners: spread over the format's range and beyond both its ends, equal, 0, one unit apart, too far apart
+// for products in binary64, and around the least depth (window_z.h).
 [[nodiscard]] inline std::array<double, 3> chip_depths(Random& random, DepthFormat format, int kind) {
     const double units = buffer_units(format);
     const auto within = [&] { return static_cast<float>(double{random_float(random, 0.05f, 0.95f)} * units); };

@@ -1,5 +1,5 @@
-// tests/rasterizer/dense.h - soups of many triangles of few pixels, as they come in dense meshes: whole groups of them
-// are set up and drawn side by side.
+// tests/rasterizer/dense.h - soups of many triangles of few pixels, as in dense meshes: they are set up and drawn in
+// full groups.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ struct DenseCase {
     RasterRules rules;
 };
 
-// A grid of cells of about `size` pixels over a window of 70 by 40, and beyond it, twice, one behind the other; every
-// 97th cell is larger, every 11th corner on a pixel's centre or on the corner before, and a run of points and lines at
-// its end.
+// A grid of cells of about `size` pixels over and beyond a window of 70 x 40, twice, one behind the other. Every 97th
+// cell is larger, every 11th corner is on a pixel centre or on the previous corner, and points and lines follow at the
+// end.
 [[nodiscard]] inline TriangleSoup dense_soup(std::uint64_t seed, float size) {
     Random random{seed};
     TriangleSoup soup;
@@ -51,7 +51,7 @@ struct DenseCase {
     return soup;
 }
 
-// Of a window of 70 by 40: corners share rows and columns then, and many areas are powers of two.
+// In a window of 70 x 40: corners then share rows and columns, and many areas are powers of two.
 inline void move_to_half_pixels(TriangleSoup& soup) {
     const auto moved = [](float x, float w, float half_window) {
         return (std::round(2 * (x / w + 1) * half_window) / (2 * half_window) - 1) * w;

@@ -1,4 +1,4 @@
-// tests/rasterizer/rational.h - the models' arithmetic: exact rationals and their roundings, written from the
+// tests/rasterizer/rational.h - exact rational arithmetic for the models, with roundings written from their
 // definitions.
 #pragma once
 #include <array>
@@ -20,7 +20,7 @@ using Rational = boost::multiprecision::cpp_rational;
 
 [[nodiscard]] inline Integer floor(const Rational& v) {
     const Integer n = numerator(v), d = denominator(v);
-    Integer q = n / d;  // toward zero
+    Integer q = n / d;  // rounded toward zero
     if (q * d > n) --q;
     return q;
 }
@@ -32,7 +32,7 @@ using Rational = boost::multiprecision::cpp_rational;
     return v < power(guess) ? guess - 1 : guess;
 }
 
-// The largest multiple of 2^unit that is no further from 0 than v.
+// The multiple of 2^unit nearest to v that is no further from 0 than v.
 [[nodiscard]] inline Rational cut(const Rational& v, int unit) {
     const Rational scaled = abs(v) * power(-unit);
     const Rational result = Rational{floor(scaled)} * power(unit);
@@ -58,7 +58,7 @@ using Rational = boost::multiprecision::cpp_rational;
     return static_cast<float>(v < 0 ? -result : result);
 }
 
-// A binary32 whose operations are those of the rationals, rounded once.
+// A binary32 whose operations are computed in rationals and rounded once.
 struct Rounded {
     float v = 0;
     friend Rounded operator+(Rounded a, Rounded b) { return {nearest_float(Rational{a.v} + Rational{b.v})}; }

@@ -30,7 +30,7 @@ enum class SoupKind : std::uint8_t { flat, perspective, perspective_with_tiny_va
     return v;
 }
 
-// `triangles` triangles of their own vertices in two runs of materials 7 and 8, the second one mirrored and
+// `triangles` triangles with separate vertices in two runs of materials 7 and 8; the second run is mirrored and
 // single-sided.
 [[nodiscard]] inline TriangleSoup random_soup(std::uint64_t seed, int triangles, SoupKind kind) {
     Random random{seed};
@@ -50,7 +50,7 @@ struct Device {
     DepthRequest depth;
 };
 
-// Triangles of about `size` pixels, every fourth a sliver, corners on the subpixels of `rules` or beside them.
+// Triangles of about `size` pixels, every fourth a sliver, with corners on or next to the subpixels of `rules`.
 [[nodiscard]] inline Geometry random_triangles(std::uint64_t seed, int count, int size, const Device& device) {
     Random random{seed};
     const int unit = 1 << device.rules.subpixel_bits;

@@ -1,4 +1,4 @@
-// tests/rasterizer/support.h - scenes made of window positions, and the fragments of a draw as plain rows.
+// tests/rasterizer/support.h - scenes given by window positions, and the fragments of a draw as a plain list.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,14 +14,14 @@ namespace strata::rasterizer {
 
 using Random = std::mt19937_64;
 
-[[nodiscard]] inline int random_int(Random& random, int low, int high) {  // both included
+[[nodiscard]] inline int random_int(Random& random, int low, int high) {  // low to high, both inclusive
     return low + static_cast<int>(random() % (static_cast<std::uint64_t>(high - low) + 1));
 }
 [[nodiscard]] inline float random_float(Random& random, float low, float high) {
     return low + (high - low) * static_cast<float>(random() >> 40) * 0x1p-24f;
 }
 
-// A triangle that is already set up: snapped positions, window z, 1/w; attributes are left at 0.
+// A triangle that is already set up: snapped positions, window z, 1/w; attributes are 0.
 [[nodiscard]] inline SetupTriangle window_triangle(const std::array<SubpixelPoint, 3>& p, int subpixel_bits,
                                                    const std::array<double, 3>& z = {0, 0, 0},
                                                    const std::array<float, 3>& inverse_w = {1, 1, 1}) {
@@ -87,7 +87,7 @@ inline constexpr FragmentNeeds coverage_only{false, false, false, false, false, 
 struct DrawResult {
     std::vector<Fragment> fragments;
     std::uint64_t exact_fallbacks = 0;
-    bool batches_are_sound = true;  // no pixel twice, one material, the pixel index is that of x and y
+    bool batches_are_sound = true;  // no pixel twice, one material, and pixel indices that match x and y
 };
 
 inline void append_batch(const FragmentBatch& batch, const Rect& region, const FragmentNeeds& needs,
@@ -130,7 +130,7 @@ inline void append_batch(const FragmentBatch& batch, const Rect& region, const F
     return draw(geometry, depth, needs, geometry.state.viewport, geometry.all_triangles);
 }
 
-// Sorted by pixel and primitive: what must not depend on the walk.
+// Sorted by pixel and primitive, which must not depend on the order of the walk.
 [[nodiscard]] inline std::vector<Fragment> by_pixel(std::vector<Fragment> fragments) {
     std::ranges::stable_sort(fragments, [](const Fragment& a, const Fragment& b) {
         return std::array{a.y, a.x} < std::array{b.y, b.x};

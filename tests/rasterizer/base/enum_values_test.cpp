@@ -1,4 +1,4 @@
-// The model is enums written out here, whose values and names a reader sees.
+// Tests the list of an enum's values and names on enums defined here.
 #include "rasterizer/base/enum_values.h"
 
 #include <catch2/catch.hpp>
@@ -23,13 +23,13 @@ static_assert(enum_values<Scope::Inner> == std::array{Scope::Inner::a, Scope::In
 
 }  // namespace
 
-TEST_CASE("the list of an enum ends at its last value, and each value has its identifier for a name") {
+TEST_CASE("the list of an enum ends at its last value and each value has its identifier as name") {
     CHECK(enum_names<Fruit> == std::array<std::string_view, 3>{"apple", "pear", "sour_cherry_2"});
     CHECK(enum_names<Lone> == std::array<std::string_view, 1>{"only"});
     CHECK(enum_names<Scope::Inner> == std::array<std::string_view, 2>{"a", "b"});
 }
 
-TEST_CASE("a name reads back as its value, and no other text does") {
+TEST_CASE("a name is read back as its value and no other text is accepted") {
     for (std::size_t i = 0; i < enum_values<Fruit>.size(); ++i)
         CHECK(enum_named<Fruit>(enum_names<Fruit>[i]) == enum_values<Fruit>[i]);
     for (const char* text : {"", "apples", "Pear", "sour_cherry_", "Fruit::pear"}) CHECK_FALSE(enum_named<Fruit>(text));

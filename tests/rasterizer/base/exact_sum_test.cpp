@@ -1,3 +1,4 @@
+// Tests exact sums of products against rational arithmetic.
 #include "rasterizer/base/exact_sum.h"
 
 #include <catch2/catch.hpp>
@@ -17,7 +18,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("a sum of products has the sign and nearly the value of the rational sum, whatever cancels", "[slow]") {
+TEST_CASE("a sum of products has the sign and nearly the value of the rational sum for any cancellation", "[slow]") {
     constexpr std::uint64_t seed = 11;
     Random random{seed};
     std::uint64_t wrong_sign = 0, wrong_value = 0, zeros = 0;
@@ -44,7 +45,7 @@ TEST_CASE("a sum of products has the sign and nearly the value of the rational s
     CHECK(wrong_value == 0);
 }
 
-TEST_CASE("sum and product in two terms lose nothing", "[slow]") {
+TEST_CASE("sum and product in two terms are exact", "[slow]") {
     Random random{12};
     std::uint64_t wrong = 0;
     for (int n = 0; n < 20000; ++n) {

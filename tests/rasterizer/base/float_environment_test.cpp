@@ -1,5 +1,5 @@
-// A host program may have set another rounding mode, flush-to-zero and denormals-are-zero: our bits and its settings
-// stay the same.
+// Tests that results do not depend on a host program's rounding mode, flush-to-zero or denormals-are-zero, and that its
+// settings are restored.
 #include "rasterizer/base/float_environment.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace strata::rasterizer;
 
-// The host's environment for the length of a scope: MXCSR and, for libm's sake, nothing else.
+// Sets the host's environment for the lifetime of a scope: only MXCSR, so that libm is not affected.
 class Host {
   public:
     explicit Host(unsigned mxcsr) : saved_{_mm_getcsr()} { _mm_setcsr(mxcsr); }
@@ -38,7 +38,7 @@ struct Outcome {
     friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-// set_up opens the environment itself; draw is entered by an executor that has opened it.
+// set_up enters the environment itself; draw is called by an executor that has entered it.
 [[nodiscard]] Outcome run(const TriangleSoup& soup, const RasterRules& rules, const DepthRequest& depth, int threads) {
     RasterState state = scene_state(48, 40);
     state.depth_format = depth.format;
@@ -79,7 +79,7 @@ TEST_CASE("set-up and rasterization give the same bits under flush-to-zero and e
     }
 }
 
-TEST_CASE("every index of a parallel loop runs in our environment and the caller's comes back") {
+TEST_CASE("every index of a parallel loop runs in the project's environment and the caller's is restored") {
     const Host environment{masked | flush | 0x4000};
     std::array<unsigned, 64> seen{};
     strata::parallel_for(seen.size(), 4, [&](std::size_t i) { seen[i] = _mm_getcsr() & 0xffc0u; });
@@ -88,7 +88,7 @@ TEST_CASE("every index of a parallel loop runs in our environment and the caller
 }
 #endif
 
-TEST_CASE("a rounding mode set through the C library comes back after our scope") {
+TEST_CASE("a rounding mode set through the C library is restored after the scope") {
     REQUIRE(std::fesetround(FE_UPWARD) == 0);
     {
         const strata::FloatEnvironment ours;

@@ -1,4 +1,5 @@
-// The model: rationals (rational.h) cut by the rules of numbers.md 4; integers of any size for the Newton steps.
+// Tests NV20's arithmetic against rationals (rational.h) truncated by the rules of numbers.md 4, and against big
+// integers for the Newton steps.
 #include "rasterizer/base/nv20_arithmetic.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +14,7 @@ using namespace strata::rasterizer;
 
 constexpr float largest_float = 0x1.fffffep127f;
 
-// v cut to 24 bits toward zero; below the normal numbers +0, above them the largest.
+// v truncated to 24 bits toward zero; below the normal range +0, above it the largest value.
 [[nodiscard]] float model_cut(const Rational& v) {
     if (v == 0 || abs(v) < power(-126)) return 0.0f;
     const float f = abs(v) >= power(128) ? largest_float : nearest_float(abs(cut_to_bits(v, 24)));
@@ -33,7 +34,7 @@ template <std::size_t n>
     return model_cut(sum);
 }
 
-// Any binary32 but infinities and NaN; `spread` powers of two around 1, or all of them.
+// Any finite binary32 with an exponent within `spread` of 0, or of any exponent.
 [[nodiscard]] float random_finite(Random& random, int spread) {
     const auto fraction = static_cast<std::uint32_t>(random()) & 0x807fffffu;
     const int exponent = spread == 0 ? random_int(random, 0, 254) : random_int(random, 127 - spread, 127 + spread);
@@ -44,7 +45,7 @@ template <std::size_t n>
 
 }  // namespace
 
-TEST_CASE("NV20's finite numbers are all but infinities and NaN of any payload") {
+TEST_CASE("NV20's finite numbers are all except infinities and NaN of any payload") {
     for (const std::uint32_t sign : {0u, 0x80000000u}) {
         for (const std::uint32_t bits : {0u, 1u, 0x007fffffu, 0x00800000u, 0x3f800001u, 0x7f7fffffu})
             CHECK(nv20::is_finite(std::bit_cast<float>(sign | bits)));
@@ -53,7 +54,7 @@ TEST_CASE("NV20's finite numbers are all but infinities and NaN of any payload")
     }
 }
 
-TEST_CASE("NV20 multiplies by cutting, flushes denormals, and 0 times anything is +0") {
+TEST_CASE("NV20 truncates products and flushes denormals and 0 times anything is +0") {
     Random random{920};
     std::uint64_t wrong = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -67,7 +68,7 @@ TEST_CASE("NV20 multiplies by cutting, flushes denormals, and 0 times anything i
     CHECK(same(nv20::multiply(-2.0f, infinity), -infinity));
 }
 
-TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven low bits, adds once and cuts",
+TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven low bits and adds once and truncates",
           "[slow]") {
     Random random{921};
     std::uint64_t wrong = 0, unlike_binary32 = 0;
@@ -82,8 +83,8 @@ TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven 
     CHECK(wrong == 0);
     CHECK(unlike_binary32 > 1000);
     CHECK(same(nv20::sum(std::array{1.0f, 0x1p-28f}), 1.0f));
-    CHECK(same(nv20::sum(std::array{1.0f, -0x1p-28f}), 0x1.fffffep-1f));  // cut after the one addition
-    CHECK(same(nv20::sum(std::array{1.0f, -0x1p-29f}), 1.0f));            // lost before it
+    CHECK(same(nv20::sum(std::array{1.0f, -0x1p-28f}), 0x1.fffffep-1f));  // truncated after the one addition
+    CHECK(same(nv20::sum(std::array{1.0f, -0x1p-29f}), 1.0f));            // lost before the addition
     CHECK(same(nv20::sum(std::array{2.0f, -2.0f}), 0.0f));
     CHECK(std::isnan(
         nv20::sum(std::array{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()})));
@@ -113,21 +114,21 @@ TEST_CASE("NV20's reciprocal is a seed of its 6 leading bits and two Newton step
     CHECK(same(nv20::reciprocal(std::numeric_limits<float>::infinity()), 0.0f));
     CHECK(same(nv20::reciprocal(0x1p126f), 0x1p-126f));
     for (const float large : {0x1.000002p126f, 0x1p127f, -0x1.8p127f, std::numeric_limits<float>::max()})
-        CHECK(same(nv20::reciprocal(large), 0.0f));  // a denormal result
+        CHECK(same(nv20::reciprocal(large), 0.0f));  // the exact result is denormal
 }
 
-TEST_CASE("NV20's reciprocal is within 2^-22 of 1/d, as its extension promises, for every fifth mantissa") {
+TEST_CASE("NV20's reciprocal is within 2^-22 of 1/d as its extension requires for every fifth mantissa") {
     double worst = 0;
     for (std::uint32_t fraction = 0; fraction < 0x800000u; fraction += 5) {
         const float d = std::bit_cast<float>(0x3f800000u | fraction);
-        const double error = double{nv20::reciprocal(d)} * double{d} - 1.0;  // binary64 is enough for the bound
+        const double error = double{nv20::reciprocal(d)} * double{d} - 1.0;  // binary64 is precise enough for the bound
         worst = std::max(worst, error < 0 ? -error : error);
     }
     CHECK(worst < 0x1p-22);
     CHECK(worst > 0x1p-24);
 }
 
-TEST_CASE("a window of NV20's engine multiplies by its reciprocal of w and adds the viewport's offset, cut each time",
+TEST_CASE("NV20 multiplies by its reciprocal of w and adds the viewport's offset with each result truncated",
           "[slow]") {
     Random random{923};
     RasterState state;

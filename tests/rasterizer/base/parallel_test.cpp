@@ -1,4 +1,4 @@
-// The model: a plain loop; each index writes to a place of its own.
+// Tests parallel loops against a plain loop; each index writes to its own element.
 #include "rasterizer/base/parallel.h"
 
 #include <bit>
@@ -13,7 +13,7 @@
 #include "rasterizer/base/thread_loop.h"
 #include "rasterizer/base/uninitialized.h"
 
-TEST_CASE("a parallel loop visits every index once, for any count and number of threads") {
+TEST_CASE("a parallel loop visits every index once for any count and number of threads") {
     std::size_t wrong = 0;
     for (const int threads : {0, 1, 2, 3, 7})
         for (const std::size_t count :
@@ -33,7 +33,7 @@ TEST_CASE("a loop inside a loop visits every pair once") {
     CHECK(visits == std::vector<int>(40 * 30, 1));
 }
 
-TEST_CASE("an exception of a body reaches the caller with its words, from one thread or several") {
+TEST_CASE("an exception of a body reaches the caller with its message from one thread or several") {
     for (const int threads : {1, 2}) {
         std::string words;
         try {
@@ -47,15 +47,15 @@ TEST_CASE("an exception of a body reaches the caller with its words, from one th
     }
 }
 
-TEST_CASE("a number of threads stands for itself, and 0 for what the machine has, at least one") {
+TEST_CASE("a number of threads is used unchanged and 0 means that of the machine which is at least one") {
     CHECK(strata::thread_count(0) >= 1);
     CHECK(strata::thread_count(1) == 1);
-    // A build without threads has one, whatever is asked for.
+    // A build without threads has one, whatever number is requested.
     const bool is_serial = strata::thread_count(2) == 1;
     for (const int n : {2, 3, 64}) CHECK(strata::thread_count(n) == (is_serial ? 1 : n));
 }
 
-TEST_CASE("a loop on threads of the system visits every index once, and its first exception reaches the caller") {
+TEST_CASE("a loop on system threads visits every index once and its first exception reaches the caller") {
     std::size_t wrong = 0;
     for (const int threads : {1, 2, 5})
         for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{1000}}) {
@@ -72,20 +72,20 @@ TEST_CASE("a loop on threads of the system visits every index once, and its firs
                           "index 42");
 }
 
-TEST_CASE("threads to be had are those that were asked for where the system has them, and fewer where it has not") {
+TEST_CASE("the available threads are as many as requested if the system has them and otherwise fewer") {
     CHECK(strata::threads_to_be_had(0, 1 << 20) == 0);
     CHECK(strata::threads_to_be_had(3, 1 << 20) == 3);
-    // A stack of 2^62 bytes fits into no address space.
+    // No address space has room for a stack of 2^62 bytes.
     CHECK(strata::threads_to_be_had(3, std::size_t{1} << 62) == 0);
 }
 
-TEST_CASE("an input error is one sentence: file, place, what was expected, what was found") {
+TEST_CASE("an input error is one message with file and place and what was expected and found") {
     const strata::InputError error{"a.glb", "/accessors/3", "a multiple of 4", "1026"};
     CHECK(std::string{error.what()} == "a.glb: /accessors/3: expected a multiple of 4, found 1026");
 }
 
 TEST_CASE(
-    "a vector without first values keeps what is written, over growth, copies and moves, and may be given values") {
+    "a vector without initial values keeps written ones when it grows or is copied or moved and can be initialised") {
     strata::UninitializedVector<std::uint32_t> numbers(1000);
     for (std::uint32_t i = 0; i < 1000; ++i) numbers[i] = i * i;
     numbers.resize(5000);
@@ -103,14 +103,14 @@ TEST_CASE(
     CHECK(pushed[99] == 49.5);
 }
 
-TEST_CASE("elements whose bytes no 64-bit number counts are refused before any memory is asked for") {
+TEST_CASE("a number of elements whose bytes exceed 64 bits is rejected before memory is allocated") {
     strata::UninitializedAllocator<std::uint64_t> allocator;
     CHECK_THROWS_AS(static_cast<void>(allocator.allocate(static_cast<std::size_t>(-1) / 8 + 1)),
                     std::bad_array_new_length);
     CHECK(allocator == strata::UninitializedAllocator<std::uint64_t>{});
 }
 
-TEST_CASE("an integer of 64 bits is one binary64 number up to 2^53, beyond it two that add up to it") {
+TEST_CASE("a 64-bit integer is one binary64 number up to 2^53 and beyond it two that add up to it") {
     using strata::rasterizer::as_terms;
     constexpr std::int64_t edge = std::int64_t{1} << 53;
     std::size_t wrong = 0;
@@ -125,7 +125,7 @@ TEST_CASE("an integer of 64 bits is one binary64 number up to 2^53, beyond it tw
     for (const double v : {1.0, 1 + 0x1p-52, -0x1.fffffffffffffp100, 0x1.5555555555555p-30}) {
         const auto [high, low] = split(v);
         CHECK(high + low == v);
-        for (const double part : {high, low})  // 26 of 53 bits each: their products are exact
+        for (const double part : {high, low})  // 26 of 53 bits each, so their products are exact
             CHECK((std::bit_cast<std::uint64_t>(part) & 0x7ffffff) == 0);
     }
 }

@@ -1,5 +1,4 @@
-// Model: none of its own. The kernels are held to their scalar reference where they live; here stands what a choice
-// means.
+// Tests the choice of an instruction set. The kernels are tested against their scalar references elsewhere.
 #include "rasterizer/base/simd.h"
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 
 using namespace strata;
 
-TEST_CASE("every instruction set that the processor has can be chosen, and best is the last of them") {
+TEST_CASE("every instruction set of the processor can be chosen and best is the last of them") {
     const std::vector<Simd> available = available_simd();
     REQUIRE(available.front() == Simd::scalar);
     CHECK(std::is_sorted(available.begin(), available.end()));
@@ -27,7 +26,7 @@ TEST_CASE("every instruction set that the processor has can be chosen, and best 
     CHECK(chosen_simd() == available.back());
 }
 
-TEST_CASE("a choice ends with its scope, and the one around it holds again") {
+TEST_CASE("a choice ends with its scope and the enclosing one applies again") {
     const Simd usual = chosen_simd();
     {
         const SimdScope outer{Simd::scalar};
@@ -40,7 +39,8 @@ TEST_CASE("a choice ends with its scope, and the one around it holds again") {
     CHECK(chosen_simd() == usual);
 }
 
-TEST_CASE("the workers of a loop have their caller's set, whatever other threads have chosen at the same time") {
+TEST_CASE(
+    "the workers of a loop have their caller's instruction set even if other threads choose another at the same time") {
     std::atomic<int> wrong{0}, ready{0};
     const auto run = [&](Simd simd) {
         const SimdScope kernels{simd};

@@ -1,6 +1,6 @@
-// The vectors are storage: what the language says of overloads decides which expressions exist at all, so most of this
-// file is checked while it is compiled. The arithmetic's model is integers, for which every order of operations is
-// exact, and one sum whose order shows.
+// Tests the vector types. They are storage only, so most of this file checks at compile time which expressions exist.
+// Their arithmetic is tested on integers, for which every order of operations is exact, and on one sum whose order
+// matters.
 #include "rasterizer/base/vector.h"
 
 #include <algorithm>
@@ -17,18 +17,17 @@ namespace {
 
 using namespace strata;
 
-// clang-format 14 does not know requires expressions.
-// clang-format off
+// clang-format 14 does not support requires expressions. clang-format off
 template <class A, class B>
 constexpr bool operators_exist = requires(A a, B b) {
     a + b;
 }
 || requires(A a, B b) { a - b; }
-|| requires(A a, B b) { a * b; }
+|| requires(A a, B b) { a* b; }
 || requires(A a, B b) { a / b; }
 || requires(A a, B b) { b + a; }
 || requires(A a, B b) { b - a; }
-|| requires(A a, B b) { b * a; }
+|| requires(A a, B b) { b* a; }
 || requires(A a, B b) { b / a; };
 
 template <class A, class B>
@@ -110,7 +109,7 @@ constexpr bool any_of_matrix = requires(M m) {
 // clang-format on
 static_assert(!any_of_matrix<Matrix>);
 
-// The tests above can fail: numbers have what the vectors lack.
+// Proves that the checks above can fail: numbers have the operators that the vectors lack.
 static_assert(any_arithmetic<double, int> && any_of_one<double> && operators_exist<float, float> && steps_exist<int>);
 
 static_assert(Vec3{} == Vec3{0, 0, 0} && Vec4{} == Vec4{0, 0, 0, 0} && Vec3d{} == Vec3d{0, 0, 0});
@@ -118,7 +117,7 @@ static_assert(std::is_same_v<decltype(Vec3::x), float> && std::is_same_v<decltyp
 
 }  // namespace
 
-TEST_CASE("a vector without a value is zero and a matrix the identity, whatever the memory held") {
+TEST_CASE("a vector without a value is zero and a matrix the identity for any contents of the memory") {
     alignas(Matrix) std::byte memory[sizeof(Matrix)];
     std::fill(std::begin(memory), std::end(memory), std::byte{0xff});
     CHECK(*::new (memory) Matrix == identity);
@@ -128,7 +127,7 @@ TEST_CASE("a vector without a value is zero and a matrix the identity, whatever 
     CHECK(*::new (memory) Vec3 == Vec3{0, 0, 0});
 }
 
-TEST_CASE("a matrix is stored by columns, and its entries come and go in that order") {
+TEST_CASE("a matrix is stored by columns and its entries are given and listed in that order") {
     std::array<double, 16> entries{};
     for (std::size_t i = 0; i < 16; ++i) entries[i] = static_cast<double>(i);
     const Matrix m = matrix_of(entries);
@@ -137,7 +136,7 @@ TEST_CASE("a matrix is stored by columns, and its entries come and go in that or
     CHECK(entries_of(m) == entries);
 }
 
-TEST_CASE("the components of a vector are its values in order, to read and to write") {
+TEST_CASE("the components of a vector are its values in order for reading and writing") {
     Vec3 v{1, 2, 3};
     float sum = 0;
     for (float& x : components(v)) x *= 2;
@@ -147,7 +146,7 @@ TEST_CASE("the components of a vector are its values in order, to read and to wr
     CHECK(components(v).size() == 3);
 }
 
-TEST_CASE("vectors are added, scaled and multiplied component by component") {
+TEST_CASE("vectors are added and scaled and multiplied component by component") {
     const Vec3d a{1, -2, 3}, b{5, 7, -11};
     CHECK(plus(a, b) == Vec3d{6, 5, -8});
     CHECK(minus(a, b) == Vec3d{-4, -9, 14});
@@ -158,6 +157,6 @@ TEST_CASE("vectors are added, scaled and multiplied component by component") {
 }
 
 TEST_CASE("a sum of three products adds the first two first") {
-    CHECK(dot_product({0x1p53, 1, 1}, {1, 1, 1}) == 0x1p53);      // 1 + 1 first: 2^53 + 2
-    CHECK(dot_product({1, 1, 0x1p53}, {1, 1, 1}) == 0x1p53 + 2);  // from the right: 2^53
+    CHECK(dot_product({0x1p53, 1, 1}, {1, 1, 1}) == 0x1p53);      // 1 + 1 first would give 2^53 + 2
+    CHECK(dot_product({1, 1, 0x1p53}, {1, 1, 1}) == 0x1p53 + 2);  // from the right it would be 2^53
 }

@@ -1,4 +1,5 @@
-// The model: attributes.md 2.2, 2.4 and the remainder rule of attributes.md 2.3 over rationals.
+// Tests the colour weights of the NV2A against attributes.md 2.2, 2.4 and the remainder rule of attributes.md 2.3 in
+// rational arithmetic.
 #include "rasterizer/chip/color_weights.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +15,8 @@ constexpr int bits = 4;
 constexpr RasterRules weights_rules{.subpixel_bits = bits, .color = ColorInterpolation::weights_8bit};
 constexpr FragmentNeeds colors{false, false, false, true, false, false};
 
-// The remainder vertex: the largest exponent; the ties of section 3 as a table of which vertices share it.
+// The vertex that takes the remainder: the one of the largest exponent; the ties of section 3 as a table of the
+// vertices that share it.
 [[nodiscard]] std::size_t remainder_vertex(const std::array<Rational, 3>& b) {
     std::array<int, 3> exponent;
     for (std::size_t i = 0; i < 3; ++i) exponent[i] = b[i] == 0 ? -100000 : floor_log2(b[i]);
@@ -69,8 +71,8 @@ TEST_CASE("vertex colours are rounded to 8 bits before they are interpolated") {
     CHECK(wrong == 0);
 }
 
-// Greys of suite Depth_buffer on an NV2A, and 0.1 and 0.3 of other suites: what was given, and the code that came out.
-TEST_CASE("14 leading bits of a vertex colour reach its code, as captures show") {
+// Greys of suite Depth_buffer on an NV2A, and 0.1 and 0.3 of other suites: the given value and the resulting code.
+TEST_CASE("the code of a vertex colour depends on its 14 leading bits as in the captures") {
     constexpr std::pair<float, int> measured[] = {
         {0.1f, 25},           {0.3f, 76},           {0.5000001788f, 128}, {0.8725491166f, 222}, {0.8960894346f, 228},
         {0.9706394076f, 247}, {0.5980809330f, 152}, {0.8765106201f, 223}, {0.2921687067f, 74},  {0.3862950206f, 99},
@@ -87,9 +89,7 @@ TEST_CASE("14 leading bits of a vertex colour reach its code, as captures show")
     CHECK(wrong_with_all > 0);
 }
 
-TEST_CASE(
-    "where the area is 256 edge values are the weights by the area's reciprocal, whichever vertex takes the "
-    "remainder") {
+TEST_CASE("where the area is 256 edge values are the weights by the area's reciprocal for any remainder vertex") {
     const DepthHypothesis by_area{.weights = WeightRule::area, .reciprocal_bits = 28};
     const ColorWeights weights{{1, 1, 1}, {1, 1, 1}, 256, by_area, PerspectiveColor::edge_products};
     CHECK(weights.at({127, 129, 0}) == std::array{127, 129, 0});
@@ -102,7 +102,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("interpolated colours are the 8-bit weights of the captures, for triangles of every shape and winding",
+TEST_CASE("interpolated colours are the 8-bit weights of the captures for triangles of every shape and winding",
           "[slow]") {
     constexpr std::uint64_t seed = 51;
     Random random{seed};
@@ -111,7 +111,7 @@ TEST_CASE("interpolated colours are the 8-bit weights of the captures, for trian
         std::array<SubpixelPoint, 3> p;
         const int outside = n % 4 == 0 ? 30000 : (n % 4 == 1 ? 300 : 2);
         for (SubpixelPoint& c : p) c = random_point(random, 14, 14, bits, outside);
-        if (n % 5 == 0)  // weights that tie: multiples of a pixel
+        if (n % 5 == 0)  // corners at multiples of a pixel, so that weights tie
             for (SubpixelPoint& c : p) c = {random_int(random, 0, 14) * 16 + 8, random_int(random, 0, 14) * 16 + 8};
         if (doubled_area(p[0], p[1], p[2]) == 0) continue;
         SetupTriangle t = window_triangle(p, bits);
@@ -133,7 +133,7 @@ TEST_CASE("interpolated colours are the 8-bit weights of the captures, for trian
     CHECK(not_a_code == 0);
 }
 
-TEST_CASE("a captured quad differs from exact weights at as many pixels as silicon does", "[slow]") {
+TEST_CASE("a captured quad differs from exact weights at as many pixels as on the hardware", "[slow]") {
     // Color_mask_blend, second quad (chip-depth.md 3.1): 374 of 8,520 pixels.
     const int x0 = 213 * 16, x1 = (213 + 71) * 16, y0 = 180 * 16, y1 = 300 * 16;
     SetupTriangle upper = window_triangle({{{x0, y0}, {x1, y0}, {x1, y1}}}, bits);
@@ -155,7 +155,7 @@ TEST_CASE("a captured quad differs from exact weights at as many pixels as silic
     CHECK(differ == 374);
 }
 
-TEST_CASE("with unequal w the weights are perspective-correct within a 256th") {
+TEST_CASE("with unequal w the weights are perspective-correct within 1/256") {
     Random random{52};
     std::uint64_t fragments = 0, wrong = 0;
     for (int n = 0; n < 100; ++n) {
@@ -174,7 +174,8 @@ TEST_CASE("with unequal w the weights are perspective-correct within a 256th") {
             for (std::size_t i = 0; i < 3; ++i) {
                 const Rational exact = b[i] * Rational{t.inverse_w[i]} / sum;
                 wrong +=
-                    abs(Rational{f.color[i]} - exact) > Rational{5, 512} ? 1 : 0;  // two cuts of 1/256 and a rounding
+                    // two truncations of 1/256 and a rounding
+                    abs(Rational{f.color[i]} - exact) > Rational{5, 512} ? 1 : 0;
             }
             wrong += f.color[3] != 1.0f ? 1 : 0;
         }

@@ -1,4 +1,4 @@
-// The model: exact sums and products over rationals, each cut toward zero to 24 bits.
+// Tests depths with polygon offset against exact rational sums and products, each truncated toward zero to 24 bits.
 #include "rasterizer/chip/offset_value.h"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ Rational cut_24(const Rational& v) { return cut_to_bits(v, 24); }
 
 }  // namespace
 
-TEST_CASE("a sum of 24 bits and a hair goes to the number before only where the hair points to zero") {
+TEST_CASE("a 24-bit sum plus a tiny term is truncated to the previous number only if the term points toward zero") {
     const float one = 1.0f, before = std::nextafter(one, 0.0f);
     for (const double sign : {1.0, -1.0}) {
         CHECK(cut_sum_24({sign, sign * 0x1p-60}) == sign * one);
@@ -31,7 +31,7 @@ TEST_CASE("a sum of 24 bits and a hair goes to the number before only where the 
     }
 }
 
-TEST_CASE("the chip's offset and the value with it are exact sums cut to 24 bits, for random values of all sizes",
+TEST_CASE("the chip's offset and the offset depth are exact sums truncated to 24 bits for random values of all sizes",
           "[slow]") {
     Random random{2041};
     int wrong = 0, with_hair = 0;

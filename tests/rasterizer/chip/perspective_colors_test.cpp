@@ -1,5 +1,5 @@
-// The model: the rule for unequal w of color_weights.h over rationals, every rounding to 53 bits and every cut written
-// out.
+// Tests colours with unequal w against the rule of color_weights.h in rational arithmetic, with every rounding to 53
+// bits and every truncation written out.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/chip/color_weights.h"
@@ -12,7 +12,7 @@ using namespace strata::rasterizer;
 
 constexpr int shade_bits = 4;
 
-// v >= 0 to 53 bits, to nearest, ties to even.
+// v >= 0 rounded to 53 bits, to nearest, ties to even.
 [[nodiscard]] Rational to_53_bits(const Rational& v) {
     if (v == 0) return v;
     const Rational unit = power(floor_log2(v) - 52), scaled = v / unit;
@@ -24,7 +24,7 @@ constexpr int shade_bits = 4;
 
 using Shares = std::array<Rational, 3>;
 
-// Edge values of a centre: what is over each corner, in square subpixels.
+// Edge values at a centre: the value opposite each corner, in square subpixels.
 [[nodiscard]] EdgeValues values_of_edges(const SetupTriangle& t, int x, int y) {
     const Shares b = barycentric(t.p, x, y, shade_bits);
     EdgeValues e{};
@@ -34,13 +34,13 @@ using Shares = std::array<Rational, 3>;
     return e;
 }
 
-// r of the chip: of a sum as binary64 has it, a hair low unless that is a power of two, cut to 29 bits.
+// The chip's reciprocal r of the sum as binary64: slightly low unless the sum is a power of two, truncated to 29 bits.
 [[nodiscard]] Rational low_reciprocal(const Rational& sum) {
     const Rational held = to_53_bits(sum), exact = to_53_bits(Rational{1} / held);
     return held == power(floor_log2(held)) ? exact : cut_to_bits(to_53_bits(exact * (1 - power(-31))), 29);
 }
 
-// By the rule of the w buffer, every step cut.
+// By the rule of the w buffer, with every step truncated.
 [[nodiscard]] Shares cut_shares_of(const EdgeValues& e, const std::array<float, 3>& w) {
     Shares p;
     int largest = -9999;
@@ -48,7 +48,7 @@ using Shares = std::array<Rational, 3>;
         p[i] = cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(Rational{1} / Rational{w[i]}, 24);
         if (p[i] != 0) largest = std::max(largest, floor_log2(p[i]));
     }
-    // Whole products, aligned to 29 bits of the largest, are added; the weights are made of 25 bits of each.
+    // Complete products, aligned to 29 bits of the largest, are added; the weights use 25 bits of each.
     Rational sum{0};
     for (const Rational& each : p) sum += Rational{floor(Rational{each / power(largest - 28)})} * power(largest - 28);
     const Rational r = low_reciprocal(sum);
@@ -76,7 +76,7 @@ using Shares = std::array<Rational, 3>;
     return p;
 }
 
-// Which vertex has what is left of 1: that of the largest exponent.
+// The vertex that takes the remainder to 1: that of the largest exponent.
 [[nodiscard]] std::size_t vertex_of_the_rest(const Shares& b) {
     std::array<int, 3> exponent;
     for (std::size_t i = 0; i < 3; ++i) exponent[i] = b[i] == 0 ? -9999 : floor_log2(b[i]);
@@ -119,16 +119,15 @@ using Shares = std::array<Rational, 3>;
             for (float& u : t.attribute[i]) u = random_float(random, 0, 1);
         }
         if (n % 4 == 0)
-            t.inverse_w[1] = t.inverse_w[0], t.w[1] = t.w[0];  // two of three equal are unequal all the same
+            t.inverse_w[1] = t.inverse_w[0], t.w[1] = t.w[0];  // two of three are equal, which still counts as unequal
         return t;
     }
 }
 
 }  // namespace
 
-TEST_CASE(
-    "with unequal w colours are weighted by products with 1/w, of edge values or of weights, cut or rounded as written",
-    "[slow]") {
+TEST_CASE("with unequal w colours are weighted by products with 1/w that are truncated or rounded as specified",
+          "[slow]") {
     for (const PerspectiveColor rule :
          {PerspectiveColor::edge_products, PerspectiveColor::weight_products, PerspectiveColor::cut_products}) {
         Random random{651};
@@ -151,9 +150,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by any rule for products",
-          "[slow]") {
-    // Edge values whose products with 1/w are k / 256 of their sum, the sum being `odd` times a power of two: r is
+TEST_CASE("weights at or next to a multiple of 1/256 fall on the correct side for any rule of products", "[slow]") {
+    // Edge values whose products with 1/w are k / 256 of their sum, which is `odd` times a power of two, so r is
     // inexact.
     std::uint64_t wrong = 0, cases = 0, unlike = 0, not_whole = 0;
     for (const std::int64_t odd : {3, 7, 13, 1021, 65537})
@@ -189,10 +187,10 @@ TEST_CASE("weights that end on a 256th or a hair beside it fall on their own sid
     CHECK(not_whole > cases / 20);
 }
 
-// The upper side of Depth_buffer_fixed_function's wide quad (chip-geometry.md 5.4) goes through pixel centres between
-// two corners of w = 135.666...; every third pixel has a whole 256 b. The chip's picture has these codes of green and
+// The upper side of Depth_buffer_fixed_function's wide quad (chip-geometry.md 5.4) passes through pixel centres between
+// two corners of w = 135.666...; at every third pixel 256 b is an integer. The capture has these codes of green and
 // blue there.
-TEST_CASE("weights that are whole on a side of one w come out as the chip's picture has them") {
+TEST_CASE("weights that are integers on a side of equal w give the codes of the capture") {
     const std::array<float, 3> w{386.0f / 3.0f + 7.0f, 386.0f / 3.0f + 7.0f, 200.0f};
     const std::array<float, 3> inverse{1.0f / w[0], 1.0f / w[1], 1.0f / w[2]};
     constexpr std::int64_t side = 384, area = side * side * 256;
@@ -201,8 +199,9 @@ TEST_CASE("weights that are whole on a side of one w come out as the chip's pict
     for (std::int64_t x = 1; x < side; ++x) {
         if (256 * x % side != 0) continue;
         ++whole;
-        const auto at = static_cast<std::int32_t>(256 * x / side);  // the second corner's share
-        // Where the second corner's weight is the greater one it takes what is left, and the first one's is cut.
+        const auto at = static_cast<std::int32_t>(256 * x / side);  // weight of the second corner
+        // If the second corner's weight is the greater one, that corner takes the remainder, and the first one's weight
+        // is truncated.
         const std::array<std::int32_t, 3> seen =
             2 * x <= side ? std::array{256 - at, at, 0} : std::array{255 - at, at + 1, 0};
         wrong += weights.at({(side - x) * side * 256, x * side * 256, 0}) != seen ? 1 : 0;
@@ -211,7 +210,7 @@ TEST_CASE("weights that are whole on a side of one w come out as the chip's pict
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a vertex colour keeps as many leading bits as the hypothesis says, the rest is cut before it becomes 8 bits",
+TEST_CASE("a vertex colour keeps as many leading bits as the hypothesis says and the rest is truncated before 8 bits",
           "[slow]") {
     Random random{653};
     std::uint64_t wrong = 0;

@@ -1,5 +1,5 @@
-// The model: depth.md 4.8 over rationals, with the roundings to 53 bits where the rule has them; coverage by a
-// comparison of signs at every centre.
+// Tests w buffers of the NV2A against depth.md 4.8 in rational arithmetic, with the roundings to 53 bits that the rule
+// has; coverage is decided by a comparison of signs at every centre.
 #include "rasterizer/chip/w_buffer.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ using namespace strata::rasterizer;
 
 constexpr int w_bits = 4;
 
-// v to 53 bits, to nearest, ties to even.
+// v rounded to 53 bits, to nearest, ties to even.
 [[nodiscard]] Rational nearest_53(const Rational& v) {
     if (v == 0) return v;
     const Rational unit = power(floor_log2(abs(v)) - 52), scaled = abs(v) / unit;
@@ -25,7 +25,7 @@ constexpr int w_bits = 4;
 
 using Three = std::array<Rational, 3>;
 
-// Whose exponent is the largest; ties {0,1} -> 0, {0,2} -> 2, {1,2} -> 1, all -> 2.
+// The corner of the largest exponent; ties {0,1} -> 0, {0,2} -> 2, {1,2} -> 1, all -> 2.
 [[nodiscard]] std::size_t corner_of_the_rest(const Three& b) {
     std::array<int, 3> k;
     for (std::size_t i = 0; i < 3; ++i) k[i] = b[i] == 0 ? -9999 : floor_log2(b[i]);
@@ -41,7 +41,7 @@ using Three = std::array<Rational, 3>;
         b[i] = cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(1 / Rational{w[i]}, 24);
         if (b[i] != 0) largest = std::max(largest, floor_log2(b[i]));
     }
-    // The adder aligns whole products to 29 bits of the largest; the weights are made of 25 bits of each.
+    // The adder aligns complete products to 29 bits of the largest; the weights use 25 bits of each.
     const Rational sum = cut(b[0], largest - 28) + cut(b[1], largest - 28) + cut(b[2], largest - 28);
     const Rational inverse = nearest_53(1 / sum);
     const bool is_power = sum == power(floor_log2(sum));
@@ -81,7 +81,7 @@ using Three = std::array<Rational, 3>;
     }
 }
 
-// What a 24-bit buffer keeps of it.
+// The code that a 24-bit buffer stores for v.
 [[nodiscard]] std::uint32_t d24_code(const Rational& v) {
     const Integer whole = v < 0 ? Integer{0} : floor(v);
     return whole > 0xffffff ? 0xffffffu : whole.convert_to<std::uint32_t>();
@@ -91,7 +91,8 @@ constexpr FragmentNeeds w_codes{.shader_z = false, .color = false};
 
 }  // namespace
 
-TEST_CASE("a w buffer keeps w of the corners by cut perspective weights, scaled, whatever z is", "[slow]") {
+TEST_CASE("a w buffer stores the w of the corners by truncated perspective weights and scaled regardless of z",
+          "[slow]") {
     Random random{881};
     std::uint64_t fragments = 0, wrong = 0, inside = 0;
     for (int n = 0; n < 90; ++n) {
@@ -113,7 +114,7 @@ TEST_CASE("a w buffer keeps w of the corners by cut perspective weights, scaled,
     CHECK(inside == fragments);
 }
 
-TEST_CASE("where every corner has the same w, a w buffer holds that number in all its formats") {
+TEST_CASE("where every corner has the same w a w buffer stores that number in all its formats") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f}) {
         SetupTriangle t = window_triangle({{{-64, -64}, {1600, -64}, {-64, 1600}}}, w_bits, {9, 70, 100});
         t.w = {6.5f, 6.5f, 6.5f};
@@ -126,8 +127,9 @@ TEST_CASE("where every corner has the same w, a w buffer holds that number in al
     }
 }
 
-TEST_CASE("the chip adds its offset to the value of 24 bits, in buffer units, and then makes the code") {
-    // Large values: units of 1. 8388609 + 2.75 is cut to 8388611, and the bias of a float format counts in its values.
+TEST_CASE("the chip adds its offset to the 24-bit value in buffer units and then converts to the code") {
+    // Large values, in units of 1. 8388609 + 2.75 is truncated to 8388611. In a float format the bias is in the
+    // format's values.
     const SetupTriangle flat =
         window_triangle({{{-64, -64}, {1600, -64}, {-64, 1600}}}, w_bits, {8388609.0, 8388609.0, 8388609.0});
     Geometry g = w_geometry(flat, DepthFormat::d24, 1.0f);
@@ -141,7 +143,8 @@ TEST_CASE("the chip adds its offset to the value of 24 bits, in buffer units, an
         CHECK(f.code == (11u << 12 | 0x400));  // 20 = 1.25 * 2^4
 }
 
-TEST_CASE("the chip's slope is that of the steeper axis per pixel, and its product with the factor is cut", "[slow]") {
+TEST_CASE("the chip's slope is that of the steeper axis per pixel and its product with the factor is truncated",
+          "[slow]") {
     Random random{883};
     std::uint64_t wrong = 0, fragments = 0, moved = 0;
     for (int n = 0; n < 60; ++n) {
@@ -178,9 +181,10 @@ TEST_CASE("the chip's slope is that of the steeper axis per pixel, and its produ
 }
 
 TEST_CASE("a w buffer's slope is the difference of w between the two pixels of the first quad along the steeper axis") {
-    // w = 1 / (1 - y / 32) down the window: corner values at y = 0 and 16 of a triangle that covers it.
+    // w = 1 / (1 - y / 32) down the window; corner values at y = 0 and at y = 48 of a triangle that covers it.
     SetupTriangle t = window_triangle({{{-256, 0}, {512, 0}, {-256, 768}}}, w_bits);
-    t.w = {1.0f, 1.0f, -2.0f};  // 1 / w = 1 - y / 32, which is -1/2 at y = 48: behind the eye, for the line alone
+    t.w = {1.0f, 1.0f, -2.0f};  // 1 / w = 1 - y / 32, which is -1/2 at y = 48: behind the eye, used only to define the
+                                // plane
     const auto w_of_row = [](double y) { return 1.0 / (1.0 - y / 32.0); };
     const double first = w_slope(t, t.w, {0, 0, 16, 16}, {.subpixel_bits = w_bits});
     CHECK(first == Approx(w_of_row(1.5) - w_of_row(0.5)).epsilon(1e-6));
@@ -190,7 +194,7 @@ TEST_CASE("a w buffer's slope is the difference of w between the two pixels of t
     CHECK(w_slope(t, t.w, {0, 0, 0, 0}, last) == 0.0);
 }
 
-TEST_CASE("the depth range removes fragments by the chip's value, after the offset, and by w in a w buffer", "[slow]") {
+TEST_CASE("the depth range removes fragments by the chip's value after the offset and by w in a w buffer", "[slow]") {
     Random random{885};
     std::uint64_t wrong = 0, removed = 0;
     for (int n = 0; n < 40; ++n) {
@@ -211,7 +215,7 @@ TEST_CASE("the depth range removes fragments by the chip's value, after the offs
             for (const Fragment& f : all)
                 if (f.code > near && f.code < far) expected.push_back(f);
             removed += all.size() - expected.size();
-            // What lies on a limit by its code may be beyond it by its value.
+            // A fragment whose code is on a limit may have a value beyond it.
             for (const Fragment& f : kept) wrong += f.code < near || f.code > far ? 1 : 0;
             wrong += kept.size() < expected.size() ? 1 : 0;
         }

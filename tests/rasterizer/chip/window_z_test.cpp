@@ -1,5 +1,5 @@
-// The model is a second implementation of depth.md 4.4 over rationals.
-// The scene of the silicon captures (chip-depth.md 2) gives counts of its own.
+// Tests the NV2A's window z against a second implementation of depth.md 4.4 in rational arithmetic, and against the
+// counts of differing pixels in hardware captures of one scene (chip-depth.md 2).
 #include "rasterizer/chip/window_z.h"
 
 #include <bit>
@@ -14,12 +14,12 @@ using namespace strata::rasterizer;
 
 constexpr int window_bits = 4;
 
-// The weights, their reciprocal without the two roundings to binary64 that come before its cut.
+// The weights, by a reciprocal without the two roundings to binary64 that precede its truncation.
 [[nodiscard]] std::array<Rational, 3> model_weights(const std::array<Rational, 3>& e, const DepthHypothesis& h) {
     std::array<Rational, 3> b = e;
     if (h.weights == WeightRule::cut_edges)
         for (Rational& each : b) each = cut_to_bits(each, 24);
-    const Rational sum = b[0] + b[1] + b[2];  // of `area` it is the area
+    const Rational sum = b[0] + b[1] + b[2];  // for WeightRule::area it is the area
     const Rational low = h.weights == WeightRule::area || sum == power(floor_log2(sum))
                              ? Rational{1}
                              : 1 - h.reciprocal_deficit * power(-32);
@@ -28,7 +28,7 @@ constexpr int window_bits = 4;
     return b;
 }
 
-// The sum, before its cut to 24 bits.
+// The sum, before it is truncated to 24 bits.
 [[nodiscard]] Rational model_sum(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int x, int y,
                                  int subpixel_bits, const DepthHypothesis& h = {}) {
     std::array<Rational, 3> e = barycentric(p, x, y, subpixel_bits);
@@ -73,7 +73,7 @@ struct Corner {
     double z;
 };
 
-// A quad's two triangles as the captures have them: (UL,UR,LR) and (UL,LR,LL).
+// A quad's two triangles as in the captures: (UL,UR,LR) and (UL,LR,LL).
 [[nodiscard]] std::array<SetupTriangle, 2> quad(Corner ul, Corner ur, Corner lr, Corner ll) {
     const auto triangle = [](Corner a, Corner b, Corner c) {
         return window_triangle({{{a.x * 16, a.y * 16}, {b.x * 16, b.y * 16}, {c.x * 16, c.y * 16}}}, window_bits,
@@ -109,7 +109,7 @@ constexpr std::array right_strip_z{1.0, 8388607.0};
 
 }  // namespace
 
-TEST_CASE("the strips of the captured scene differ from floor(exact) in just as many words as silicon does") {
+TEST_CASE("the strips of the captured scene differ from floor of exact at just as many pixels as on the hardware") {
     const auto [l, r] = bottom_strip_z;
     const auto bottom = quad({132, 430, l}, {492, 430, r}, {492, 435, r}, {132, 435, l});
     CHECK(differences(bottom[0], DepthFormat::d24, false).from_exact == 168);  // chip-depth.md 3.1, of 900 each
@@ -121,8 +121,7 @@ TEST_CASE("the strips of the captured scene differ from floor(exact) in just as 
 }
 
 TEST_CASE(
-    "on the captured large quad the rule and floor(exact) agree in 90 to 97 words of 100 and never differ by more than "
-    "1") {
+    "on the captured large quad the rule and floor of exact agree at 90 to 97 of 100 pixels and differ by at most 1") {
     const auto large =
         quad({128, 40, 11184809.0}, {512, 40, 11184809.0}, {512, 440, 16777214.0}, {128, 440, 16777214.0});
     for (const SetupTriangle& t : large) {
@@ -134,7 +133,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("small quads of the captured grid are floor(exact), because their weights are dyadic") {
+TEST_CASE("small quads of the captured grid are floor of exact because their weights are dyadic") {
     Random random{41};
     std::uint64_t wrong = 0;
     for (int n = 0; n < 300; ++n) {
@@ -146,10 +145,10 @@ TEST_CASE("small quads of the captured grid are floor(exact), because their weig
     CHECK(wrong == 0);
 }
 
-TEST_CASE("in the depth of a whole scene about 97 words of 100 equal floor(exact) at 24 bits", "[slow]") {
+TEST_CASE("in the depth of a whole scene about 97 of 100 codes equal floor of exact at 24 bits", "[slow]") {
     Random random{42};
     Difference sum;
-    for (int n = 0; n < 40; ++n) {  // triangles whose depths differ by a part of the range, as a scene's do
+    for (int n = 0; n < 40; ++n) {  // triangles whose depths differ by a part of the range, as in a scene
         std::array<SubpixelPoint, 3> p;
         for (SubpixelPoint& c : p) c = random_point(random, 640, 480, window_bits);
         if (doubled_area(p[0], p[1], p[2]) == 0) continue;
@@ -164,7 +163,7 @@ TEST_CASE("in the depth of a whole scene about 97 words of 100 equal floor(exact
     CHECK(sum.from_exact * 1000 < sum.fragments * 60);
 }
 
-TEST_CASE("D16 by the rule equals floor(exact) on the captured quads") {
+TEST_CASE("D16 by the rule equals floor of exact on the captured quads") {
     const std::array<std::array<SetupTriangle, 2>, 3> quads{
         quad({132, 430, 49150.0}, {492, 430, 0.0}, {492, 435, 0.0}, {132, 435, 49150.0}),
         quad({502, 45, 1.0}, {510, 45, 1.0}, {510, 435, 32767.0}, {502, 435, 32767.0}),
@@ -180,7 +179,7 @@ TEST_CASE("D16 by the rule equals floor(exact) on the captured quads") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("window_z is the rule of the captures for triangles of every shape, winding and depth", "[slow]") {
+TEST_CASE("window_z is the rule of the captures for triangles of every shape and winding and depth", "[slow]") {
     constexpr std::uint64_t seed = 43;
     Random random{seed};
     Difference sum;
@@ -210,12 +209,12 @@ TEST_CASE("window_z is the rule of the captures for triangles of every shape, wi
     CHECK(sum.from_model == 0);
 }
 
-// A constant expression may not shift by more than an integer's width.
+// A constant expression must not shift by more than an integer's width.
 static_assert(WindowZ24{{0.0, 0.0, 0x1p-100}, 256}.value({64, 128, 64}) == 0x1p-102);
-static_assert(WindowZ24{{0.0, 0x1p-140, 0.0}, 256}.value({128, 64, 64}) == 0.0);  // less than a normal number is 0
+static_assert(WindowZ24{{0.0, 0x1p-140, 0.0}, 256}.value({128, 64, 64}) == 0.0);  // values below the normal range are 0
 static_assert(WindowZ24{{-0x1p-120, 0.0, 0.0}, 256}.value({64, 128, 64}) == -0x1p-122);
 
-TEST_CASE("where two corners have depth 0 the sum is the rule's, however small the third one's is", "[slow]") {
+TEST_CASE("where two corners have depth 0 the sum is the rule's for any small depth of the third one", "[slow]") {
     constexpr std::uint64_t seed = 46;
     Random random{seed};
     std::uint64_t fragments = 0, wrong = 0;
@@ -256,7 +255,7 @@ TEST_CASE("GeForce3 depth depends on the order of a triangle's vertices") {
     CHECK(first != turned);
 }
 
-TEST_CASE("other weights, reciprocals and aligned adds change what their hypothesis says, and many words", "[slow]") {
+TEST_CASE("every other rule of the depth sum changes many codes as its hypothesis says", "[slow]") {
     Random random{45};
     constexpr auto area = WeightRule::area, cut_edges = WeightRule::cut_edges;
     for (const DepthHypothesis& varied : {DepthHypothesis{.weights = area, .reciprocal_bits = 28},

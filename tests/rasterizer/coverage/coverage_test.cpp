@@ -1,5 +1,5 @@
-// Planar meshes: every sample inside the mesh lies in exactly one triangle, whatever the meshes look like. The model is
-// a count of 1.
+// Tests that every sample inside a planar mesh is in exactly one triangle, on meshes of several shapes. The expected
+// count is 1.
 #include "rasterizer/coverage/coverage.h"
 
 #include <algorithm>
@@ -17,13 +17,13 @@ using namespace strata::rasterizer;
 constexpr int size_px = 192;
 constexpr std::array tie_rules{TieRule::top_left, TieRule::bottom_left, TieRule::top_right, TieRule::bottom_right};
 
-// The triangle in a random rotation and winding: neither may change its pixels.
+// The triangle with its corners in a random rotation and winding; neither may change its pixels.
 [[nodiscard]] SetupTriangle shuffled(std::array<SubpixelPoint, 3> p, int bits, Random& random) {
     std::ranges::shuffle(p, random);
     return window_triangle(p, bits);
 }
 
-// Float positions in random places on the border of the window, in order, and one inside: a fan of slivers.
+// Float positions at random places on the border of the window, in order, and one inside: a fan of slivers.
 [[nodiscard]] std::vector<SetupTriangle> fan(const RasterRules& rules, int points, Random& random) {
     const int bits = rules.subpixel_bits;
     std::vector<float> along{0, size_px, 2 * size_px, 3 * size_px};
@@ -47,8 +47,8 @@ constexpr std::array tie_rules{TieRule::top_left, TieRule::bottom_left, TieRule:
     return triangles;
 }
 
-// A grid of cells, inner corners moved at random by less than half a cell less a subpixel, each cell cut along a random
-// diagonal.
+// A grid of cells whose inner corners are moved at random by less than half a cell minus a subpixel; each cell is split
+// along a random diagonal.
 [[nodiscard]] std::vector<SetupTriangle> grid(const RasterRules& rules, int columns, int rows, Random& random) {
     const int bits = rules.subpixel_bits;
     const float cell_x = static_cast<float>(size_px) / static_cast<float>(columns);
@@ -57,7 +57,8 @@ constexpr std::array tie_rules{TieRule::top_left, TieRule::bottom_left, TieRule:
     for (int j = 0; j <= rows; ++j)
         for (int i = 0; i <= columns; ++i) {
             const bool border = i == 0 || j == 0 || i == columns || j == rows;
-            const float move = border ? 0.0f : 0.2f;  // less than a quarter keeps every half cell's orientation
+            // A move of less than a quarter preserves the orientation of every half cell.
+            const float move = border ? 0.0f : 0.2f;
             const float x = cell_x * (static_cast<float>(i) + random_float(random, -move, move));
             const float y = cell_y * (static_cast<float>(j) + random_float(random, -move, move));
             corner.push_back({snap(x, bits, rules.snap), snap(y, bits, rules.snap)});
@@ -93,7 +94,7 @@ constexpr std::array tie_rules{TieRule::top_left, TieRule::bottom_left, TieRule:
 
 }  // namespace
 
-TEST_CASE("a mesh of triangles that share edges covers every sample exactly once, slivers included", "[slow]") {
+TEST_CASE("a mesh of triangles that share edges covers every sample exactly once including slivers", "[slow]") {
     constexpr std::uint64_t seed = 3;
     Random random{seed};
     std::uint64_t samples = 0, wrong = 0;
@@ -112,7 +113,7 @@ TEST_CASE("a mesh of triangles that share edges covers every sample exactly once
     CHECK(wrong == 0);
 }
 
-TEST_CASE("coverage equals three integer inequalities at every centre, also for triangles of the whole guard band",
+TEST_CASE("coverage equals three integer inequalities at every centre and also for triangles of the whole guard band",
           "[slow]") {
     constexpr std::uint64_t seed = 4;
     Random random{seed};
@@ -149,7 +150,7 @@ TEST_CASE("coverage equals three integer inequalities at every centre, also for 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the span of a row does not depend on the box that it is cut to") {
+TEST_CASE("the span of a row does not depend on the box that clips it") {
     constexpr std::uint64_t seed = 5;
     Random random{seed};
     std::uint64_t wrong = 0, spans = 0;

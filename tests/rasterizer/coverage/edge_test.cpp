@@ -1,4 +1,4 @@
-// The corner cases of coverage.md 11: covered pixels as printed there, in window positions, y down.
+// Tests the corner cases of coverage.md 11. The expected pixels are those printed there, in window positions, y down.
 #include "rasterizer/coverage/edge.h"
 
 #include <catch2/catch.hpp>
@@ -27,7 +27,7 @@ constexpr Device geforce8_like{8, Snap::nearest_even};
     for (std::size_t i = 0; i < 3; ++i)
         p[i] = {snap(corner[i][0], device.subpixel_bits, device.snap),
                 snap(corner[i][1], device.subpixel_bits, device.snap)};
-    if (Edge{p[0], p[1]}.at(p[2]) == 0) return {};  // set-up drops it: setup_test.cpp
+    if (Edge{p[0], p[1]}.at(p[2]) == 0) return {};  // dropped by set-up: setup_test.cpp
     const RasterRules rules{.subpixel_bits = device.subpixel_bits, .snap = device.snap};
     const Geometry geometry = window_geometry({window_triangle(p, device.subpixel_bits)}, 16, 16, rules);
     Pixels pixels;
@@ -44,7 +44,7 @@ void check_both(const std::array<Position, 3>& corner, const Pixels& expected) {
         }
 }
 
-// Whether column 0 is covered by a rectangle-like triangle whose left edge is vertical at x.
+// True if column 0 is covered by a triangle whose left edge is vertical at x.
 [[nodiscard]] bool column_0_is_covered(const Device& device, float x) {
     for (const auto& [i, j] : covered(device, {Position{x, -20.0f}, Position{x + 40.0f, 5.0f}, Position{x, 30.0f}}))
         if (i == 0) return true;
@@ -53,11 +53,11 @@ void check_both(const std::array<Position, 3>& corner, const Pixels& expected) {
 
 }  // namespace
 
-TEST_CASE("vertex centres on right and bottom edges are excluded, those on top and left edges are not") {
+TEST_CASE("vertex centres on right and bottom edges are excluded and those on top and left edges are not") {
     check_both({{{.5f, .5f}, {2.5f, .5f}, {.5f, 2.5f}}}, {{0, 0}, {1, 0}, {0, 1}});
 }
 
-TEST_CASE("the other half of a square takes exactly the pixel that is left") {
+TEST_CASE("the other half of a square covers exactly the remaining pixel") {
     check_both({{{2.5f, .5f}, {2.5f, 2.5f}, {.5f, 2.5f}}}, {{1, 1}});
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("centres on a shared diagonal belong to one of its two triangles") {
 
 TEST_CASE("a sliver along the pixel border covers nothing") { check_both({{{0, 0}, {8, .0625f}, {8, 0}}}, {}); }
 
-TEST_CASE("a top edge through centres counts and a bottom edge does not") {
+TEST_CASE("a top edge through centres covers them and a bottom edge does not") {
     check_both({{{0, .5f}, {8, .5f}, {8, .5625f}}}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0}, {7, 0}});
     check_both({{{0, .5f}, {8, .5f}, {8, .4375f}}}, {});
 }
@@ -77,12 +77,12 @@ TEST_CASE("a triangle smaller than a pixel covers the centre that it surrounds")
     check_both({{{.4f, .4f}, {.6f, .4f}, {.5f, .6f}}}, {{0, 0}});
 }
 
-TEST_CASE("a left edge at .5624 is cut onto the centre by GeForce3 and rounded past it by GeForce8") {
+TEST_CASE("a left edge at .5624 is truncated onto the centre by GeForce3 and rounded past it by GeForce8") {
     CHECK(column_0_is_covered(geforce3_like, .5624f));
     CHECK_FALSE(column_0_is_covered(geforce8_like, .5624f));
 }
 
-TEST_CASE("a left edge at .4999 or .5 takes column 0, at .5625 or .5626 it does not") {
+TEST_CASE("a left edge at .4999 or .5 covers column 0 and one at .5625 or .5626 does not") {
     for (const Device& device : {geforce3_like, geforce8_like}) {
         CHECK(column_0_is_covered(device, .4999f));
         CHECK(column_0_is_covered(device, .5f));

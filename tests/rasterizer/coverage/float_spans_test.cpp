@@ -1,5 +1,5 @@
-// The model: the spans of mesa-rasterizers.md 3.1 and 3.2 over rationals, each operation rounded to binary32 by
-// definition, pixel by pixel.
+// Tests float spans against mesa-rasterizers.md 3.1 and 3.2 in rational arithmetic, each operation rounded to binary32
+// by definition, pixel by pixel.
 #include "rasterizer/coverage/float_spans.h"
 
 #include <catch2/catch.hpp>
@@ -51,7 +51,8 @@ void add_part(SpanSide& left, SpanSide& right, int rows, const Rect& frame, Pixe
 }
 
 [[nodiscard]] Pixels model_pixels(std::array<WindowPosition, 3> p, const Rect& frame) {
-    // The order of the page's three comparisons: by y; of two equal ones the earlier comes first around the triangle.
+    // The order by the page's three comparisons of y; of two equal ones the earlier corner around the triangle comes
+    // first.
     const auto [y0, y1, y2] = std::array{p[0][1], p[1][1], p[2][1]};
     if (y0 <= y1 && y1 > y2) p = y2 <= y0 ? std::array{p[2], p[0], p[1]} : std::array{p[0], p[2], p[1]};
     if (y0 > y1)
@@ -83,13 +84,13 @@ void add_part(SpanSide& left, SpanSide& right, int rows, const Rect& frame, Pixe
 
 }  // namespace
 
-TEST_CASE("float spans cover the pixels of the rule's rounded steps, whatever the tiles", "[slow]") {
+TEST_CASE("float spans cover the pixels of the rule's rounded steps for any tiles", "[slow]") {
     constexpr int width = 96, height = 64;
     Random random{521};
     TriangleSoup soup;
     for (int n = 0; n < 300; ++n)
         for (int k = 0; k < 3; ++k) {
-            // Every third triangle has corners on pixel centres, whose ties decide.
+            // Every third triangle has corners on pixel centres, where ties decide.
             const float unit = n % 3 == 0 ? 1.0f : 0.0f;
             float x = random_float(random, 0, width), y = random_float(random, 0, height);
             if (unit != 0)
@@ -117,8 +118,7 @@ TEST_CASE("float spans cover the pixels of the rule's rounded steps, whatever th
     CHECK(pixels > 50000);
 }
 
-TEST_CASE(
-    "a small triangle's record has the box of its pixels, and one that covers none of a small box has no record") {
+TEST_CASE("a small triangle's record has the box of its pixels and one in a small box without pixels has no record") {
     constexpr int width = 96, height = 64;
     Random random{523};
     TriangleSoup soup;
@@ -167,18 +167,18 @@ TEST_CASE(
     CHECK((boxes > 1000 && uncovered > 500 && large > 100));
 }
 
-// Under the library's assertions (the sanitized builds) a walk over the columns of such a box ends the test.
-TEST_CASE("a triangle beside a region leaves nothing in it, for its box has no columns or no rows there") {
+// With the library's assertions (in the sanitized builds) a walk over the columns of an empty box would end the test.
+TEST_CASE("a triangle next to a region draws nothing in it because its box has no columns or no rows there") {
     const FloatSpans spans{{{{10, 10}, {10, 30}, {40.25f, 20}}}};
     int whole = 0, rows = 0;
     spans.visit({0, 0, 64, 64}, [&](int, int x0, int x1) { whole += x1 - x0; });
-    CHECK(whole == 310);  // 2, 5, 8 .. 29 centres in a row, and the same upwards from row 29
+    CHECK(whole == 310);  // 2, 5, 8 .. 29 centres per row, and the same upwards from row 29
     for (const Rect& beside : {Rect{50, 0, 40, 64}, {48, 0, 43, 64}, {12, 0, 12, 64}, {0, 40, 64, 33}, {0, 20, 64, 20}})
         spans.visit(beside, [&](int, int, int) { ++rows; });
     CHECK(rows == 0);
 }
 
-TEST_CASE("corners of one height keep the order that the rule's comparisons give them") {
+TEST_CASE("corners of equal height keep the order that the rule's comparisons give them") {
     using Order = std::array<std::size_t, 3>;
     const auto order = [](float y0, float y1, float y2) { return by_height({{{0, y0}, {1, y1}, {2, y2}}}); };
     CHECK(order(1, 1, 1) == Order{0, 1, 2});
@@ -194,7 +194,7 @@ TEST_CASE("corners of one height keep the order that the rule's comparisons give
     CHECK(order(3, 2, 1) == Order{2, 1, 0});
 }
 
-TEST_CASE("a triangle without a finite reciprocal area covers nothing, and is counted as degenerate") {
+TEST_CASE("a triangle without a finite reciprocal area covers nothing and is counted as degenerate") {
     const std::array<WindowPosition, 3> line{{{1, 1}, {3, 3}, {2, 2}}};
     CHECK_FALSE(FloatSpans{line}.is_drawn());
     TriangleSoup soup;
@@ -208,7 +208,7 @@ TEST_CASE("a triangle without a finite reciprocal area covers nothing, and is co
     CHECK(geometry.counters.degenerate == 1);
 }
 
-TEST_CASE("the area whose sign is a triangle's facing is twice the exact one, in whole pixels") {
+TEST_CASE("the area whose sign is a triangle's facing is twice the exact one in whole pixels") {
     Random random{509};
     int wrong = 0;
     for (int i = 0; i < 1000; ++i) {

@@ -1,6 +1,6 @@
-// The model: a pixel belongs to a triangle if at its centre the edge value over every corner has the sign of that
-// corner's w, the area being positive; a centre on a side counts as its tie rule says, and the other way where w is
-// negative.
+// Tests coverage with negative w. A pixel belongs to a triangle of positive area if at its centre the edge value
+// opposite every corner has the sign of that corner's w; a centre on a side follows the tie rule, or its opposite where
+// w is negative.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -69,7 +69,7 @@ using SignedPixels = std::set<std::array<int, 2>>;
 
 }  // namespace
 
-TEST_CASE("a triangle covers where edge values have the signs of w: beyond a side, or the wedge behind a corner",
+TEST_CASE("a triangle covers where edge values have the signs of w which is beyond a side or the wedge behind a corner",
           "[slow]") {
     Random random{891};
     std::uint64_t wrong = 0, pixels = 0, unbounded = 0;
@@ -77,7 +77,7 @@ TEST_CASE("a triangle covers where edge values have the signs of w: beyond a sid
     for (int n = 0; n < 400; ++n) {
         std::array<ClipVertex, 3> v{};
         for (ClipVertex& c : v) {
-            // Half of them on pixel centres: ties.
+            // Half of them are on pixel centres, for ties.
             c.x = static_cast<float>(random_int(random, -4, side + 4)) + (n % 2 == 0 ? 0.5f : 0.3125f);
             c.y = static_cast<float>(random_int(random, -4, side + 4)) + (n % 2 == 0 ? 0.5f : 0.875f);
             constexpr float values[] = {1, 1, 1, -1, 0.0f, -0.0f, infinity, -infinity, 0x1p-64f, -0x1p64f};
@@ -93,7 +93,8 @@ TEST_CASE("a triangle covers where edge values have the signs of w: beyond a sid
     CHECK(unbounded > 3000);
 }
 
-TEST_CASE("two triangles that share a side with a negative corner on each share no pixel and leave none between them") {
+TEST_CASE(
+    "two triangles that share a side and have a corner of opposite w share no pixel and leave none between them") {
     const ClipVertex a{.x = 4.5f, .y = 4.5f}, b{.x = 20.5f, .y = 8.5f}, c{.x = 8.5f, .y = 20.5f};
     ClipVertex behind = a;
     behind.w = -1.0f;
@@ -103,7 +104,7 @@ TEST_CASE("two triangles that share a side with a negative corner on each share 
     CHECK(!beyond.empty());
 }
 
-TEST_CASE("without the rule a w of zero or infinity drops its triangle, and a negative one changes no pixel") {
+TEST_CASE("without the rule a w of zero or infinity drops its triangle and a negative one changes no pixel") {
     const ClipVertex a{.x = 2, .y = 2}, b{.x = 20, .y = 3}, c{.x = 5, .y = 21};
     ClipVertex zero = a, negative = a;
     zero.w = 0.0f;
@@ -113,7 +114,7 @@ TEST_CASE("without the rule a w of zero or infinity drops its triangle, and a ne
     CHECK(sign_geometry({zero, b, c}, WSigns::ignored).counters.non_finite == 1);
 }
 
-TEST_CASE("a w below 2^-64 acts as 2^-64 and one above 2^64 as 2^64, with its sign") {
+TEST_CASE("a w below 2^-64 is set to 2^-64 and one above 2^64 to 2^64 with its sign") {
     for (const float sign : {1.0f, -1.0f}) {
         for (const float w : {0.0f, 0x1p-149f, 0x1p-126f, 0x1.fffffep-65f, 0x1p-64f})
             CHECK(settled_w(sign * w) == sign * 0x1p-64f);
@@ -124,7 +125,7 @@ TEST_CASE("a w below 2^-64 acts as 2^-64 and one above 2^64 as 2^64, with its si
     CHECK(std::isnan(settled_w(std::numeric_limits<float>::quiet_NaN())));
 }
 
-TEST_CASE("NEARFAR drops a triangle that lies with all corners before or behind the range, and only such a one") {
+TEST_CASE("NEARFAR drops a triangle if all its corners are before or all are behind the range and no other") {
     RasterState state;
     state.viewport = {0, 0, side, side};
     state.window_positions = state.range_culls_triangles = state.depth_clamp = true;

@@ -1,4 +1,4 @@
-// The model: a set of the pixels that the present batch holds.
+// Tests pixel claims against a set of the pixels in the current batch.
 #include "rasterizer/coverage/pixel_claims.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ using HeldPixels = std::set<std::array<unsigned, 2>>;  // row, column
 
 }  // namespace
 
-TEST_CASE("a run of a row is claimed exactly if the batch holds none of its pixels, across every border of 32") {
+TEST_CASE("a run of a row is claimed exactly if the batch has none of its pixels across every border of 32") {
     Random random{681};
     std::uint64_t wrong = 0, refused = 0, granted = 0;
     for (const int width : {1, 31, 32, 33, 64, 100}) {
@@ -31,7 +31,7 @@ TEST_CASE("a run of a row is claimed exactly if the batch holds none of its pixe
             wrong += found != is_free ? 1 : 0;
             (found ? granted : refused) += 1;
             for (unsigned k = 0; k < count && is_free; ++k) held.insert({row, column + k});
-            if (!is_free || n % 37 == 0) {  // a refused claim may have taken some: the batch ends
+            if (!is_free || n % 37 == 0) {  // a rejected claim may have set some bits, so the batch ends
                 claims.next_batch();
                 held.clear();
             }
@@ -42,7 +42,7 @@ TEST_CASE("a run of a row is claimed exactly if the batch holds none of its pixe
     CHECK(granted > 1000);
 }
 
-TEST_CASE("rows of bits are claimed exactly if the batch holds none of them, wherever they start, and gaps stay free") {
+TEST_CASE("rows of bits are claimed exactly if the batch has none of them at any start and gaps stay free") {
     Random random{682};
     std::uint64_t wrong = 0, refused = 0, granted = 0;
     for (const int width : {16, 40, 65}) {
@@ -78,7 +78,7 @@ TEST_CASE("rows of bits are claimed exactly if the batch holds none of them, whe
     CHECK(granted > 1000);
 }
 
-TEST_CASE("a new batch holds nothing, and the two kinds of claims see each other's pixels") {
+TEST_CASE("a new batch is empty and the two kinds of claims see each other's pixels") {
     PixelClaims claims{{0, 0, 48, 4}};
     claims.next_batch();
     const auto one_bit = [](unsigned) { return 1u; };

@@ -1,4 +1,5 @@
-// The model: boxes, areas and inequalities in 64-bit integers, pixel by pixel; every instruction set is held to it.
+// Tests the kernels for small triangles on every instruction set against boxes, areas and inequalities in 64-bit
+// integers, pixel by pixel.
 #include "rasterizer/coverage/small_triangles.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +20,7 @@ using Corners = std::array<SubpixelPoint, 3>;
            (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
 
-// Whether side (a, b) of a clockwise triangle, y down, takes a centre on it.
+// True if side (a, b) of a clockwise triangle, y down, includes a centre on it.
 [[nodiscard]] bool side_owns(SubpixelPoint a, SubpixelPoint b, TieRule rule) {
     if (a.y != b.y) {
         const bool is_left = b.y < a.y;
@@ -40,7 +41,7 @@ using Corners = std::array<SubpixelPoint, 3>;
     return true;
 }
 
-// The pixels of the clip between the outermost corners, looked for one after the other.
+// The pixels of the clip rectangle between the outermost corners, found by search.
 [[nodiscard]] Rect box_by_search(const Corners& p, const GroupRules& rules) {
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -62,7 +63,7 @@ using Corners = std::array<SubpixelPoint, 3>;
     Corners p;
     for (SubpixelPoint& q : p) {
         q = {x * unit + random_int(random, 0, size * unit), y * unit + random_int(random, 0, size * unit)};
-        if (n % 3 == 0) q = {q.x / unit * unit + unit / 2, q.y / unit * unit + unit / 2};  // centres: ties
+        if (n % 3 == 0) q = {q.x / unit * unit + unit / 2, q.y / unit * unit + unit / 2};  // on pixel centres, for ties
     }
     return p;
 }
@@ -110,7 +111,7 @@ void compare_group(const TriangleGroup& g, const std::vector<Corners>& all, cons
 }  // namespace
 
 TEST_CASE(
-    "sixteen triangles side by side have the boxes, areas and covered centres of each alone, under every tie rule") {
+    "sixteen triangles together have the boxes and areas and covered centres of each alone under every tie rule") {
     const auto group = std::make_unique<TriangleGroup>();
     for (const strata::Simd simd : strata::available_simd()) {
         const strata::SimdScope scope{simd};

@@ -1,5 +1,5 @@
-// The model: a code has 4 bits of exponent e and 12 of mantissa m; its value is 2^(e - 7) (1 + m / 4096), over
-// rationals; e = 0 is 0.
+// Tests the D16F format in rational arithmetic: a code has 4 bits of exponent e and 12 of mantissa m; its value is 2^(e
+// - 7) (1 + m / 4096), or 0 for e = 0.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -18,7 +18,7 @@ using namespace strata::rasterizer;
     return power(exponent - 7) * (Rational{1} + Rational{code % 4096, 4096});
 }
 
-// The largest code whose value is not above v, by bisection; codes of one value are all 0.
+// The largest code whose value is at most v, by bisection; of codes with value 0, code 0.
 [[nodiscard]] std::uint32_t d16f_model(const Rational& v) {
     std::uint32_t low = 0, high = 0x10000;
     while (high - low > 1) {
@@ -30,7 +30,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("a D16F code has the value of its four exponent and twelve mantissa bits, and that value has the code",
+TEST_CASE("a D16F code has the value of its four exponent and twelve mantissa bits and that value has the code",
           "[slow]") {
     std::uint32_t wrong = 0, first = 0;
     for (std::uint32_t code = 0x1000; code <= 0xffff; ++code) {
@@ -46,9 +46,7 @@ TEST_CASE("a D16F code has the value of its four exponent and twelve mantissa bi
     CHECK(max_d16f == 511.9375f);
 }
 
-TEST_CASE(
-    "a float is cut to the D16F code below it: up to the next code's value, and to 0 below the smallest normal one",
-    "[slow]") {
+TEST_CASE("a float is truncated to the next lower D16F code and to 0 below the smallest normal one", "[slow]") {
     std::uint32_t wrong = 0, first = 0;
     for (std::uint32_t code = 0x1000; code <= 0xffff; code += 3) {
         const auto bits = std::bit_cast<std::uint32_t>(nearest_float(d16f_meaning(code)));
@@ -67,7 +65,7 @@ TEST_CASE(
         CHECK(to_d16f_code(beyond) == 0xffff);
 }
 
-TEST_CASE("depth 1 is the greatest D16F value, and a depth between is its product with it, cut under either rounding",
+TEST_CASE("depth 1 is the greatest D16F value and a depth is its product with it truncated under either rounding",
           "[slow]") {
     Random random{611};
     std::uint64_t wrong = 0;
@@ -76,7 +74,7 @@ TEST_CASE("depth 1 is the greatest D16F value, and a depth between is its produc
         const float z = n % 4 == 0 ? random_float(random, 0, 0x1p-12f) : random_float(random, 0, 1);
         const Rational product = Rational{z} * Rational{8191, 16};
         const std::uint32_t expected = d16f_model(product);
-        // A product that binary32 rounds up to the next code is left out: one in 4,096.
+        // Skips products that binary32 rounds up to the next code: one in 4,096.
         if (d16f_model(Rational{nearest_float(product)}) != expected) continue;
         for (const DepthRounding rounding : {DepthRounding::floor, DepthRounding::nearest})
             if (to_depth_code(z, DepthFormat::d16f, rounding) != expected && wrong++ == 0) first = z;
@@ -89,9 +87,9 @@ TEST_CASE("depth 1 is the greatest D16F value, and a depth between is its produc
         CHECK(to_depth_code(z, DepthFormat::d16f, DepthRounding::nearest) == 0);
 }
 
-TEST_CASE("a code of any depth format reads back as its share of depth 1, rounded once to binary64", "[slow]") {
+TEST_CASE("a code of any depth format is read back as its fraction of depth 1 rounded once to binary64", "[slow]") {
     std::uint64_t wrong = 0;
-    const auto near53 = [](const Rational& v, double found) {  // half a unit of 53 bits at most
+    const auto near53 = [](const Rational& v, double found) {  // at most half a unit in 53 bits
         return abs(Rational{found} - v) <= power(floor_log2(v) - 53);
     };
     for (std::uint32_t code = 0x1000; code <= 0xffff; code += 7) {

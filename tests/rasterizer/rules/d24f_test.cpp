@@ -1,5 +1,5 @@
-// The model: a code has 8 bits of exponent e and 16 of mantissa m; its value is 2^(e - 127) (1 + m / 65536) over
-// rationals; e = 0 is 0.
+// Tests the D24F format in rational arithmetic: a code has 8 bits of exponent e and 16 of mantissa m; its value is 2^(e
+// - 127) (1 + m / 65536), or 0 for e = 0.
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -18,7 +18,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("a D24F code has the value of its eight exponent and sixteen mantissa bits, and that value has the code") {
+TEST_CASE("a D24F code has the value of its eight exponent and sixteen mantissa bits and that value has the code") {
     std::uint32_t wrong = 0, first = 0;
     for (std::uint32_t code = 0x10000; code <= 0xfeffff; code += 977) {
         const Rational value = d24f_meaning(code);
@@ -31,7 +31,7 @@ TEST_CASE("a D24F code has the value of its eight exponent and sixteen mantissa 
 }
 
 TEST_CASE(
-    "a value is cut to the D24F code below it, to 0 below the smallest normal one, and to the last finite one above",
+    "a value is truncated to a D24F code with 0 below the smallest normal one and the last finite one above the range",
     "[slow]") {
     Random random{91};
     std::uint32_t wrong = 0;
@@ -49,7 +49,7 @@ TEST_CASE(
     CHECK(to_d24f_code(0x1p-126) == 0x10000);
 }
 
-TEST_CASE("depth 1 of D24F is 1e30, whose code is the greatest that a depth makes") {
+TEST_CASE("depth 1 of D24F is 1e30 and its code is the greatest of any depth") {
     CHECK(max_code(DepthFormat::d24f) == 0xe293e5);
     for (const DepthRounding rounding : {DepthRounding::floor, DepthRounding::nearest, DepthRounding::product_even}) {
         CHECK(to_depth_code(1.0f, DepthFormat::d24f, rounding) == 0xe293e5);

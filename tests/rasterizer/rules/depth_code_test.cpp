@@ -1,5 +1,5 @@
-// The model is an inequality over integers: k is right for z exactly if k <= z (2^n - 1) < k + 1 (floor) or
-// k - 1/2 <= z (2^n - 1) < k + 1/2 (nearest), z = mantissa / 2^shift.
+// Tests depth codes against an inequality over integers: k is correct for z exactly if k <= z (2^n - 1) < k + 1 (floor)
+// or k - 1/2 <= z (2^n - 1) < k + 1/2 (nearest), with z = mantissa / 2^shift.
 #include "rasterizer/rules/depth_code.h"
 
 #include <array>
@@ -47,12 +47,12 @@ __extension__ using Wide = __int128;
 
 namespace {
 
-// nearest_float of rational.h.
+// Uses nearest_float of rational.h.
 [[nodiscard]] Rational float_product(float z, std::uint32_t max) {
     return Rational{nearest_float(Rational{z} * Rational{max})};
 }
 
-// Ties to the even integer by definition.
+// Ties go to the even integer, by definition.
 [[nodiscard]] std::uint32_t product_code(float z, std::uint32_t max) {
     const Rational product = float_product(z, max);
     const Integer below = floor(product);
@@ -63,7 +63,7 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("product_even rounds the product in binary32 first, and its halves to the even code", "[slow]") {
+TEST_CASE("product_even rounds the product in binary32 and then to the nearest code with ties to even", "[slow]") {
     std::uint64_t wrong = 0, unlike_nearest = 0;
     const auto check = [&](float z) {
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
@@ -81,7 +81,7 @@ TEST_CASE("product_even rounds the product in binary32 first, and its halves to 
     CHECK(to_depth_code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d24, DepthRounding::product_even) == 0);
 }
 
-TEST_CASE("product_floor cuts the binary32 product of 16 bits, and the exact one of 24") {
+TEST_CASE("product_floor truncates the binary32 product for 16 bits and the exact one for 24") {
     std::uint64_t wrong = 0, unlike_floor = 0;
     const auto check = [&](float z) {
         const std::uint32_t code = to_depth_code(z, DepthFormat::d16, DepthRounding::product_floor);
@@ -106,12 +106,11 @@ TEST_CASE("product_floor cuts the binary32 product of 16 bits, and the exact one
 }
 
 TEST_CASE(
-    "under DepthLimits::wrap a code is the scaled depth's integer with its sign, in 32 bits, and D32F keeps the "
-    "depth") {
+    "under DepthLimits::wrap a code is the signed integer of the scaled depth in 32 bits and D32F keeps the depth") {
     const auto code = [](float z, DepthFormat format, DepthRounding rounding) {
         return to_wrapped_code(z, depth_conversion(format, rounding, 1.0f));
     };
-    // What a driver drew, and what it read back of the low bits.
+    // Codes that a driver drew, and values that it read back from the low bits.
     CHECK(code(-1e-9f, DepthFormat::d24, DepthRounding::floor) == 0);
     CHECK(code(-1e-7f, DepthFormat::d24, DepthRounding::floor) == 0xffffffffu);
     CHECK((code(-1e-5f, DepthFormat::d24, DepthRounding::floor) & 0xffffffu) == 0xffff59u);
@@ -131,7 +130,7 @@ TEST_CASE(
                     continue;
                 }
                 wrong += is_beyond_range(found, format) || found == 0 || found == max ? 0 : 1;
-                // The magnitude by rational arithmetic, then its sign.
+                // The magnitude in rational arithmetic, then its sign.
                 const bool is_product = rounding == DepthRounding::product_even ||
                                         (rounding == DepthRounding::product_floor && format == DepthFormat::d16);
                 const float size = z < 0 ? -z : z;
@@ -150,7 +149,7 @@ TEST_CASE(
     CHECK(code(1e30f, DepthFormat::d24, DepthRounding::floor) == 0);
 }
 
-TEST_CASE("sampled floats of all kinds become the D16 and D24 codes of the rule, and a half goes up") {
+TEST_CASE("sampled floats of all kinds become the D16 and D24 codes of the rule with ties up") {
     CHECK(wrong_among(0, 9973, 0x100000000ull / 9973) == 0);
     CHECK(wrong_among(0x3f000000u - 5000, 1, 10000) == 0);
     CHECK(wrong_among(0x3f800000u - 100000, 1, 100010) == 0);
@@ -163,7 +162,7 @@ TEST_CASE("all 2^32 floats become the D16 and D24 codes of the rule", "[exhausti
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a D32F code is the clamped float itself, zeros are +0, and codes order like the floats") {
+TEST_CASE("a D32F code is the clamped float itself and zeros are +0 and codes are ordered like the floats") {
     std::uint64_t wrong = 0;
     std::uint32_t last = 0;
     for (std::uint64_t wide = 0; wide < 0x100000000ull; wide += 4099) {
@@ -181,7 +180,7 @@ TEST_CASE("a D32F code is the clamped float itself, zeros are +0, and codes orde
     CHECK(to_depth_code(-0.0f, DepthFormat::d32f, DepthRounding::nearest) == 0);
 }
 
-TEST_CASE("depth 1 is the largest code and a code read back gives itself") {
+TEST_CASE("depth 1 is the largest code and a code that is read back gives itself") {
     std::uint64_t wrong = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         CHECK(to_depth_code(1.0f, format, DepthRounding::floor) == max_code(format));

@@ -1,4 +1,4 @@
-// Model: the order of binary32 numbers; a key has to turn it round and to be its own inverse.
+// Tests depth keys against the order of binary32 numbers: a key must reverse the order and be its own inverse.
 #include "rasterizer/rules/depth_key.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ static_assert(depth_key(0u) == one_code && depth_key(one_code) == 0u);
 static_assert(depth_key(0x3f7fffffu) == least_normal_code, "the number before 1 has the least normal key");
 static_assert(depth_key(0.0f) == 1.0f && depth_key(1.0f) == 0.0f);
 
-TEST_CASE("keys of stored depths turn the order round, and a key's key is the depth") {
+TEST_CASE("keys of stored depths reverse the order and a key's key is the depth") {
     std::mt19937 random{1};
     std::uint64_t wrong = 0;
     std::uint32_t first = 0;
@@ -30,7 +30,7 @@ TEST_CASE("keys of stored depths turn the order round, and a key's key is the de
         if (turns && returns && fits && is_same) return;
         if (wrong++ == 0) first = a;
     };
-    // Neighbours at both ends, at every power of two, and a million at random.
+    // Neighbours at both ends, at every power of two, and a million random values.
     for (std::uint32_t exponent = 1; exponent <= 127; ++exponent)
         for (std::uint32_t step = 0; step < 64; ++step) {
             const std::uint32_t code = (exponent << 23) - 32 + step;
@@ -45,7 +45,7 @@ TEST_CASE("keys of stored depths turn the order round, and a key's key is the de
     for (const std::uint32_t denormal : {1u, 0x00000100u, 0x007fffffu}) CHECK(depth_key(denormal) == one_code);
 }
 
-TEST_CASE("keys turn the order of depths beyond the range round, too") {
+TEST_CASE("keys also reverse the order of depths beyond the range") {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const float rising[] = {-infinity, -3e38f, -2.0f,  -1.0f, -0x1p-126f, 0.0f, 0x1p-126f, 0.25f,
                             0.5f,      0.75f,  0.999f, 1.0f,  1.0000001f, 2.0f, 3e38f,     infinity};

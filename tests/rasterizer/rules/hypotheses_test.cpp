@@ -1,11 +1,11 @@
-// What each hypothesis does to a depth: depth_paths_test.cpp and window_z_test.cpp.
+// Tests the list of hypotheses. depth_paths_test.cpp and window_z_test.cpp test the effect of each on depths.
 #include "rasterizer/rules/hypotheses.h"
 
 #include <catch2/catch.hpp>
 
 using namespace strata::rasterizer;
 
-TEST_CASE("every hypothesis has a name of its own and differs from the given rules in one constant") {
+TEST_CASE("every hypothesis has a unique name and differs from the given rules in one constant") {
     const RasterRules given{
         .subpixel_bits = 4, .window_z = WindowZ::buffer_units, .depth_rounding = DepthRounding::floor};
     CHECK(depth_hypotheses(given).size() == 1 + 9 + 2 + 2 + 1 + 4 + 6 + 5 + 1 + 1 + 1 + 1 + 1);

@@ -1,4 +1,4 @@
-// The model: the lists of both headers, typed a second time: what each name says and what it can change.
+// Tests the hypotheses of both headers against independent lists of their names and of what each can change.
 #include <catch2/catch.hpp>
 #include <string>
 #include <utility>
@@ -21,7 +21,7 @@ void add_numbers(std::vector<Named>& names, const std::string& name, Subject sub
     for (const int n : numbers) names.emplace_back(name + "=" + std::to_string(n), subject);
 }
 
-// The rules that the named one stands for, by its name alone.
+// The rules that a name represents, derived from the name alone.
 [[nodiscard]] RasterRules rules_named(const std::string& name, RasterRules rules) {
     const std::string key = name.substr(0, name.find('=')), value = name.substr(name.find('=') + 1);
     DepthHypothesis& h = rules.hypothesis;
@@ -67,7 +67,7 @@ void add_numbers(std::vector<Named>& names, const std::string& name, Subject sub
 
 }  // namespace
 
-TEST_CASE("the hypotheses of depth are these, in this order, each about what its constant can change") {
+TEST_CASE("the hypotheses of depth are those listed in this order with the values that each can change") {
     std::vector<Named> expected;
     add_numbers(expected, "interpolant_bits", Subject::texture_depth, {16, 17, 18, 19, 20, 21, 22, 23});
     expected.emplace_back("interpolant_bits=double", Subject::texture_depth);
@@ -90,7 +90,7 @@ TEST_CASE("the hypotheses of depth are these, in this order, each about what its
     CHECK(first_misnamed(list).empty());
 }
 
-TEST_CASE("where the given rules hold another value already, the list names the default in its place") {
+TEST_CASE("where the given rules have another value the list has the default instead") {
     RasterRules given{.depth_rounding = DepthRounding::floor, .offset_rule = OffsetRule::fragments};
     given.hypothesis = {.interpolant_bits = full_double,
                         .divide = DivideRule::low_reciprocal,
@@ -124,7 +124,7 @@ TEST_CASE("where the given rules hold another value already, the list names the 
     CHECK(first_misnamed(list).empty());
 }
 
-TEST_CASE("the hypotheses of interpolation are these, in this order, about colours and about coordinates") {
+TEST_CASE("the hypotheses of interpolation are those listed in this order for colours and for coordinates") {
     std::vector<Named> expected;
     add_numbers(expected, "vertex_color_bits", Subject::color, {12, 13, 14, 15, 16});
     expected.emplace_back("perspective_color=weight_products", Subject::color);

@@ -1,4 +1,4 @@
-// The model: a rectangle is the set of its pixels, counted one by one.
+// Tests rectangles as sets of pixels, counted one by one.
 #include <catch2/catch.hpp>
 #include <vector>
 
@@ -23,7 +23,7 @@ constexpr int rect_low = -2, rect_high = 3;
 
 }  // namespace
 
-TEST_CASE("a rectangle has as many pixels as it holds, none if its ends are turned round") {
+TEST_CASE("a rectangle has as many pixels as it contains and none if its ends are reversed") {
     std::uint64_t wrong = 0;
     for (int x0 = rect_low; x0 <= rect_high; ++x0)
         for (int y0 = rect_low; y0 <= rect_high; ++y0)
@@ -44,7 +44,7 @@ TEST_CASE("a rectangle has as many pixels as it holds, none if its ends are turn
     CHECK(Rect{0, 0, 1 << 20, 1 << 20}.area() == std::size_t{1} << 40);
 }
 
-TEST_CASE("two rectangles share exactly the pixels that both hold, whichever comes first") {
+TEST_CASE("two rectangles share exactly the pixels that both contain in either order") {
     std::uint64_t wrong = 0, shared = 0;
     const std::vector<Rect> all = all_rects();
     for (std::size_t i = 0; i < all.size(); i += 2)
@@ -62,7 +62,7 @@ TEST_CASE("two rectangles share exactly the pixels that both hold, whichever com
     CHECK(shared > 500);
 }
 
-TEST_CASE("a box is counted from the viewport's corner, each side by its own axis") {
+TEST_CASE("a box is relative to the viewport's corner on each axis") {
     const PixelBox box = in_viewport({15, 9, 40, 30}, {13, 7, 60000, 50000});
     CHECK(box.x0 == 2);
     CHECK(box.y0 == 2);

@@ -1,5 +1,5 @@
-// The model: a triangle belongs to a tile's list if its box of pixels reaches into the tile and, for one that is not
-// small, every side takes some pixel centre of the tile; each centre is looked at by itself.
+// Tests tile lists. A triangle belongs to a tile's list if its box of pixels overlaps the tile and, unless it is small,
+// every side includes some pixel centre of the tile; each centre is tested by itself.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <vector>
@@ -11,13 +11,13 @@ namespace {
 
 using namespace strata::rasterizer;
 
-// Twice the area of (a, b, p), positive on the inner side of a triangle whose own area has the sign `turn`; in 64 bits.
+// Twice the area of (a, b, p), positive inside of a triangle whose area has the sign `turn`; in 64 bits.
 [[nodiscard]] std::int64_t side_value(SubpixelPoint a, SubpixelPoint b, SubpixelPoint p, int turn) {
     return turn * ((std::int64_t{b.x} - a.x) * (std::int64_t{p.y} - a.y) -
                    (std::int64_t{b.y} - a.y) * (std::int64_t{p.x} - a.x));
 }
 
-// By TieRule::top_left: a side that runs up, or a horizontal one that runs right, takes the centres on it. y down.
+// By TieRule::top_left: a side that runs up, or a horizontal one that runs right, includes the centres on it. y down.
 [[nodiscard]] bool side_takes_ties(SubpixelPoint a, SubpixelPoint b, int turn) {
     const std::int64_t dx = turn * (std::int64_t{b.x} - a.x), dy = turn * (std::int64_t{b.y} - a.y);
     return dy < 0 || (dy == 0 && dx > 0);
@@ -46,7 +46,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("a tile lists exactly the triangles whose box reaches into it and of which no side leaves it out") {
+TEST_CASE("a tile lists exactly the triangles whose box overlaps it and of which no side excludes it") {
     Random random{641};
     std::uint64_t wrong = 0, listed = 0, left_out = 0;
     for (const int bits : {4, 8}) {
@@ -54,7 +54,8 @@ TEST_CASE("a tile lists exactly the triangles whose box reaches into it and of w
         while (triangles.size() < 60) {
             const int unit = 1 << bits;
             std::array<SubpixelPoint, 3> p;
-            // Some on a grid of centres and corners, where ties decide; some with a long thin side.
+            // Some corners are on a grid of pixel centres and corners, where ties decide; some triangles have a long
+            // thin side.
             for (SubpixelPoint& q : p)
                 q = triangles.size() % 2 == 0 ? random_point(random, 100, 70, bits, 20)
                                               : SubpixelPoint{random_int(random, 0, 50) * unit + unit / 2,
@@ -70,7 +71,7 @@ TEST_CASE("a tile lists exactly the triangles whose box reaches into it and of w
                 const Rect rect = tile_rect(g, tile);
                 for (std::uint32_t i = 0; i < g.triangles.size(); ++i) {
                     const PixelBox& box = g.triangles[i].box;
-                    if (box.x1 <= box.x0 || box.y1 <= box.y0) continue;  // set-up would have dropped it
+                    if (box.x1 <= box.x0 || box.y1 <= box.y0) continue;  // dropped by set-up
                     const bool found = std::ranges::find(bin, i) != bin.end();
                     const bool expected = in_tile_by_model(g, g.triangles[i], rect);
                     wrong += found != expected ? 1 : 0;
@@ -85,8 +86,8 @@ TEST_CASE("a tile lists exactly the triangles whose box reaches into it and of w
     CHECK(left_out > 1000);
 }
 
-TEST_CASE("lists of many triangles are those of few: their chunks join in submission order, on any number of threads") {
-    // 30,000 triangles are binned in seven chunks, 20 at a time in one.
+TEST_CASE("lists of many triangles are joined from chunks in submission order for any number of threads") {
+    // 30,000 triangles are binned in seven chunks, 20 in one chunk.
     std::vector<SetupTriangle> triangles;
     Random random{642};
     for (int i = 0; i < 30000; ++i) {
@@ -115,7 +116,7 @@ TEST_CASE("lists of many triangles are those of few: their chunks join in submis
     }
 }
 
-TEST_CASE("a geometry is binned again for another tile size, and a viewport without pixels has no tile") {
+TEST_CASE("a geometry is binned again for another tile size and a viewport without pixels has no tile") {
     Geometry g = window_geometry({window_triangle({{{0, 0}, {9000, 0}, {0, 9000}}}, 8)}, 40, 30, {});
     bin_triangles(g, 8);
     CHECK(g.tiles_x == 5);

@@ -1,3 +1,4 @@
+// Tests the bins of tiles against the fragments that are drawn.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <vector>
@@ -11,7 +12,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("every fragment's triangle is in the bin of its tile, once and in submission order", "[slow]") {
+TEST_CASE("every fragment's triangle is in the bin of its tile once and in submission order", "[slow]") {
     constexpr std::uint64_t seed = 111;
     const TriangleSoup soup = random_soup(seed, 300, SoupKind::needs_clipping);
     RasterState state = scene_state(150, 90);
@@ -40,7 +41,7 @@ TEST_CASE("every fragment's triangle is in the bin of its tile, once and in subm
     }
 }
 
-TEST_CASE("a thin diagonal is not in the bins beside it") {
+TEST_CASE("a thin diagonal is not in adjacent bins") {
     const SetupTriangle t = window_triangle({{{0, 0}, {256 * 256, 256 * 256}, {254 * 256, 256 * 256}}}, 8);
     Geometry geometry = window_geometry({t}, 256, 256, {});
     bin_triangles(geometry, 16);

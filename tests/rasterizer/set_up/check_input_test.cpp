@@ -1,4 +1,4 @@
-// States and soups that no rule covers are refused by the name of what is wrong; whatever is not refused is drawn.
+// Tests that invalid states and soups are rejected with the name of the fault, and that all accepted ones are drawn.
 #include "rasterizer/set_up/check_input.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace strata::rasterizer;
 
-// "" for what the door lets in.
+// The error message for the changed input; "" if it is accepted.
 template <class Thing>
 std::string refused(Thing thing, const std::function<void(Thing&)>& change) {
     change(thing);
@@ -34,7 +34,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
 
 }  // namespace
 
-TEST_CASE("a raster state is refused by the name of its first wrong field") {
+TEST_CASE("a raster state is rejected with the name of its first wrong field") {
     CHECK(state([](RasterState&) {}).empty());
     CHECK(state([](RasterState& s) { s.viewport.x1 = 32769; }) ==
           "raster state: viewport.x1: expected 0 to 32768, found 32769");
@@ -63,14 +63,14 @@ TEST_CASE("a raster state is refused by the name of its first wrong field") {
               s.clip_plane_count = 3;
               s.clip_planes[2].c = not_a_number;
           }) == "raster state: clip_planes[2]: expected a finite number, found nan");
-    CHECK(state([](RasterState& s) { s.clip_planes[2].c = not_a_number; }).empty());  // it is not in use
+    CHECK(state([](RasterState& s) { s.clip_planes[2].c = not_a_number; }).empty());  // this clip plane is not enabled
     CHECK(state([](RasterState& s) { s.cull = static_cast<CullFace>(4); }) ==
           "raster state: cull: expected one of none, front, back, front_and_back, found 4");
     CHECK(state([](RasterState& s) { s.depth_format = static_cast<DepthFormat>(200); }) ==
           "raster state: depth_format: expected one of d16, d24, d32f, d16f, d24f, found 200");
 }
 
-TEST_CASE("a soup whose numbers lead out of it is refused by the first of them") {
+TEST_CASE("a soup with numbers out of range is rejected with the first of them") {
     CHECK(soup([](TriangleSoup&) {}).empty());
     CHECK(soup([](TriangleSoup& s) { s.indices[7] = 12; }) ==
           "triangle soup: indices[7]: expected less than 12, found 12");
@@ -97,7 +97,7 @@ TEST_CASE("a soup whose numbers lead out of it is refused by the first of them")
           }) == "triangle soup: extras.values: expected 2 numbers for each of 12 vertices, found 3");
 }
 
-TEST_CASE("a soup or a state with any of its words changed is refused at the door of set_up or drawn") {
+TEST_CASE("a soup or a state with any of its values changed is rejected by set_up or drawn") {
     constexpr std::uint64_t seed = 952;
     Random random{seed};
     int refusals = 0, drawn = 0;
@@ -140,7 +140,7 @@ TEST_CASE("a soup or a state with any of its words changed is refused at the doo
     CHECK(drawn > 1000);
 }
 
-TEST_CASE("tiles of other sizes than the walks know are refused") {
+TEST_CASE("tile sizes that the walks do not support are rejected") {
     Geometry geometry = set_up(random_soup(953, 4, SoupKind::flat), scene_state(16, 8), {}, 1);
     for (const int size : {-8, 0, 4, 24, 256})
         CHECK_THROWS_WITH(bin_triangles(geometry, size),

@@ -1,5 +1,5 @@
-// The model: each triangle set up alone. Set-up takes vertices and triangles in chunks, and chunks of clipped triangles
-// make vertices.
+// Tests set-up in chunks against each triangle set up alone. Vertices and triangles are processed in chunks, and
+// clipping adds vertices per chunk.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/set_up/geometry.h"
@@ -11,7 +11,7 @@ using namespace strata::rasterizer;
 
 constexpr std::size_t chunked_stride = 3;
 
-// Triangles of shared vertices, of which about half cross a plane; three extras a vertex.
+// Triangles with shared vertices, of which about half cross a clip plane; three extras per vertex.
 [[nodiscard]] TriangleSoup chunked_soup(int triangles) {
     Random random{636};
     TriangleSoup soup;
@@ -27,7 +27,7 @@ constexpr std::size_t chunked_stride = 3;
     return soup;
 }
 
-// Triangle `number` of the soup and nothing else.
+// A soup with only triangle `number`.
 [[nodiscard]] TriangleSoup only_triangle(const TriangleSoup& soup, std::uint32_t number) {
     TriangleSoup one;
     one.extras.stride = chunked_stride;
@@ -55,8 +55,7 @@ constexpr std::size_t chunked_stride = 3;
 
 }  // namespace
 
-TEST_CASE(
-    "a soup of many triangles is set up as its triangles are one by one, new corners, extras, offsets and counts") {
+TEST_CASE("a soup of many triangles is set up like its triangles one by one including new corners and counts") {
     constexpr std::uint32_t count = 3000;  // in three chunks
     const TriangleSoup soup = chunked_soup(count);
     for (const bool offset : {false, true}) {
@@ -87,7 +86,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("the first triangle that is not finite is the first in submission order, whichever chunk finds it") {
+TEST_CASE("the first triangle that is not finite is the first in submission order whichever chunk finds it") {
     TriangleSoup soup = random_soup(637, 5000, SoupKind::flat);
     const auto spoil = [&](std::size_t triangle) {
         soup.vertices[3 * triangle].z = std::numeric_limits<float>::infinity();

@@ -1,4 +1,5 @@
-// The model: the inequalities of clip.h's rule over rationals, and single crossings whose arithmetic is exact.
+// Tests clip planes against the inequalities of clip.h's rule in rational arithmetic, and single crossings whose
+// arithmetic is exact.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -15,7 +16,7 @@ struct PlaneCase {
     RasterRules rules;
 };
 
-// How many of the rule's planes a vertex lies outside of.
+// Number of the rule's planes that a vertex is outside of.
 [[nodiscard]] int planes_missed(const PlaneCase& c, const ClipVertex& v) {
     const Rational x{v.x}, y{v.y}, z{v.z}, w{v.w}, guard{c.rules.guard_band_px};
     const Rect& port = c.state.viewport;
@@ -26,7 +27,7 @@ struct PlaneCase {
     }
     const bool up = c.state.y_direction == YDirection::up;
     const Rational half_x{port.x1 - port.x0, 2}, half_y{port.y1 - port.y0, 2};
-    // Window position times w: positive w or not, the inequality is that of clip space.
+    // Window position times w: the inequality is that of clip space for w of either sign.
     const Rational column = (half_x + port.x0) * w + half_x * x;
     const Rational row = (half_y + port.y0) * w + (up ? Rational{-half_y} : half_y) * y;
     for (const Rational& at : {column, row}) missed += (at > guard * w ? 1 : 0) + (at < -guard * w ? 1 : 0);
@@ -78,12 +79,12 @@ struct PlaneCase {
 
 }  // namespace
 
-TEST_CASE("a clip plane that is not set keeps everything in front of the eye") {
+TEST_CASE("a disabled clip plane keeps everything in front of the eye") {
     CHECK(ClipPlane{} == ClipPlane{.a = 0, .b = 0, .c = 0, .d = 1});
 }
 
 TEST_CASE(
-    "a vertex is outside as many planes as the rule's inequalities say, for every state, and bit 0 is the plane of w",
+    "a vertex is outside as many planes as the rule's inequalities say for every state and bit 0 is the plane of w",
     "[slow]") {
     Random random{621};
     std::uint64_t wrong = 0, inside = 0, vertices = 0;
@@ -102,9 +103,7 @@ TEST_CASE(
     CHECK(inside < vertices / 2);
 }
 
-TEST_CASE(
-    "the view volume needs no look at the planes exactly if the guard band holds the viewport and no plane is the "
-    "user's") {
+TEST_CASE("the view volume needs no plane tests if the guard band contains it and no user plane is enabled") {
     for (const PlaneCase& c : plane_cases()) {
         const Rect& port = c.state.viewport;
         const int reach = std::max({port.x1, port.y1, -port.x0, -port.y0});
@@ -118,7 +117,7 @@ TEST_CASE(
     CHECK_FALSE(Clipper{state, {.guard_band_px = 40}}.holds_view_volume());
 }
 
-TEST_CASE("window positions have no clip space: no vertex is outside of anything") {
+TEST_CASE("no vertex of window positions is outside of any plane") {
     RasterState state = scene_state(64, 48);
     state.window_positions = true;
     state.clip_plane_count = 1;
@@ -131,11 +130,12 @@ TEST_CASE("window positions have no clip space: no vertex is outside of anything
 }
 
 TEST_CASE(
-    "with depths from 0 a corner at the near plane has z = +0, at the far plane z = w, and lies a dyadic share along") {
+    "with depths from 0 a new corner at the near plane has z = +0 and at the far plane z = w at an exact fraction") {
     RasterState state = scene_state(64, 64);
     state.clip_depth = ClipDepth::zero_to_one;
     const Clipper clipper{state, {}};
-    // 3 inside and 1 outside: a quarter of the way is left over. 0.1f and 0.7f make the rounded z differ from 0.
+    // Distances 3 inside and 1 outside: the crossing is a quarter of the way before the outside end. 0.1f and 0.7f make
+    // the rounded z differ from 0.
     const ClipVertex in{.x = 4, .y = -8, .z = 3 * 0.1f, .w = 16}, out{.x = 8, .y = 4, .z = -0.1f, .w = 16};
     const ClipPolygon near = cut_once(clipper, in, out);
     REQUIRE(near.count == 4);
@@ -150,8 +150,7 @@ TEST_CASE(
     CHECK(far.corner[1].y == -2.0f);
 }
 
-TEST_CASE(
-    "a crossing is the inside end plus the share of the way that its distances give, in every component and extra") {
+TEST_CASE("a crossing divides every component and extra in the ratio of the distances to the plane") {
     RasterState state = scene_state(64, 64);
     state.clip_plane_count = 1;
     state.clip_planes[0] = {1, 0, 0, 0};  // x >= 0
@@ -180,7 +179,7 @@ TEST_CASE(
     CHECK(polygon.extra[3][2] == 100.0f);
 }
 
-TEST_CASE("a corner on a plane stays itself and gives no second corner there") {
+TEST_CASE("a corner on a plane is kept and adds no second corner there") {
     RasterState state = scene_state(64, 64);
     state.clip_plane_count = 1;
     state.clip_planes[0] = {1, 0, 0, 0};

@@ -1,3 +1,5 @@
+// Tests clipping by properties of its result: shared sides stay bit-identical, a ground plane has no cracks, and
+// attributes stay linear.
 #include "rasterizer/set_up/clip.h"
 
 #include <algorithm>
@@ -46,7 +48,7 @@ using namespace strata::rasterizer;
 constexpr int window_size = 64;
 constexpr float near_plane = 0.5f, far_plane = 40.0f;
 
-// The ground y = -1 seen from the origin along -z, 90 degrees, as a grid that surrounds the eye: w runs from -30 to 30.
+// The ground y = -1 seen from the origin along -z, 90 degrees, as a grid around the eye: w is from -30 to 30.
 [[nodiscard]] TriangleSoup ground(Random& random) {
     constexpr int cells = 7;
     TriangleSoup soup;
@@ -74,7 +76,7 @@ struct Cracks {
     std::uint64_t inside = 0, holes = 0, doubled = 0;
 };
 
-// Whether the ground is visible through the window point: -1 not, +1 yes. y down.
+// Whether the ground is visible at the window point: -1 not, +1 visible. y down.
 [[nodiscard]] int ground_at(double px, double py, bool z_is_clipped) {
     const double nx = px / (window_size / 2.0) - 1, ny = 1 - py / (window_size / 2.0);
     if (ny >= 0) return -1;
@@ -93,7 +95,7 @@ struct Cracks {
     for (int y = 0; y < window_size; ++y)
         for (int x = 0; x < window_size; ++x) {
             const int n = count[static_cast<std::size_t>(y * window_size + x)];
-            int corners = 0;  // the pixel and a margin around it
+            int corners = 0;  // corners of the pixel enlarged by a margin
             for (const double dx : {-0.5, 1.5})
                 for (const double dy : {-0.5, 1.5}) corners += ground_at(x + dx, y + dy, z_is_clipped);
             result.doubled += n > 1 ? 1 : 0;
@@ -105,7 +107,7 @@ struct Cracks {
 
 }  // namespace
 
-TEST_CASE("two triangles that share a side share its clipped corners to the bit, whichever way they walk it") {
+TEST_CASE("two triangles that share a side have bit-identical clipped corners on it in either direction") {
     constexpr std::uint64_t seed = 101;
     Random random{seed};
     std::uint64_t cut_sides = 0, different = 0;
@@ -114,7 +116,7 @@ TEST_CASE("two triangles that share a side share its clipped corners to the bit,
         for (int n = 0; n < 3000; ++n) {
             const auto vertex = [&] { return random_vertex(random, SoupKind::needs_clipping); };
             const ClipVertex a = vertex(), b = vertex(), c = vertex(), d = vertex();
-            // What a side keeps is what clipping the thin triangle (a, b, b) leaves.
+            // The corners that clipping the degenerate triangle (a, b, b) leaves are those of the side.
             const ClipPolygon side = clipped(clipper, a, b, b), left = clipped(clipper, a, b, c),
                               right = clipped(clipper, b, a, d);
             for (int i = 0; i < side.count; ++i) {
@@ -130,7 +132,7 @@ TEST_CASE("two triangles that share a side share its clipped corners to the bit,
     CHECK(different == 0);
 }
 
-TEST_CASE("a shared corner is the same to the bit even where its values almost cancel") {
+TEST_CASE("a shared corner is bit-identical even where its values almost cancel") {
     Random random{107};
     RasterState state = scene_state(64, 64);
     state.clip_plane_count = 1;
@@ -138,7 +140,7 @@ TEST_CASE("a shared corner is the same to the bit even where its values almost c
     const Clipper clipper{state, {}};
     std::uint64_t different = 0;
     for (int n = 0; n < 4000; ++n) {
-        // Multiples of x but for their rounding: on the plane x = 0 only that rounding is left of them.
+        // Multiples of x except for their rounding: on the plane x = 0 only the rounding errors remain.
         const float x_in = random_float(random, 1, 2), x_out = -random_float(random, 1, 2),
                     k = random_float(random, 1, 2);
         const ClipVertex in{x_in, 0.25f, 0, 4, {k * x_in, x_in / k, 1, 1}, {}, {}};
@@ -146,12 +148,12 @@ TEST_CASE("a shared corner is the same to the bit even where its values almost c
         const ClipVertex third{0.5f, 1, 0, 2, {}, {}, {}}, other{0.5f, -1, 0, 2, {}, {}, {}};
         const ClipPolygon one = clipped(clipper, in, out, third), two = clipped(clipper, out, in, other);
         REQUIRE(one.count == 4);
-        different += contains(two, one.corner[1]) ? 0 : 1;  // corner 0 is `in`, corner 1 lies on the shared side
+        different += contains(two, one.corner[1]) ? 0 : 1;  // corner 0 is `in`, corner 1 is on the shared side
     }
     CHECK(different == 0);
 }
 
-TEST_CASE("a ground around the eye has no cracks, by near plane, w, guard band and user planes") {
+TEST_CASE("a ground around the eye has no cracks after clipping by any combination of planes") {
     constexpr std::uint64_t seed = 102;
     Random random{seed};
     for (int n = 0; n < 12; ++n) {
@@ -169,7 +171,7 @@ TEST_CASE("a ground around the eye has no cracks, by near plane, w, guard band a
     }
 }
 
-TEST_CASE("a user plane and its opposite part a mesh without overlap") {
+TEST_CASE("a user plane and its opposite divide a mesh without overlap") {
     Random random{103};
     const TriangleSoup soup = ground(random);
     std::vector<int> count(window_size * window_size, 0), whole(window_size * window_size, 0);
@@ -181,13 +183,13 @@ TEST_CASE("a user plane and its opposite part a mesh without overlap") {
     add(state, whole);
     state.clip_plane_count = 1;
     for (const float side : {1.0f, -1.0f}) {
-        state.clip_planes[0] = {side, 0, 0, side * 0.171875f};  // x / w = -11/64: on no pixel centre
+        state.clip_planes[0] = {side, 0, 0, side * 0.171875f};  // x / w = -11/64, which is at no pixel centre
         add(state, count);
     }
     CHECK(count == whole);
 }
 
-TEST_CASE("a new corner lies on its plane to the bit: at the near plane window z is exactly n") {
+TEST_CASE("a new corner is exactly on its plane and at the near plane window z is exactly n") {
     Random random{104};
     const Clipper clipper{scene_state(64, 64), {}};
     std::uint64_t corners = 0, wrong = 0;
@@ -199,7 +201,7 @@ TEST_CASE("a new corner lies on its plane to the bit: at the near plane window z
             const ClipVertex& v = polygon.corner[static_cast<std::size_t>(i)];
             wrong += v.w < least_w ? 1 : 0;
             if (same(v, a) || same(v, b) || same(v, c) || v.w < 0x1p-7f)
-                continue;  // far out the guard band may have cut it
+                continue;  // far out the guard band may have clipped it
             ++corners;
             wrong += v.z != -v.w && v.z != v.w ? 1 : 0;
         }
@@ -208,7 +210,7 @@ TEST_CASE("a new corner lies on its plane to the bit: at the near plane window z
     CHECK(wrong == 0);
 }
 
-TEST_CASE("attributes of new corners are linear in clip space, and equal values stay equal to the bit") {
+TEST_CASE("attributes of new corners are linear in clip space and equal values stay bit-identical") {
     Random random{105};
     const Clipper clipper{scene_state(64, 64), {}};
     std::uint64_t corners = 0, wrong = 0;
@@ -232,8 +234,7 @@ TEST_CASE("attributes of new corners are linear in clip space, and equal values 
     CHECK(wrong == 0);
 }
 
-TEST_CASE(
-    "triangles behind the eye and (0,0,0,0) are outside, one such vertex is cut off or drops the triangle by rule") {
+TEST_CASE("triangles behind the eye are outside and a vertex at zero is clipped or drops the triangle") {
     const ClipVertex a{-1, -1, 0, 1, {}, {}, {}}, b{1, -1, 0, 1, {}, {}, {}}, zero{0, 0, 0, 0, {}, {}, {}};
     const ClipVertex behind{0, 1, 0, -1, {}, {}, {}}, tiny{0, 0, 0, 0x1p-70f, {}, {}, {}};
     RasterState state = scene_state(32, 32);
@@ -256,7 +257,7 @@ TEST_CASE(
     CHECK(counters({a, b, {0, 1, 0, 1, {}, {}, {}}}, WClip::drop).outside == 0);
 }
 
-TEST_CASE("far outside the window positions are clipped to the guard band, never wrapped") {
+TEST_CASE("far outside the window positions are clipped to the guard band and never wrap around") {
     Random random{106};
     std::uint64_t wrong = 0, pieces = 0;
     for (const int guard : {64, 1000, 32768})

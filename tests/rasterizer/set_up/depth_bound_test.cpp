@@ -1,4 +1,5 @@
-// Model: the fragments themselves: none of random triangles lies beyond the bound of its triangle, and some come close.
+// Tests the depth bounds of random triangles against their fragments: none is beyond its triangle's bound, and some
+// come close.
 #include "rasterizer/set_up/depth_bound.h"
 
 #include <catch2/catch.hpp>
@@ -23,7 +24,8 @@ float greatest_z(const Geometry& geometry, std::span<const std::uint32_t> triang
     return greatest;
 }
 
-// Of triangles that have fragments: how many, and how many bounds lie before a fragment or close behind the last one.
+// Over triangles that have fragments: their number, and how many bounds are before a fragment or close behind the last
+// one.
 struct BoundTally {
     int beyond = 0, close = 0, drawn = 0;
 };
@@ -41,7 +43,7 @@ void compare_bounds(const Geometry& geometry, BoundTally& tally) {
 
 }  // namespace
 
-TEST_CASE("no fragment lies behind the depth bound of its triangle, and the bound is seldom far behind the fragments") {
+TEST_CASE("no fragment is behind the depth bound of its triangle and the bound is seldom far behind the fragments") {
     BoundTally tally;
     for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective, SoupKind::needs_clipping})
         for (const PlaneOrigin origin : {PlaneOrigin::snapped, PlaneOrigin::unsnapped})
@@ -58,7 +60,7 @@ TEST_CASE("no fragment lies behind the depth bound of its triangle, and the boun
     CHECK(tally.close > tally.drawn / 2);
 }
 
-TEST_CASE("no fragment lies behind the bound of a plane that is stepped in binary32, and few bounds are far behind") {
+TEST_CASE("no fragment is behind the bound of a plane stepped in binary32 and few bounds are far behind") {
     BoundTally tally;
     for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective, SoupKind::needs_clipping})
         for (const PlaneRule plane :
@@ -77,8 +79,8 @@ TEST_CASE("no fragment lies behind the bound of a plane that is stepped in binar
     CHECK(tally.close > tally.drawn / 3);
 }
 
-// Their area is a small difference of large products: a slope is off by many units.
-TEST_CASE("no fragment of a sliver lies behind the bound of a plane that is stepped in binary32") {
+// Their area is a small difference of large products, so a slope is wrong by many units.
+TEST_CASE("no fragment of a sliver is behind the bound of a plane stepped in binary32") {
     Random random{904};
     TriangleSoup soup;
     for (std::uint32_t i = 0; i < 3 * 200; ++i) {
@@ -100,9 +102,9 @@ TEST_CASE("no fragment of a sliver lies behind the bound of a plane that is step
     CHECK(tally.drawn > 300);
 }
 
-// Corners at 0, 2000 and 4000 on a diagonal, the last a subpixel beside it: an area of 7.8 of products of 8,000,000 may
-// be off by all of itself in binary32, and so may the slope.
-TEST_CASE("a sliver whose area binary32 does not know has no bound") {
+// Corners at 0, 2000 and 4000 on a diagonal, the last a subpixel off it: the area, 7.8 from products of 8,000,000, may
+// be completely wrong in binary32, and so may the slope.
+TEST_CASE("a sliver whose area is unknown in binary32 has no bound") {
     const std::uint32_t only = 0;
     for (const int beside : {1, 4000}) {
         const SetupTriangle sliver =
@@ -114,7 +116,7 @@ TEST_CASE("a sliver whose area binary32 does not know has no bound") {
     }
 }
 
-TEST_CASE("the bound of several triangles is the greatest of theirs, and of none it is below every depth") {
+TEST_CASE("the bound of several triangles is their greatest and the bound of none is below every depth") {
     const Geometry geometry = set_up(random_soup(901, 20, SoupKind::perspective), scene_state(40, 40), {}, 1);
     double greatest = -std::numeric_limits<double>::infinity();
     CHECK(depth_bound(geometry, {}) == greatest);
@@ -124,7 +126,7 @@ TEST_CASE("the bound of several triangles is the greatest of theirs, and of none
     CHECK(depth_bound(geometry, geometry.all_triangles) <= greatest + 0x1p-18);
 }
 
-TEST_CASE("the bound is in depths from 0 to 1 where vertex depth counts the codes of a buffer") {
+TEST_CASE("the bound is a depth from 0 to 1 where vertex depth is in codes of a buffer") {
     int beyond = 0, far_off = 0, drawn = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d32f}) {
         RasterState state = scene_state(61, 47);
@@ -148,8 +150,8 @@ TEST_CASE("the bound is in depths from 0 to 1 where vertex depth counts the code
 }
 
 TEST_CASE(
-    "a plane through unsnapped corners is bounded by as far as cutting or rounding moves a corner, along its slope") {
-    // z = x / 16 per pixel: a fragment strays past its corners by at most the snap, and a bound allows for all of it.
+    "a plane through unsnapped corners is bounded by as far as truncation or rounding moves a corner along its slope") {
+    // z = x / 16 per pixel: a fragment is outside of its corners by at most the snap distance, which a bound includes.
     for (const Snap snap : {Snap::toward_zero, Snap::nearest_even})
         for (const int bits : {4, 8}) {
             const RasterRules rules{.subpixel_bits = bits, .snap = snap, .plane_origin = PlaneOrigin::unsnapped};

@@ -1,5 +1,5 @@
-// The model: a triangle's fate by definition, from its own vertices; the general way of set-up against the one for
-// small triangles.
+// Tests the outcome of each triangle (drawn, or the reason why not) against its definition from the triangle's own
+// vertices, and the path for small triangles against the general path.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <set>
@@ -62,7 +62,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("every source triangle has one fate: it is drawn, or counted once among those that are not") {
+TEST_CASE("every source triangle has one outcome and is drawn or counted once among those that are not") {
     const TriangleSoup soup = mixed_soup(631, 600);
     std::uint64_t wrong = 0;
     std::array<std::uint64_t, 5> seen{};
@@ -83,8 +83,8 @@ TEST_CASE("every source triangle has one fate: it is drawn, or counted once amon
     for (const std::uint64_t count : seen) CHECK(count > 100);
 }
 
-TEST_CASE("small triangles are set up as the general way sets them up, box, facing, order and counts") {
-    // Polygon offset, even one of 0, takes every triangle the general way.
+TEST_CASE("small triangles get the same records and counts as on the general path") {
+    // Polygon offset, even an offset of 0, forces the general path.
     const TriangleSoup soup = mixed_soup(632, 900);
     std::uint64_t wrong = 0, triangles = 0;
     for (const RasterState& state : fate_states())
@@ -107,9 +107,7 @@ TEST_CASE("small triangles are set up as the general way sets them up, box, faci
     CHECK(wrong == 0);
 }
 
-TEST_CASE(
-    "a triangle's box holds the pixels of the viewport whose centres lie between its outermost corners, and no "
-    "others") {
+TEST_CASE("a triangle's box has exactly the pixels of the viewport whose centres are between its outermost corners") {
     const TriangleSoup soup = mixed_soup(633, 600);
     RasterState state;
     state.viewport = {11, 5, 81, 55};
@@ -142,7 +140,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a colour over w that is not finite drops the triangle on the side that shows it, and on no other") {
+TEST_CASE("a colour over w that is not finite drops the triangle only on the side that shows it") {
     for (const bool reversed : {false, true})
         for (const bool bad_front : {false, true})
             for (const float size : {0.02f, 1.0f}) {  // few pixels, or many
@@ -158,8 +156,7 @@ TEST_CASE("a colour over w that is not finite drops the triangle on the side tha
             }
 }
 
-TEST_CASE(
-    "a clipped triangle counts as clipped if a piece is kept or culled, and as outside if nothing of it is left") {
+TEST_CASE("a clipped triangle counts as clipped if a piece is kept or culled and as outside if nothing is left") {
     const auto counters = [](const std::vector<ClipVertex>& v, CullFace cull = CullFace::none) {
         TriangleSoup soup = fate_soup(v);
         soup.runs[0].double_sided = false;
@@ -172,14 +169,14 @@ TEST_CASE(
     const std::vector<ClipVertex> across{fate_vertex(-0.5f, -0.5f), fate_vertex(0.5f, -0.5f), fate_vertex(0.25f, 0.5f)};
     CHECK(counters(across) == SetupCounters{.triangles_in = 1, .clipped = 1});
     CHECK(counters(across, CullFace::front) == SetupCounters{.triangles_in = 1, .culled = 1, .clipped = 1});
-    // What is left of it lies between pixel centres.
+    // The remaining piece is between pixel centres.
     const std::vector<ClipVertex> barely{fate_vertex(-0.5f, 0.1f), fate_vertex(0.01f, 0.11f), fate_vertex(-0.5f, 0.2f)};
     CHECK(counters(barely) == SetupCounters{.triangles_in = 1, .outside = 1});
     const std::vector<ClipVertex> beyond{fate_vertex(-0.5f, 0.1f), fate_vertex(-0.1f, 0.1f), fate_vertex(-0.5f, 0.2f)};
     CHECK(counters(beyond) == SetupCounters{.triangles_in = 1, .outside = 1});
 }
 
-TEST_CASE("a clipped triangle of which any piece is drawn is kept, whatever becomes of its other pieces") {
+TEST_CASE("a clipped triangle is kept if any piece is drawn regardless of its other pieces") {
     Random random{634};
     std::uint64_t wrong = 0, in_parts = 0, slivers = 0;
     for (int n = 0; n < 4000; ++n) {
@@ -193,14 +190,14 @@ TEST_CASE("a clipped triangle of which any piece is drawn is kept, whatever beco
         state.clip_planes[0] = {1, 0, 0, 1};
         state.clip_planes[1] = {0, 1, 0, 1};
         const Geometry g = set_up(fate_soup(v), state, {.guard_band_px = 6}, 1);
-        // A sliver of which every piece snaps to no area is degenerate, and clipped all the same.
+        // A sliver whose pieces all snap to no area is degenerate, and is also counted as clipped.
         const SetupCounters kept{.triangles_in = 1, .clipped = 1}, outside{.triangles_in = 1, .outside = 1},
             sliver{.triangles_in = 1, .clipped = 1, .degenerate = 1},
             between{.triangles_in = 1, .clipped = 1, .uncovered = 1};
         const bool is_lost = g.counters == outside || g.counters == sliver || g.counters == between;
         const bool is_right = g.triangles.empty() ? is_lost : g.counters == kept;
         slivers += g.counters == sliver ? 1 : 0;
-        if (g.counters.clipped == 0 && !g.triangles.empty()) continue;  // nothing cut it
+        if (g.counters.clipped == 0 && !g.triangles.empty()) continue;  // not clipped
         in_parts += g.triangles.size() > 1 ? 1 : 0;
         wrong += is_right ? 0 : 1;
     }
@@ -210,7 +207,7 @@ TEST_CASE("a clipped triangle of which any piece is drawn is kept, whatever beco
 }
 
 TEST_CASE(
-    "window positions are taken as they are: snapped, held to the guard band, z untouched, w for attributes alone") {
+    "window positions are snapped and limited to the guard band with z unchanged and w used for attributes only") {
     RasterState state;
     state.viewport = {10, 20, 74, 68};
     state.window_positions = true;

@@ -1,5 +1,5 @@
-// The model: set-up of one triangle after the other by the scalar reference, and edge functions in 64 bits at every
-// centre of a box.
+// Tests set-up of sixteen triangles at once against one triangle after the other by the scalar reference, and against
+// edge functions in 64 bits at every centre of a box.
 #include "rasterizer/set_up/plain_triangles.h"
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ using namespace strata::rasterizer;
            a.is_tiny == b.is_tiny && a.negative_w == b.negative_w && a.covered == b.covered;
 }
 
-// Of any winding: positive, or on a side that takes its ties.
+// For either winding: the edge value is positive, or 0 on a side that includes its ties.
 [[nodiscard]] bool covers_by_model(std::array<SubpixelPoint, 3> p, SubpixelPoint centre, TieRule rule) {
     const auto side = [](SubpixelPoint a, SubpixelPoint b, SubpixelPoint c) {
         return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
@@ -37,7 +37,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("sixteen plain triangles at once become the records and counts of one after the other, on every set",
+TEST_CASE("sixteen plain triangles at once give the records and counts of one after the other on every instruction set",
           "[slow]") {
     std::uint64_t wrong = 0, tiny = 0, others = 0;
     for (const DenseCase& dense : dense_cases()) {
@@ -58,8 +58,7 @@ TEST_CASE("sixteen plain triangles at once become the records and counts of one 
     CHECK(others > 1'000);
 }
 
-TEST_CASE("sixteen triangles of float spans at once become the records and counts of one after the other, on every set",
-          "[slow]") {
+TEST_CASE("sixteen triangles of float spans at once give the records of one after the other on every set", "[slow]") {
     std::uint64_t wrong = 0, uncovered = 0, kept = 0;
     for (DenseCase dense : dense_cases()) {
         dense.rules.coverage = CoverageRule::float_spans;
@@ -83,8 +82,7 @@ TEST_CASE("sixteen triangles of float spans at once become the records and count
 }
 
 TEST_CASE(
-    "float spans of a side whose slope is infinite are set up one after the other, and of an infinite 1 / area, not at "
-    "all") {
+    "float spans with a side of infinite slope are set up singly and those with an infinite 1 / area not at all") {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 3 * TriangleGroup::size; ++i) indices.push_back(i % 3);
     std::array<WindowCorner, 3> corners{};
@@ -116,7 +114,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a run whose indices are lent is set up as one whose indices are the soup's, on every set", "[slow]") {
+TEST_CASE("a run whose indices are borrowed is set up like one with the soup's indices on every instruction set",
+          "[slow]") {
     std::uint64_t wrong = 0, triangles = 0;
     for (const DenseCase& dense : dense_cases()) {
         TriangleSoup lent = dense.soup;
@@ -143,12 +142,11 @@ TEST_CASE("a run whose indices are lent is set up as one whose indices are the s
 }
 
 TEST_CASE(
-    "a tiny triangle's record holds the pixels that it covers, and one that covers none has no record, and is counted",
+    "a tiny triangle's record has the pixels that it covers and one that covers none has no record and is counted",
     "[slow]") {
     std::uint64_t wrong = 0, covered = 0, empty = 0;
     for (const DenseCase& dense : dense_cases()) {
-        if (dense.state.cull != CullFace::none)
-            continue;  // every triangle that is small enough has a record but for this
+        if (dense.state.cull != CullFace::none) continue;  // only culling leaves a small triangle without a record
         const Geometry g = set_up(dense.soup, dense.state, dense.rules, 1);
         std::vector<const TriangleRecord*> record(dense.soup.indices.size() / 3);
         for (const TriangleRecord& t : g.triangles) record[t.primitive] = &t;
@@ -157,7 +155,7 @@ TEST_CASE(
             std::array<SubpixelPoint, 3> p;
             for (std::size_t k = 0; k < 3; ++k) p[k] = g.corners[dense.soup.indices[3 * i + k]].p;
             const Rect box = intersection(centre_box(p, g.rules.subpixel_bits), g.state.viewport);
-            const bool is_small = std::max(box.width(), box.height()) <= tiny_size;  // no corners here lie far apart
+            const bool is_small = std::max(box.width(), box.height()) <= tiny_size;  // no corners here are far apart
             if (box.area() == 0 || Edge{p[0], p[1]}.at(p[2]) == 0) continue;
             wrong += record[i] != nullptr && record[i]->is_tiny != is_small ? 1 : 0;
             if (!is_small) continue;
@@ -178,7 +176,7 @@ TEST_CASE(
     CHECK(empty > 1'000);
 }
 
-TEST_CASE("a thin triangle that reaches far beyond the viewport is not tiny, however few of its pixels are in it") {
+TEST_CASE("a thin triangle that extends far beyond the viewport is not tiny even if it has few pixels inside") {
     TriangleSoup soup;
     for (const auto& [x, y] : std::array<std::array<float, 2>, 3>{{{0.98f, -0.01f}, {90.0f, 0.0f}, {90.0f, 0.01f}}})
         soup.vertices.push_back({.x = x, .y = y});

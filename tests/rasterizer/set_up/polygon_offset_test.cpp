@@ -1,4 +1,5 @@
-// The model: o = m factor + r units over rationals, m the larger slope of the plane per pixel.
+// Tests polygon offset against o = m factor + r units in rational arithmetic, where m is the larger slope of the plane
+// per pixel.
 #include "rasterizer/set_up/polygon_offset.h"
 
 #include <catch2/catch.hpp>
@@ -32,7 +33,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("the slope of polygon offset is the larger window slope, within 2^-49 of the rational one") {
+TEST_CASE("the slope of polygon offset is the larger window slope within 2^-49 of the rational one") {
     constexpr std::uint64_t seed = 81;
     Random random{seed};
     std::uint64_t wrong = 0;
@@ -44,7 +45,7 @@ TEST_CASE("the slope of polygon offset is the larger window slope, within 2^-49 
         const std::array z{random_float(random, 0, 1), random_float(random, 0, 1), random_float(random, 0, 1)};
         const Rational exact = model_slope(p, z, bits);
         const Rational found{largest_slope(p, {z[0], z[1], z[2]}, bits)};
-        // relative to the two products of a component, which may cancel
+        // The tolerance is relative to the two products of a component, which may cancel.
         Rational reach = 0;
         for (std::size_t i = 1; i < 3; ++i)
             for (std::size_t k = 1; k < 3; ++k)
@@ -77,7 +78,7 @@ TEST_CASE("a unit is one code of a fixed-point format and 2^(e - 23) of a float 
     CHECK(only_offset(state, {.offset_unit = OffsetUnit::float_exponent}, {0, .5f, .25f}) == 3 * 0x1p-24);
 }
 
-TEST_CASE("a unit of differences is 1.01 / 65535 of D16, else of the first depth and of two differences from it") {
+TEST_CASE("a unit of differences is 1.01 / 65535 for D16 and else comes from depths and their differences") {
     const RasterRules rules{.offset_unit = OffsetUnit::differences};
     RasterState state;
     state.polygon_offset = {true, 0.0f, 3.0f};
@@ -85,7 +86,8 @@ TEST_CASE("a unit of differences is 1.01 / 65535 of D16, else of the first depth
     CHECK(only_offset(state, rules, {0, .5f, 1}) == 3 * double{1.01f / 65535.0f});
     for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f}) {
         state.depth_format = format;
-        CHECK(only_offset(state, rules, {.75f, .75f, .5f}) == 3 * 0x1p-24);  // 0.5 and 0.25 of the middle, and 0.75
+        // Units of 0.5 and 0.25 of the middle depth, and of 0.75.
+        CHECK(only_offset(state, rules, {.75f, .75f, .5f}) == 3 * 0x1p-24);
         state.clip_depth = ClipDepth::zero_to_one;
         CHECK(only_offset(state, rules, {.25f, .9f, .9f}) == 3 * 0x1p-24);  // 0.65
         CHECK(only_offset(state, rules, {.25f, .625f, .6f}) == 3 * 0x1p-25);
@@ -97,7 +99,7 @@ TEST_CASE("a unit of differences is 1.01 / 65535 of D16, else of the first depth
     }
 }
 
-TEST_CASE("a zero factor leaves out a slope that is not finite") {
+TEST_CASE("a zero factor ignores a slope that is not finite") {
     RasterState state;
     state.depth_format = DepthFormat::d24;
     state.polygon_offset = {true, 0.0f, 1.0f};
@@ -105,7 +107,7 @@ TEST_CASE("a zero factor leaves out a slope that is not finite") {
     CHECK(polygon_offset(sliver, {-3e38f, 3e38f, 3e38f}, state, {.subpixel_bits = 12}) == 1.0 / 16777215);
 }
 
-TEST_CASE("polygon offset moves every fragment's depth by the same amount, and only its depth") {
+TEST_CASE("polygon offset moves every fragment's depth by the same amount and nothing else") {
     Random random{82};
     const TriangleSoup soup = random_soup(83, 40, SoupKind::perspective);
     RasterState state = scene_state(32, 32);
@@ -120,13 +122,13 @@ TEST_CASE("polygon offset moves every fragment's depth by the same amount, and o
         if (plain[i].code > 16777000) continue;
         ++compared;
         const std::uint32_t step = moved[i].code - plain[i].code;
-        wrong += step < 99 || step > 101 ? 1 : 0;  // a boundary may lie between the two roundings
+        wrong += step < 99 || step > 101 ? 1 : 0;  // a rounding boundary may be between the two depths
     }
     CHECK(compared > 1000);
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the offset is slope times factor plus units, in the units of vertex z of every format and convention") {
+TEST_CASE("the offset is slope times factor plus units in the units of vertex z of every format and convention") {
     Random random{84};
     std::uint64_t wrong = 0, cases = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f})
@@ -139,7 +141,7 @@ TEST_CASE("the offset is slope times factor plus units, in the units of vertex z
                 state.depth_format = format;
                 state.polygon_offset = {true, random_float(random, -4, 4), random_float(random, -50, 50)};
                 const bool scaled = convention == WindowZ::buffer_units && format != DepthFormat::d32f;
-                // One code of the format: d16f has 65,535 of them up to 511.9375, whatever their distances.
+                // One code of the format: d16f has 65,535 of them up to 511.9375, regardless of their spacing.
                 const Rational codes = format == DepthFormat::d24 ? 16777215 : 65535;
                 const Rational depth_1 = !scaled                       ? Rational{1}
                                          : format == DepthFormat::d16f ? Rational{8191, 16}
@@ -159,7 +161,7 @@ TEST_CASE("the offset is slope times factor plus units, in the units of vertex z
     CHECK(wrong == 0);
 }
 
-TEST_CASE("an offset beyond 2^64 is 2^64, either way") {
+TEST_CASE("an offset beyond 2^64 is 2^64 with its sign") {
     RasterState state;
     state.depth_format = DepthFormat::d24;
     state.polygon_offset = {true, 0.0f, 1e30f};
@@ -168,7 +170,7 @@ TEST_CASE("an offset beyond 2^64 is 2^64, either way") {
     CHECK(only_offset(state, {.window_z = WindowZ::buffer_units}, {0, 1e7f, 0}) == -0x1p64);
 }
 
-TEST_CASE("set-up adds a triangle's offset to the depth of its three corners, and to no vertex that others share") {
+TEST_CASE("set-up adds a triangle's offset to the depth of its three corners and not to shared vertices") {
     TriangleSoup soup = random_soup(85, 60, SoupKind::perspective);
     for (TriangleRun& run : soup.runs) run.double_sided = true;
     for (std::size_t i = 3; i < soup.indices.size(); i += 3) soup.indices[i] = soup.indices[i - 1];
@@ -235,7 +237,7 @@ constexpr DrawnOffset drawn_offsets[]{
     return rules;
 }
 
-// The depth that the rasterizer hands out at one pixel; NaN where it draws nothing.
+// The depth that the rasterizer returns at one pixel; NaN where it draws nothing.
 [[nodiscard]] float depth_at(const DrawnOffset& drawn, const RasterRules& rules) {
     TriangleSoup soup;
     for (const auto& [x, y, z] : drawn.corner) {
@@ -260,7 +262,7 @@ constexpr DrawnOffset drawn_offsets[]{
 
 }  // namespace
 
-TEST_CASE("under stepped planes the offset has the roundings of the drivers: what they stored, bit for bit") {
+TEST_CASE("with stepped planes the offset gives bit for bit the depths that the drivers stored") {
     for (const DrawnOffset& drawn : drawn_offsets) {
         INFO("pixel " << drawn.x << ", " << drawn.y << ", factor " << drawn.offset.factor);
         CHECK(std::bit_cast<std::uint32_t>(depth_at(drawn, mesa_rules(PlaneRule::least_corner))) == drawn.bits[0]);

@@ -1,5 +1,5 @@
-// The model: the corners of the frame of one sample, and at every sample of every pixel exact edges with the top-left
-// rule and exact planes, in rationals.
+// Tests samples against the corners of the frame of one sample, and, at every sample of every pixel, exact edges with
+// the top-left rule and exact planes in rationals.
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -22,13 +22,13 @@ constexpr int sampled_width = 24, sampled_height = 20;
     return state;
 }
 
-// Sample `s` of pixel (x, y) in subpixels.
+// Position of sample `s` of pixel (x, y) in subpixels.
 [[nodiscard]] SubpixelPoint model_sample(int x, int y, const SamplePoint& s, int subpixel_bits) {
     const int unit = 1 << subpixel_bits;
     return {x * unit + s.x * unit / 16, y * unit + s.y * unit / 16};
 }
 
-// Twice the area on the inner side of each edge, and whether the point is the triangle's own.
+// Twice the area on the inner side of each edge, and whether the point belongs to the triangle.
 struct ModelPoint {
     std::array<Rational, 3> weight;
     bool is_covered = true;
@@ -39,7 +39,7 @@ struct ModelPoint {
     for (std::size_t i = 0; i < 3; ++i) {
         const SubpixelPoint a = p[(i + 1) % 3], b = p[(i + 2) % 3];
         const Integer side = area > 0 ? doubled_area(a, b, at) : Integer{-doubled_area(a, b, at)};
-        // Rows go down: walked clockwise, a left side goes up, and a top side right.
+        // Rows increase downwards: on the clockwise outline a left side goes up, and a top side right.
         const int dx = area > 0 ? b.x - a.x : a.x - b.x, dy = area > 0 ? b.y - a.y : a.y - b.y;
         const bool owns = dy < 0 || (dy == 0 && dx > 0);
         point.is_covered &= side > 0 || (side == 0 && owns);
@@ -48,7 +48,7 @@ struct ModelPoint {
     return point;
 }
 
-// Of a mesh over the whole viewport and beyond: corners on sixteenths of a pixel, so that samples lie on sides.
+// A mesh over and beyond the whole viewport with corners on sixteenths of a pixel, so that samples are on sides.
 [[nodiscard]] TriangleSoup jittered_grid(std::uint64_t seed, int subpixel_bits) {
     constexpr int columns = 7, rows = 6;
     Random random{seed};
@@ -76,7 +76,7 @@ struct ModelPoint {
 
 }  // namespace
 
-TEST_CASE("coverage, depth and colour of a sample are those of exact edges and planes at its point") {
+TEST_CASE("coverage and depth and colour of a sample are those of exact edges and planes at its point") {
     std::uint64_t wrong = 0, covered = 0;
     for (const int bits : {4, 8, 12})
         for (const SamplePoint sample :
@@ -106,7 +106,7 @@ TEST_CASE("coverage, depth and colour of a sample are those of exact edges and p
     CHECK(covered > 15000);
 }
 
-TEST_CASE("every sample of a closed mesh belongs to one triangle, at all 256 points of a pixel") {
+TEST_CASE("every sample of a closed mesh belongs to one triangle at all 256 points of a pixel") {
     std::uint64_t wrong = 0;
     for (const int bits : {4, 8}) {
         const TriangleSoup soup = jittered_grid(static_cast<std::uint64_t>(71 + bits), bits);
@@ -131,7 +131,7 @@ TEST_CASE("the mean over the points of a pixel tends to a triangle's area") {
     const SetupTriangle triangle = set_up(soup, state_at({}), {}, 1).triangle(0);
     const double area =
         std::abs(doubled_area(triangle.p[0], triangle.p[1], triangle.p[2]).convert_to<double>()) / 2 / 65536;
-    // Between two grids of points lies no more than the sides' length times half a step's diagonal.
+    // The difference between two grids of points is at most the sides' length times half a step's diagonal.
     const double sides = 2.0 * (sampled_width + sampled_height);
     for (const int step : {8, 4, 2, 1}) {
         std::uint64_t covered = 0, points = 0;
@@ -144,7 +144,7 @@ TEST_CASE("the mean over the points of a pixel tends to a triangle's area") {
     }
 }
 
-TEST_CASE("corners move against a sample's way, one by one, sixteen at a time and where clipping made them") {
+TEST_CASE("corners move opposite to the sample whether set up singly or by sixteen or added by clipping") {
     for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective, SoupKind::needs_clipping})
         for (const strata::Simd simd : strata::available_simd())
             for (const SamplePoint sample : {SamplePoint{15, 1}, SamplePoint{0, 8}}) {
@@ -153,8 +153,8 @@ TEST_CASE("corners move against a sample's way, one by one, sixteen at a time an
                 const RasterRules rules{.subpixel_bits = 8};
                 const Geometry centre = set_up(soup, state_at({}), rules, 1),
                                moved = set_up(soup, state_at(sample), rules, 1);
-                // By position before the snap and depth, which no sample changes: clipping makes corners of triangles
-                // alone that are kept.
+                // By position before the snap and by depth, which no sample changes: clipping adds corners only to
+                // triangles that are kept.
                 std::map<std::array<float, 3>, SubpixelPoint> at;
                 for (const WindowCorner& c : centre.corners) at[{c.unsnapped[0], c.unsnapped[1], c.z}] = c.p;
                 std::uint64_t wrong = 0, corners = 0, made = 0;
@@ -174,7 +174,7 @@ TEST_CASE("corners move against a sample's way, one by one, sixteen at a time an
             }
 }
 
-TEST_CASE("a sample beside its pixel is refused") {
+TEST_CASE("a sample outside of its pixel is rejected") {
     const auto refused = [](SamplePoint sample) {
         try {
             check(state_at(sample));

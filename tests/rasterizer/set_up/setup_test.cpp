@@ -1,3 +1,4 @@
+// Tests set-up on single triangles whose expected result is written by hand.
 #include "rasterizer/set_up/setup.h"
 
 #include <bit>
@@ -17,7 +18,7 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 [[nodiscard]] ClipVertex at(float x, float y) { return {x, y, 0, 1, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0}}; }
 
-// Counter-clockwise in the window with y up.
+// Counterclockwise in the window with y up.
 [[nodiscard]] TriangleSoup one_triangle() {
     TriangleSoup soup;
     soup.vertices = {at(-.5f, -.5f), at(.5f, -.5f), at(0, .5f)};
@@ -44,7 +45,7 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE("a triangle with a component that is not finite is dropped, counted and named") {
+TEST_CASE("a triangle with a component that is not finite is dropped and counted and named") {
     const RasterState state = scene_state(16, 16);
     for (const float bad : {no_number, no_end, -no_end})
         for (int field = 0; field < 7; ++field) {
@@ -61,7 +62,7 @@ TEST_CASE("a triangle with a component that is not finite is dropped, counted an
         }
 }
 
-TEST_CASE("what becomes infinite after the divide is dropped and counted too") {
+TEST_CASE("a triangle that becomes infinite after the division is also dropped and counted") {
     TriangleSoup soup = one_triangle();
     for (ClipVertex& v : soup.vertices) {
         v.w = 0x1p-60f;
@@ -74,7 +75,7 @@ TEST_CASE("what becomes infinite after the divide is dropped and counted too") {
     CHECK(set_up(soup, scene_state(16, 16), {}, 1).triangles.size() == 1);
 }
 
-TEST_CASE("facing is the winding in the window, with y up or down, either front face, mirrored or not") {
+TEST_CASE("facing is the winding in the window with y up or down and either front face and mirrored or not") {
     for (const YDirection y : {YDirection::up, YDirection::down})
         for (const FrontFace front : {FrontFace::counter_clockwise, FrontFace::clockwise})
             for (const bool mirrored : {false, true})
@@ -86,7 +87,7 @@ TEST_CASE("facing is the winding in the window, with y up or down, either front 
                     state.y_direction = y;
                     state.front_face = front;
                     const Geometry geometry = set_up(soup, state, {}, 1);
-                    // The window's own y goes up with clip y, wherever memory puts its rows.
+                    // The window's y increases with clip y for any order of rows in memory.
                     const bool expected = (front == FrontFace::counter_clockwise) != (mirrored != reversed);
                     REQUIRE(geometry.triangles.size() == 1);
                     CHECK(geometry.triangles[0].front_facing == expected);
@@ -94,7 +95,7 @@ TEST_CASE("facing is the winding in the window, with y up or down, either front 
                 }
 }
 
-TEST_CASE("single-sided runs are culled by facing, double-sided ones never") {
+TEST_CASE("single-sided runs are culled by facing and double-sided ones never") {
     TriangleSoup soup = one_triangle();
     for (const CullFace cull : {CullFace::none, CullFace::front, CullFace::back, CullFace::front_and_back})
         for (const bool double_sided : {false, true})
@@ -109,7 +110,7 @@ TEST_CASE("single-sided runs are culled by facing, double-sided ones never") {
             }
 }
 
-TEST_CASE("zero area after snapping is degenerate: (0,0)(4,4)(8,8) and triangles below a subpixel") {
+TEST_CASE("a triangle with zero area after snapping is degenerate such as a line or one below a subpixel") {
     const RasterState state = scene_state(16, 16);
     TriangleSoup soup = one_triangle();
     soup.vertices = {at(-1, 1), at(-.5f, .5f), at(0, 0)};
@@ -128,7 +129,7 @@ TEST_CASE("a triangle between pixel centres or beyond the viewport is outside") 
     CHECK(counters_of(soup, state).outside == 1);
 }
 
-TEST_CASE("an order permutes submission and keeps the number of the source") {
+TEST_CASE("an order permutes submission and keeps the index of the source") {
     TriangleSoup soup = random_soup(91, 10, SoupKind::flat);
     for (TriangleRun& run : soup.runs) run.double_sided = true;
     const Geometry listed = set_up(soup, scene_state(64, 64), {}, 1);
@@ -169,7 +170,7 @@ TEST_CASE("the result of set-up does not depend on the number of threads") {
     }
 }
 
-TEST_CASE("every instruction set sets vertices up to the same bits, whatever is wrong with some of them", "[slow]") {
+TEST_CASE("every instruction set sets up vertices to the same bits with any invalid values among them", "[slow]") {
     TriangleSoup soup = random_soup(93, 2000, SoupKind::needs_clipping);
     Random random{94};
     for (int i = 0; i < 300; ++i) {
@@ -180,7 +181,7 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
         *fields[random() % fields.size()] = values[random() % values.size()];
     }
     for (std::size_t i = 0; i < 60;
-         ++i) {  // in the view, too near to the eye; or near, with an attribute that 1 / w makes infinite
+         ++i) {  // in view but too near the eye; or near, with an attribute that 1 / w makes infinite
         ClipVertex* const v = &soup.vertices[3 * 33 * i];
         const float w = i % 2 == 0 ? 0x1p-70f : 0x1p-40f;
         for (std::size_t k = 0; k < 3; ++k) v[k] = {k == 1 ? w : 0, k == 2 ? w : 0, 0, w, {}, {}, {}};

@@ -1,4 +1,5 @@
-// The model: the walk of mesa-rasterizers.md 1.2 over rationals, each operation rounded to binary32 by definition.
+// Tests clipping at the view volume against the algorithm of mesa-rasterizers.md 1.2 in rational arithmetic, each
+// operation rounded to binary32 by definition.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/set_up/clip.h"
@@ -65,7 +66,7 @@ using VertexValues = std::array<float, 14>;
 
 }  // namespace
 
-TEST_CASE("the view volume cuts a triangle into the corners of the rule, in its order, each step rounded", "[slow]") {
+TEST_CASE("the view volume clips a triangle to the corners of the rule in its order with each step rounded", "[slow]") {
     const RasterState state = scene_state(64, 48);
     const Clipper clipper{state, view_volume()};
     Random random{511};
@@ -77,7 +78,7 @@ TEST_CASE("the view volume cuts a triangle into the corners of the rule, in its 
         std::uint32_t any = 0, all = ~0u;
         for (std::size_t i = 0; i < 3; ++i) {
             polygon.corner[i] = random_vertex(random, SoupKind::needs_clipping);
-            // Some corners lie exactly on a plane: those make a corner of their own beside them.
+            // Some corners are exactly on a plane; those add a separate corner next to them.
             if (n % 5 == 0 && i == 0) polygon.corner[i].x = polygon.corner[i].w, ++on_plane;
             given.push_back(std::bit_cast<VertexValues>(polygon.corner[i]));
             any |= clipper.outside(polygon.corner[i]);
@@ -96,7 +97,7 @@ TEST_CASE("the view volume cuts a triangle into the corners of the rule, in its 
         bool same = count == expected.size();
         for (std::size_t i = 0; same && i < count; ++i) {
             same = std::bit_cast<VertexValues>(polygon.corner[i]) == expected[i];
-            // One that clipping made beside a corner on the plane may equal it.
+            // A corner that clipping added next to one on the plane may equal it.
             same &= polygon.is_new[i] || std::ranges::find(given, expected[i]) != given.end();
         }
         wrong += same ? 0 : 1;
@@ -182,7 +183,7 @@ TEST_CASE("depth first, the view volume cuts by near and far before its sides, n
     CHECK(unlike > 300);
 }
 
-TEST_CASE("the fan of a triangle cut by the view volume names its common corner last") {
+TEST_CASE("the fan of a triangle clipped by the view volume has its common corner last") {
     TriangleSoup soup;
     for (const auto& [x, y] : {std::array{-0.5f, -0.5f}, {2.0f, -0.5f}, {-0.5f, 0.5f}}) {
         soup.indices.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
@@ -193,11 +194,11 @@ TEST_CASE("the fan of a triangle cut by the view volume names its common corner 
     REQUIRE(ours.triangles.size() == 2);
     CHECK(ours.triangles[0].vertex[2] == ours.triangles[1].vertex[2]);
     CHECK(ours.triangles[0].vertex[1] == ours.triangles[1].vertex[0]);
-    // The guard band holds this triangle whole.
+    // The guard band contains this triangle, so it is not clipped.
     CHECK(set_up(soup, scene_state(64, 48), {}, 1).triangles.size() == 1);
 }
 
-TEST_CASE("vertices are projected with one rounding or two, and those that clipping made by their own rule", "[slow]") {
+TEST_CASE("vertices are projected with one rounding or two and those that clipping added by their own rule", "[slow]") {
     Random random{512};
     const RasterState state = scene_state(333, 77);
     std::uint64_t wrong = 0, fused_once = 0;
@@ -222,7 +223,7 @@ TEST_CASE("vertices are projected with one rounding or two, and those that clipp
     CHECK(fused_once > 100);
 }
 
-TEST_CASE("a corner that clipping made is projected as such, the others of its polygon as given") {
+TEST_CASE("a corner that clipping added is projected as such and the others of its polygon as given") {
     const ClipVolume volume = GENERATE(ClipVolume::view_volume, ClipVolume::guard_band);
     std::uint64_t unlike = 0, wrong = 0, given = 0;
     RasterRules rules{.clip = volume, .w_divide = WDivide::reciprocal, .viewport = ViewportArithmetic::fused_given};

@@ -1,3 +1,4 @@
+// Tests window positions against the division and the viewport in rational arithmetic, rounded where the rules say so.
 #include "rasterizer/set_up/window.h"
 
 #include <catch2/catch.hpp>
@@ -17,7 +18,7 @@ using namespace strata::rasterizer;
     return state;
 }
 
-// Division by w and the viewport by definition: a rational, rounded where the rule says so.
+// Division by w and the viewport, by definition: a rational, rounded where the rule says so.
 [[nodiscard]] float model_map(float c, float w, float scale, float offset, const RasterRules& rules) {
     const float divided = rules.w_divide == WDivide::quotient
                               ? nearest_float(Rational{c} / Rational{w})
@@ -29,8 +30,8 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, ties to even", "[slow]") {
-    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // the hardware's own cases: coverage.md 4.1
+TEST_CASE("positions are truncated toward zero or rounded to the nearest subpixel with ties to even", "[slow]") {
+    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // cases measured on hardware: coverage.md 4.1
     CHECK(snap(.5625f, 4, Snap::toward_zero) == 9);
     CHECK(snap(-.0624f, 4, Snap::toward_zero) == 0);
     CHECK(snap(2.5f / 16, 4, Snap::nearest_even) == 2);
@@ -53,7 +54,8 @@ TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, tie
 
 namespace {
 
-// swiftshader-rasterizer.md 1.1, to the nearest even subpixel from the centre of the first pixel of the lowest row.
+// swiftshader-rasterizer.md 1.1: rounded to nearest, ties to even, in subpixels from the centre of the first pixel of
+// the lowest row.
 [[nodiscard]] Integer from_lowest_centre(float c, float w, int start, int size, int bits) {
     const Rounded divided = Rounded{c} * (Rounded{1} / Rounded{w});
     const Rounded scale{static_cast<float>(size) / 2}, middle{static_cast<float>(start) + static_cast<float>(size) / 2};
@@ -66,7 +68,7 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("half a pixel is taken off before the rounding, and y is measured from below where the axis is clip space's",
+TEST_CASE("half a pixel is subtracted before the rounding and y is measured from below if the axis is clip space's",
           "[slow]") {
     Random random{33};
     const Rect viewport{17, 5, 17 + 333, 5 + 257};
@@ -105,9 +107,9 @@ TEST_CASE("half a pixel is taken off before the rounding, and y is measured from
     CHECK(turned > 0);
 }
 
-TEST_CASE("half a pixel taken off first decides a position that rounds to the middle of two subpixels after it only") {
-    // Above 1024 the unit in the last place is 2^-13: 1024 + 3/32 - 2^-14 rounds up to a tie of sixteenths. Below it
-    // there is room.
+TEST_CASE("subtracting half a pixel first changes a position that otherwise rounds to the middle of two subpixels") {
+    // Above 1024 the unit in the last place is 2^-13: 1024 + 3/32 - 2^-14 rounds up to a tie of sixteenths. Below 1024
+    // it is exact.
     const RasterState state = state_of({960, 0, 1088, 64});
     const auto snapped = [&](float x, ViewportArithmetic arithmetic) {
         const WindowTransform window{state, {.subpixel_bits = 4, .viewport = arithmetic}};
@@ -121,7 +123,7 @@ TEST_CASE("half a pixel taken off first decides a position that rounds to the mi
     CHECK(snapped(3.0f / 32, half_pixel_first) == 1024 * 16 + 2);
 }
 
-TEST_CASE("a vertex that may lie anywhere counts as the least number beyond 32 bits, and its w of 0 as 1") {
+TEST_CASE("a vertex out of the 32-bit range is set to the least integer and its w of 0 to 1") {
     const WindowTransform window{state_of({0, 0, 64, 64}), {.subpixel_bits = 4, .w_divide = WDivide::reciprocal}};
     const auto at = [&](float x, float w) {
         ClipVertex v;
@@ -138,7 +140,7 @@ TEST_CASE("a vertex that may lie anywhere counts as the least number beyond 32 b
     CHECK(at(std::numeric_limits<float>::quiet_NaN(), 1.0f) == least);
 }
 
-TEST_CASE("window positions that are given have neither half a pixel taken off nor another axis") {
+TEST_CASE("given window positions are not offset by half a pixel and their axis is not reversed") {
     RasterState state = state_of({0, 0, 64, 64});
     state.window_positions = true;
     const WindowTransform window{
@@ -151,7 +153,7 @@ TEST_CASE("window positions that are given have neither half a pixel taken off n
     CHECK_FALSE(window.is_turned());
 }
 
-TEST_CASE("window positions are the rounded operations of the rule, for every divide and viewport arithmetic",
+TEST_CASE("window positions are the rounded operations of the rule for every division and viewport arithmetic",
           "[slow]") {
     constexpr std::uint64_t seed = 32;
     Random random{seed};
@@ -182,10 +184,10 @@ TEST_CASE("window positions are the rounded operations of the rule, for every di
             }
     INFO("seed " << seed);
     CHECK(wrong == 0);
-    CHECK(differences > 1000);  // the knobs matter
+    CHECK(differences > 1000);  // the rules give different results
 }
 
-TEST_CASE("fused viewport arithmetic rounds once, where two roundings would meet a tie", "[slow]") {
+TEST_CASE("fused viewport arithmetic rounds once where two roundings would meet a tie", "[slow]") {
     Random random{33};
     std::uint64_t wrong = 0, twice = 0;
     for (int n = 0; n < 20000; ++n) {
@@ -200,7 +202,7 @@ TEST_CASE("fused viewport arithmetic rounds once, where two roundings would meet
     CHECK(twice > 0);
 }
 
-TEST_CASE("window positions beyond the guard band are put on its border, on each side of each axis, and NaN stays") {
+TEST_CASE("window positions beyond the guard band are clamped to its border on each side and axis and NaN is kept") {
     RasterState state = state_of({0, 0, 64, 64});
     state.window_positions = true;
     const WindowTransform transform{state, {.subpixel_bits = 12, .guard_band_px = 32768}};
@@ -220,7 +222,7 @@ TEST_CASE("window positions beyond the guard band are put on its border, on each
     CHECK(std::isnan(transform.project({.x = std::nanf(""), .y = 0, .z = 0, .w = 1}).x));
 }
 
-TEST_CASE("a guard band of more pixels than edge functions hold is as wide as they do: 2^27 subpixels") {
+TEST_CASE("a guard band that exceeds the range of edge functions is limited to 2^27 subpixels") {
     RasterState state = state_of({0, 0, 64, 64});
     state.window_positions = true;
     constexpr std::pair<int, float> widest[] = {{4, 524288.0f}, {8, 524288.0f}, {12, 32768.0f}};
@@ -231,7 +233,7 @@ TEST_CASE("a guard band of more pixels than edge functions hold is as wide as th
     }
 }
 
-TEST_CASE("y up puts clip-space +1 on the first row, y down on the last") {
+TEST_CASE("with y up clip-space +1 is on the first row and with y down on the last") {
     RasterState state = state_of({0, 0, 64, 32});
     const ClipVertex top{0, 1, 0, 1, {}, {}, {}};
     CHECK(WindowTransform{state, {}}.project(top).y == 0.0f);
@@ -239,7 +241,7 @@ TEST_CASE("y up puts clip-space +1 on the first row, y down on the last") {
     CHECK(WindowTransform{state, {}}.project(top).y == 32.0f);
 }
 
-TEST_CASE("depth ranges map clip depth as written, reversed and in buffer units too") {
+TEST_CASE("depth ranges map clip depth as specified and reversed and in buffer units") {
     for (const ClipDepth convention : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one}) {
         RasterState state = state_of({0, 0, 8, 8});
         state.clip_depth = convention;

@@ -1,6 +1,5 @@
-// The kernels of the chip's interpolators hand out what its definitions do. The model is the scalar set, which runs the
-// definitions' own text; window_z_test, color_weights_test and cut_coordinates_test prove that text by rationals and
-// captures.
+// Tests the SIMD kernels of the chip's interpolators against the scalar set, which runs their definitions;
+// window_z_test, color_weights_test and cut_coordinates_test test the definitions against rationals and captures.
 #include "rasterizer/values/chip_lanes.h"
 
 #include <bit>
@@ -14,7 +13,7 @@ namespace {
 
 using namespace strata::rasterizer;
 
-// Every word that a batch of chip fragments holds, bit by bit.
+// All values of a batch of chip fragments, as bits.
 [[nodiscard]] std::vector<std::uint32_t> words_of_batches(const Geometry& g, const DepthRequest& depth,
                                                           const FragmentNeeds& needs) {
     std::vector<std::uint32_t> words;
@@ -38,7 +37,8 @@ using namespace strata::rasterizer;
     return words;
 }
 
-// r, q and sixteen coordinates a vertex: common ones, equal ones, zeros of both signs, tiny, huge and infinite ones.
+// r, q and sixteen coordinates per vertex: ordinary ones, equal ones, zeros of both signs, tiny, huge and infinite
+// ones.
 void add_units(Geometry& g, std::uint64_t seed) {
     Random random{seed};
     g.extras = {.stride = 18, .has_rq = true, .has_units = true, .values = {}};
@@ -56,7 +56,7 @@ void add_units(Geometry& g, std::uint64_t seed) {
         }
 }
 
-// How many devices and triangles give other words on some set.
+// Number of instruction sets on which some value differs from the scalar one.
 [[nodiscard]] int differing_draws(const Geometry& g, const DepthRequest& depth, const FragmentNeeds& needs,
                                   std::uint64_t& compared) {
     std::vector<std::uint32_t> expected;
@@ -78,8 +78,7 @@ constexpr FragmentNeeds chip_needs{false, true, false, true, true, false, false,
 
 }  // namespace
 
-TEST_CASE("codes, colours and coordinates of the chip's kernels are its definitions' on every set, to the bit",
-          "[slow]") {
+TEST_CASE("all values of the chip's kernels are bit-identical to its definitions on every instruction set", "[slow]") {
     std::uint64_t compared = 0;
     int wrong = 0;
     constexpr std::array<std::array<int, 2>, 4> triangles{{{3, 120}, {9, 60}, {40, 30}, {20000, 18}}};
@@ -104,7 +103,8 @@ TEST_CASE("codes, colours and coordinates of the chip's kernels are its definiti
     CHECK(compared > 5'000'000);
 }
 
-TEST_CASE("what the chip's kernels do not know goes by the definitions: other weights, products and planes", "[slow]") {
+TEST_CASE("weights and products and planes that the chip's kernels do not support are computed by the definitions",
+          "[slow]") {
     std::uint64_t compared = 0;
     int wrong = 0;
     for (const int kind : {0, 1, 2, 3, 4}) {
@@ -125,7 +125,7 @@ TEST_CASE("what the chip's kernels do not know goes by the definitions: other we
     CHECK(compared > 500'000);
 }
 
-TEST_CASE("corners are narrow where every product of a weight and a difference is exact in binary64, and not beyond") {
+TEST_CASE("corners are narrow exactly where every product of a weight and a difference is exact in binary64") {
     const auto is_narrow = [](double a, double b, double c) {
         return NarrowWindowZ{WindowZCorners{{a, b, c}, 0.0}, {}}.is_narrow;
     };
@@ -133,7 +133,7 @@ TEST_CASE("corners are narrow where every product of a weight and a difference i
     CHECK(is_narrow(0x1p28, 1.0, 0x1p28));          // 2^28 - 1 has 28 bits
     CHECK(is_narrow(0x1p29, 1.0, 0x1p29));          // 2^29 - 1 has 29
     CHECK_FALSE(is_narrow(0x1p30, 1.0, 0x1p30));    // 2^30 - 1 has 30
-    CHECK_FALSE(is_narrow(0x1p30, 0x1p30, 1.0));    // whichever corner it is
-    CHECK_FALSE(is_narrow(0x1p100, 0x1p-20, 0.0));  // binary64 does not hold the difference
-    CHECK(is_narrow(0x1p100, 0x1p-140, 0x1p100));   // the least depth is taken as 0
+    CHECK_FALSE(is_narrow(0x1p30, 0x1p30, 1.0));    // for any order of corners
+    CHECK_FALSE(is_narrow(0x1p100, 0x1p-20, 0.0));  // binary64 cannot represent the difference
+    CHECK(is_narrow(0x1p100, 0x1p-140, 0x1p100));   // values below the least depth count as 0
 }

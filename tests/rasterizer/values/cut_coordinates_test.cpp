@@ -1,4 +1,5 @@
-// The model: the rule of cut_coordinates.h over rationals, the remainder of attributes.md 2.3 as a table of ties.
+// Tests texture coordinates by truncated weights against the rule of cut_coordinates.h in rational arithmetic; the
+// remainder of attributes.md 2.3 is a table of ties.
 #include "rasterizer/values/cut_coordinates.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +12,7 @@ namespace {
 using namespace strata::rasterizer;
 
 constexpr int bits = 4;
-constexpr int nowhere = -100000;  // the exponent of 0
+constexpr int nowhere = -100000;  // stands in for the exponent of 0
 
 [[nodiscard]] int exponent(const Rational& v) { return v == 0 ? nowhere : floor_log2(abs(v)); }
 
@@ -27,7 +28,8 @@ constexpr int nowhere = -100000;  // the exponent of 0
         largest = std::max(largest, exponent(share));
     }
     for (std::size_t i = 0; i < 3; ++i) shared |= exponent(b[i]) == largest ? 1 << i : 0;
-    constexpr std::array<std::size_t, 8> remainder{9, 0, 1, 0, 2, 2, 1, 2};  // by which vertices share the exponent
+    // Indexed by the set of vertices that share the largest exponent.
+    constexpr std::array<std::size_t, 8> remainder{9, 0, 1, 0, 2, 2, 1, 2};
     const std::size_t rest = remainder[static_cast<std::size_t>(shared)];
     b[rest] = 1 - b[(rest + 1) % 3] - b[(rest + 2) % 3];
     return b;
@@ -40,7 +42,7 @@ constexpr int nowhere = -100000;  // the exponent of 0
     return cut_to_bits(cut(u[1], k - 23) + cut(b[0] * d0, k - 23) + cut(b[2] * d2, k - 23), 24);
 }
 
-// The product's answer at a pixel's centre.
+// Result of the implementation at a pixel's centre.
 [[nodiscard]] float coordinate(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& u, int x, int y) {
     const TriangleEdges edges{p, TieRule::top_left};
     const auto px = static_cast<std::uint16_t>(x), py = static_cast<std::uint16_t>(y);
@@ -57,7 +59,8 @@ constexpr int nowhere = -100000;  // the exponent of 0
 
 }  // namespace
 
-TEST_CASE("texture coordinates are three terms cut to a common unit, by weights that are cut but for one") {
+TEST_CASE(
+    "texture coordinates are three terms truncated to a common unit by weights of which all but one are truncated") {
     Random random{78};
     std::uint64_t compared = 0, wrong = 0;
     for (int n = 0; n < 80; ++n) {
@@ -78,9 +81,9 @@ TEST_CASE("texture coordinates are three terms cut to a common unit, by weights 
     CHECK(wrong == 0);
 }
 
-// 640 x 480 pixels, 256 x 256 texels, as the captures' checkerboards: row 15 k has t = 8 k. The corner of t = 256 that
-// is not in the base takes the remainder or comes out low.
-TEST_CASE("a whole coordinate comes out a hair below itself where another vertex takes the remainder, as on the chip") {
+// 640 x 480 pixels and 256 x 256 texels, as in the captures' checkerboards: row 15 k has t = 8 k. The corner of t = 256
+// that is not the base takes the remainder or gets a low weight.
+TEST_CASE("an integer coordinate is slightly too low where another vertex takes the remainder as on the chip") {
     const std::array<SubpixelPoint, 3> upper_right{{{8, 8}, {10248, 8}, {10248, 7688}}};
     const std::array<float, 3> t{0, 0, 256};
     const auto is_low = [&](int x, int y) { return coordinate(upper_right, t, x, y) < static_cast<float>(y / 15 * 8); };
@@ -94,7 +97,7 @@ TEST_CASE("a whole coordinate comes out a hair below itself where another vertex
         CHECK(coordinate(lower_left, {0, 256, 256}, 10, y) >= static_cast<float>(y / 15 * 8));
 }
 
-TEST_CASE("a coordinate that all corners share comes out as it is, and nothing stops at infinities") {
+TEST_CASE("a coordinate that all corners share is unchanged and infinities are allowed") {
     const std::array<SubpixelPoint, 3> p{{{0, 0}, {160, 0}, {0, 160}}};
     CHECK(coordinate(p, {0.1f, 0.1f, 0.1f}, 2, 3) == 0.1f);
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -103,7 +106,7 @@ TEST_CASE("a coordinate that all corners share comes out as it is, and nothing s
     CHECK(coordinate(p, {0, 1e-45f, 0}, 2, 3) >= 0.0f);
 }
 
-TEST_CASE("coordinates are summed so for equal w alone, and only where the rules say so") {
+TEST_CASE("coordinates are summed this way only for equal w and only if the rules say so") {
     const RasterRules chip{.interpolation = {.texture_coordinates = CoordinateRule::cut_weights}};
     CHECK(cuts_coordinates(chip, std::array{0.5f, 0.5f, 0.5f}));
     CHECK_FALSE(cuts_coordinates(chip, std::array{0.5f, 0.5f, 0.25f}));

@@ -1,5 +1,5 @@
-// A depth becomes D16F's code by every path. The model reads the format off its definition: 4 bits of exponent, 12 of
-// mantissa, a code's value, and the greatest code whose value is not above the depth.
+// Tests that every depth path stores D16F codes, against the format's definition: 4 bits of exponent, 12 of mantissa, a
+// code's value, and the greatest code whose value is at most the depth.
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -66,14 +66,14 @@ struct Tally {
 
 }  // namespace
 
-TEST_CASE("depth 32 of 511.9375 is D16F's code 49152 by every depth path") {
+TEST_CASE("depth 32 of 511.9375 is D16F code 49152 on every depth path") {
     for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32})
         for (const DepthPath path : all_paths) {
             const Geometry geometry =
                 window_of({32 / 511.9375, 32 / 511.9375, 32 / 511.9375}, rules_of(WindowZ::buffer_units, rule));
             Tally tally;
             for (const Fragment& f : draw(geometry, {path, DepthFormat::d16f}, depths).fragments) {
-                if (path == DepthPath::float32) continue;  // 32 / 511.9375 is no binary32
+                if (path == DepthPath::float32) continue;  // binary32 cannot represent 32 / 511.9375
                 tally.add(f, f.code, 49152, path);
                 tally.add(f, f.reference_code, 49152, path);
                 tally.add(f, f.exact_code, 49152, path);
@@ -84,15 +84,15 @@ TEST_CASE("depth 32 of 511.9375 is D16F's code 49152 by every depth path") {
         }
 }
 
-TEST_CASE("every depth path stores the D16F code of its value, in buffer units and in the unit interval", "[slow]") {
+TEST_CASE("every depth path stores the D16F code of its value in buffer units and in the unit interval", "[slow]") {
     Random random{931};
     for (const WindowZ units : {WindowZ::buffer_units, WindowZ::unit_interval})
         for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32})
             for (const DepthPath path : all_paths) {
                 if (path == DepthPath::window_z && units == WindowZ::unit_interval)
-                    continue;  // no chip without its units
+                    continue;  // the chip has only buffer units
                 Tally tally;
-                std::uint64_t steps = 0;  // exact: its binary64 value may lie on the other side of a code
+                std::uint64_t steps = 0;  // for path exact, whose binary64 value may be on the other side of a code
                 for (int n = 0; n < 6; ++n) {
                     const auto z = [&] {
                         return double{random_float(random, -0.1f, 1.1f) * (n % 2 == 0 ? 1.0f : 0x1p-8f)};
@@ -103,7 +103,7 @@ TEST_CASE("every depth path stores the D16F code of its value, in buffer units a
                         steps += f.code != expected ? 1 : 0;
                         tally.add(f, f.reference_code, f.code, path);
                         if (path != DepthPath::exact) tally.add(f, f.code, expected, path);
-                        // Whatever the path, it is the depth of the plane but for its last bits.
+                        // On every path the depth is that of the plane except for its last bits.
                         const std::uint32_t far = f.code > f.exact_code ? f.code - f.exact_code : f.exact_code - f.code;
                         tally.add(f, far > 1 ? far : 0, 0, path);
                     }
@@ -115,7 +115,7 @@ TEST_CASE("every depth path stores the D16F code of its value, in buffer units a
             }
 }
 
-TEST_CASE("a pass of depth alone stores the D16F codes that a pass with everything stores") {
+TEST_CASE("a depth-only pass stores the D16F codes of a full pass") {
     const Geometry geometry = window_of({0.125, 0.5, 0.875}, rules_of(WindowZ::unit_interval, WindowZRule::chip));
     const DepthRequest depth{DepthPath::float32, DepthFormat::d16f};
     const auto alone = draw(geometry, depth, {.shader_z = false, .color = false}).fragments;
@@ -131,7 +131,7 @@ TEST_CASE("a pass of depth alone stores the D16F codes that a pass with everythi
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a depth of the unit interval becomes the greatest D16F code whose value is not above 511.9375 of it",
+TEST_CASE("a depth of the unit interval becomes the greatest D16F code whose value is at most 511.9375 times it",
           "[slow]") {
     std::uint64_t wrong = 0;
     for (std::uint32_t code = 0; code < 0x10000; code += 7)

@@ -1,4 +1,5 @@
-// The model: rationals (rational.h) with every rounding of depth_quotient.h's and depth_paths.h's rules written out.
+// Tests the depth paths against rationals (rational.h) with every rounding in the rules of depth_quotient.h and
+// depth_paths.h written out.
 #include "rasterizer/values/depth_paths.h"
 
 #include <catch2/catch.hpp>
@@ -70,7 +71,7 @@ struct Tally {
     std::uint64_t fragments = 0, wrong = 0;
 };
 
-// Fragments whose compared R is not the model's.
+// Number of fragments whose compared R differs from the model's.
 [[nodiscard]] Tally compare_quotients(std::uint64_t seed, const DepthHypothesis& hypothesis, DepthFormat format) {
     Tally tally;
     const int count = hypothesis == DepthHypothesis{} ? 30 : 10;
@@ -91,8 +92,9 @@ struct Tally {
 
 }  // namespace
 
-TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and three divides, each rounded once",
-          "[slow]") {
+TEST_CASE(
+    "the compared depth follows comparison 4: planes of r/w and q/w and 1/w and three divisions each rounded once",
+    "[slow]") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         const Tally tally = compare_quotients(901, {}, format);
         CHECK(tally.fragments > 500);
@@ -100,7 +102,8 @@ TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and 
     }
 }
 
-TEST_CASE("fewer bits of the interpolants and divides by a reciprocal change what their hypothesis says", "[slow]") {
+TEST_CASE("fewer bits of the interpolants and divisions by a reciprocal change the values that their hypothesis states",
+          "[slow]") {
     for (const int bits : {16, 17, 20, 23})
         CHECK(compare_quotients(902, {.interpolant_bits = bits}, DepthFormat::d24).wrong == 0);
     for (const DivideRule rule : {DivideRule::cut_reciprocal, DivideRule::low_reciprocal})
@@ -109,7 +112,7 @@ TEST_CASE("fewer bits of the interpolants and divides by a reciprocal change wha
               .wrong == 0);
 }
 
-TEST_CASE("with full double interpolants R is the true quotient of the vertex products but for 2^-45 of it") {
+TEST_CASE("with full double interpolants R is the true quotient of the vertex products within a relative 2^-45") {
     std::uint64_t fragments = 0, far = 0;
     for (const QuotientTriangle& t : random_quotient_triangles(905, 60, 4, 0xffffff)) {
         const RasterRules rules = buffer_rules({.interpolant_bits = full_double});
@@ -131,7 +134,7 @@ TEST_CASE("with full double interpolants R is the true quotient of the vertex pr
     CHECK(far == 0);
 }
 
-TEST_CASE("depth replace stores the depth that perspective_rq compares, and drops what leaves the depth range",
+TEST_CASE("depth replace stores the depth that perspective_rq compares and drops fragments outside of the depth range",
           "[slow]") {
     struct Case {
         DepthFormat format;
@@ -164,7 +167,7 @@ TEST_CASE("depth replace stores the depth that perspective_rq compares, and drop
     }
 }
 
-TEST_CASE("with depth clamp a replaced depth outside the range is clamped, not dropped") {
+TEST_CASE("with depth clamp a replaced depth outside the range is clamped and not dropped") {
     for (const QuotientTriangle& t : random_quotient_triangles(907, 20, 4, 65535)) {
         Geometry geometry = quotient_geometry({t}, buffer_rules(), DepthFormat::d16);
         geometry.state.depth_clamp = true;
@@ -173,7 +176,7 @@ TEST_CASE("with depth clamp a replaced depth outside the range is clamped, not d
     }
 }
 
-TEST_CASE("a reference is to the bit the depth that a pass storing by that path would store", "[slow]") {
+TEST_CASE("a compared depth has the exact bits of the depth that a pass storing by that path would store", "[slow]") {
     constexpr std::array paths{DepthPath::window_z, DepthPath::perspective_rq, DepthPath::float32,
                                DepthPath::float32_plane, DepthPath::exact};
     for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32}) {
@@ -194,11 +197,12 @@ TEST_CASE("a reference is to the bit the depth that a pass storing by that path 
             }
         CHECK(pairs > 15000);
         CHECK(wrong == 0);
-        CHECK(unlike < pairs / 10000);  // exact: its binary64 value may lie on the other side of an integer
+        CHECK(unlike < pairs / 10000);  // for path exact, whose binary64 value may be on the other side of an integer
     }
 }
 
-TEST_CASE("window_z from the exact plane is path exact, and from binary32 the plane rounded once, then floored") {
+TEST_CASE(
+    "window_z from the exact plane is path exact and from binary32 the plane rounded once and then rounded down") {
     std::uint64_t fragments = 0, wrong = 0;
     for (const QuotientTriangle& t : random_quotient_triangles(911, 60, 4, 0xffffff)) {
         const auto by = [&](WindowZRule rule, DepthPath path) {
@@ -218,7 +222,7 @@ TEST_CASE("window_z from the exact plane is path exact, and from binary32 the pl
     CHECK(wrong == 0);
 }
 
-TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose w they are not finite") {
+TEST_CASE("r and q are clipped with their vertex and drop a triangle if they are not finite over w") {
     RasterState state = scene_state(16, 16);
     TriangleSoup soup;
     soup.vertices = {
@@ -228,7 +232,7 @@ TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose 
     add_rq(soup, state, {});
     CHECK(soup.extras.values == std::vector<float>{0.5f, 1, 0.5f, 1, 3, 2});  // (z + w) / 2
     for (const ClipVolume volume : {ClipVolume::guard_band, ClipVolume::view_volume}) {
-        const Geometry clipped = set_up(soup, state, {.clip = volume}, 1);  // cut where z = w, at t = 1/3
+        const Geometry clipped = set_up(soup, state, {.clip = volume}, 1);  // clipped where z = w, at t = 1/3
         REQUIRE(clipped.counters.clipped == 1);
         REQUIRE(clipped.extras.values.size() == 2 * clipped.vertices.size());
         CHECK(clipped.vertices.size() > 3);

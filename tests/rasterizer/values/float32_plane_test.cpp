@@ -1,4 +1,4 @@
-// The model: float32_plane's rule over rationals, each operation rounded once to binary32.
+// Tests float32_plane against its rule in rational arithmetic, each operation rounded once to binary32.
 #include <catch2/catch.hpp>
 
 #include "tests/rasterizer/values/quotient_triangles.h"
@@ -12,7 +12,7 @@ using namespace strata::rasterizer;
 [[nodiscard]] float binary32_minus(float a, float b) { return binary32_rounded(Rational{a} - Rational{b}); }
 [[nodiscard]] float binary32_times(float a, float b) { return binary32_rounded(Rational{a} * Rational{b}); }
 
-// depth_paths.h, float32_plane; false where the slopes do not exist.
+// The rule of depth_paths.h, float32_plane; empty if the slopes are undefined.
 [[nodiscard]] std::optional<float> model_float32_plane(const SetupTriangle& t, const Fragment& f, int bits,
                                                        PlaneAnchor anchor, PlaneOrigin origin) {
     std::array<float, 3> x, y, z;
@@ -85,7 +85,7 @@ namespace {
     return m;
 }
 
-// The share of fragments whose code changes when `change` is done to every triangle, which then lies `shift` pixels
+// The fraction of fragments whose code changes when `change` is applied to every triangle, which then is `shift` pixels
 // off.
 template <class Change>
 [[nodiscard]] double changed_share(DepthPath path, PlaneAnchor anchor, int shift, const Change& change) {

@@ -1,4 +1,5 @@
-// The model: the steps of float_planes.h's rule over rationals, each rounded to binary32 by definition.
+// Tests binary32 planes against the steps of float_planes.h's rule in rational arithmetic, each rounded to binary32 by
+// definition.
 #include "rasterizer/values/float_planes.h"
 
 #include <array>
@@ -24,8 +25,8 @@ struct CornerOfPlane {
 };
 using CornersOfPlane = std::array<CornerOfPlane, 3>;
 
-// mesa-rasterizers.md 2.4, in its own words; with samples the origin is the pixel's corner, and i and j lie between
-// pixels (2.11).
+// Written directly from mesa-rasterizers.md 2.4. With samples the origin is the pixel's corner, and i and j are not
+// integers (2.11).
 [[nodiscard]] Rounded reciprocal_area(CornersOfPlane c, bool clockwise, bool fuses, float i, float j,
                                       float centre = 0.5f) {
     if (clockwise) std::swap(c[0], c[1]);
@@ -76,8 +77,7 @@ constexpr std::array float_rules{PlaneRule::reciprocal_area, PlaneRule::reciproc
 
 }  // namespace
 
-TEST_CASE("every binary32 plane rule gives each fragment the depth of its rounded steps, from either origin",
-          "[slow]") {
+TEST_CASE("every binary32 plane rule gives each fragment the depth of its rounded steps from either origin", "[slow]") {
     std::uint64_t wrong = 0, fragments = 0, unlike_exact = 0;
     for (const PlaneRule rule : float_rules)
         for (const PlaneOrigin origin : {PlaneOrigin::snapped, PlaneOrigin::unsnapped}) {
@@ -94,7 +94,7 @@ TEST_CASE("every binary32 plane rule gives each fragment the depth of its rounde
                 const auto corners =
                     corners_of(t, origin, [&](std::size_t k) { return Rounded{static_cast<float>(t.z[k])}; });
                 const bool clockwise = Edge{t.p[0], t.p[1]}.at(t.p[2]) > 0;
-                // The stored code is clamped, what a program sees is not.
+                // The stored code is clamped, the value for programs is not.
                 const float z = value_by_rule(rule, corners, clockwise, f.x, f.y).v;
                 wrong += f.shader_z == z && f.code == std::bit_cast<std::uint32_t>(std::clamp(z, 0.0f, 1.0f)) ? 0 : 1;
                 unlike_exact += z == other[n].shader_z ? 0 : 1;
@@ -106,7 +106,7 @@ TEST_CASE("every binary32 plane rule gives each fragment the depth of its rounde
     CHECK(unlike_exact > fragments / 10);
 }
 
-TEST_CASE("at a sample, planes over unsnapped corners start at the pixel's corner and are asked at the sample") {
+TEST_CASE("planes over unsnapped corners start at the pixel's corner and are evaluated at the sample") {
     std::uint64_t wrong = 0, fragments = 0;
     for (const PlaneRule rule : {PlaneRule::reciprocal_area, PlaneRule::reciprocal_area_fused})
         for (const SamplePoint sample : {SamplePoint{6, 2}, SamplePoint{15, 9}, SamplePoint{8, 8}, SamplePoint{0, 0}})
@@ -146,7 +146,7 @@ TEST_CASE("at a sample, planes over unsnapped corners start at the pixel's corne
     CHECK(fragments > 3000);
 }
 
-TEST_CASE("attributes by binary32 planes are the plane of a/w over, or times the reciprocal of, the plane of 1/w",
+TEST_CASE("attributes by binary32 planes are the plane of a/w over the plane of 1/w or times its reciprocal",
           "[slow]") {
     std::uint64_t wrong = 0, multiplied = 0;
     for (const PlaneRule rule : float_rules)
@@ -176,10 +176,7 @@ TEST_CASE("attributes by binary32 planes are the plane of a/w over, or times the
     CHECK(multiplied > 100);
 }
 
-TEST_CASE(
-    "colours that are equal at all corners are kept where the rules say so, and texture coordinates and other colours "
-    "are "
-    "not") {
+TEST_CASE("only colours that are equal at all corners are kept if the rules say so") {
     std::uint64_t kept = 0, wrong = 0, moved = 0;
     for (const PlaneRule rule : float_rules) {
         const Device device{
@@ -208,7 +205,7 @@ TEST_CASE(
     CHECK(moved > 100);
 }
 
-TEST_CASE("a fused multiply-add is the host's std::fma, to the bit") {
+TEST_CASE("a fused multiply-add is bit-identical to the host's std::fma") {
     Random random{503};
     std::uint64_t wrong = 0, unfused = 0;
     for (int n = 0; n < 200000; ++n) {
@@ -221,14 +218,14 @@ TEST_CASE("a fused multiply-add is the host's std::fma, to the bit") {
     CHECK(unfused > 1000);
 }
 
-// 1 + 2^-23 + 2^-24 -+ 2^-60: binary64 holds the middle of two binary32 alone, so what is left over decides, up or
+// 1 + 2^-23 + 2^-24 -+ 2^-60: in binary64 only the midpoint of two binary32 remains, so the lost part decides up or
 // down.
-TEST_CASE("a fused multiply-add a hair beside the middle of two numbers goes to its own side, whatever the signs") {
+TEST_CASE("a fused multiply-add next to the midpoint of two numbers is rounded to its own side for any signs") {
     const float least = 1.0f + 0x1p-23f, next = 1.0f + 0x1p-22f;
     const float below = 1.0f - 0x1p-18f, above = 0x1p-24f * (1.0f + 0x1p-18f);  // their product: 2^-24 - 2^-60
     CHECK(fused_multiply_add(below, above, least) == least);
     CHECK(fused_multiply_add(-below, above, -least) == -least);
-    const float up = 1.0f + 0x1p-18f;  // up * above: 2^-24 and a little more
+    const float up = 1.0f + 0x1p-18f;  // up * above: slightly more than 2^-24
     CHECK(fused_multiply_add(up, above, 1.0f) == least);
     CHECK(fused_multiply_add(-up, above, -1.0f) == -least);
     CHECK(fused_multiply_add(below, above, 1.0f) == 1.0f);
@@ -237,15 +234,15 @@ TEST_CASE("a fused multiply-add a hair beside the middle of two numbers goes to 
 }
 
 // 8815417 * 15964927 = 2^47 + 2^19 - 57. The sum 1 + 2^-24 + 2^-52 - 57 * 2^-71 rounds to an odd binary64 above the
-// middle of two binary32, and stays there: one step down it would be that middle, which goes to 1.
-TEST_CASE("a fused multiply-add leaves a sum that is odd already where it is") {
+// midpoint of two binary32, and must stay there: one step lower is that midpoint, which rounds to 1.
+TEST_CASE("a fused multiply-add keeps a sum that is odd already") {
     const float a = 8815417 * 0x1p-24f, b = 15964927 * 0x1p-47f;
     CHECK(fused_multiply_add(a, b, 1.0f) == 1.0f + 0x1p-23f);
     CHECK(fused_multiply_add(-a, b, -1.0f) == -1.0f - 0x1p-23f);
     CHECK(std::fma(a, b, 1.0f) == 1.0f + 0x1p-23f);
 }
 
-TEST_CASE("a fused multiply-add of every three special values is std::fma's: infinities, zeros, denormals, NaN") {
+TEST_CASE("a fused multiply-add of every three special values is that of std::fma") {
     constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     constexpr std::array<float, 13> special{inf,    -inf,   0.0f,    -0.0f,          1.0f, -1.0f, 3e38f,
                                             -3e38f, 1e-45f, -1e-45f, 1.1754944e-38f, 3.5f, nan};
@@ -262,7 +259,7 @@ TEST_CASE("a fused multiply-add of every three special values is std::fma's: inf
     CHECK(infinite > 100);
 }
 
-TEST_CASE("clockwise corners change places, so that either winding of a triangle has planes of its own") {
+TEST_CASE("clockwise corners are swapped so that each winding of a triangle has its own planes") {
     const std::array<WindowPosition, 3> p{{{3.3f, 1.7f}, {17.9f, 5.1f}, {6.2f, 21.4f}}};
     const std::array<float, 3> z{0.1f, 0.7f, 0.4f};
     const FloatPlane kept = FloatPlanes{PlaneRule::reciprocal_area, p, false}.plane(z);

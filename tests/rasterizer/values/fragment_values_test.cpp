@@ -1,5 +1,5 @@
-// The model: rationals (rational.h) with the roundings of attributes.md 1.1 written out: product, plane, plane of 1/w,
-// quotient.
+// Tests attributes against rationals (rational.h) with the roundings of attributes.md 1.1 written out: product, plane,
+// plane of 1/w, quotient.
 #include "rasterizer/values/fragment_values.h"
 
 #include <catch2/catch.hpp>
@@ -49,7 +49,7 @@ struct Compared {
     std::uint64_t values = 0, wrong = 0;
 };
 
-// All attributes of the triangle's fragments with the model's.
+// Compares all attributes of the triangle's fragments with the model's.
 void compare(const SetupTriangle& t, Compared& found) {
     for (const Fragment& f : draw(window_geometry({t}, 12, 12, {})).fragments) {
         const std::array<Rational, 3> b = barycentric(t.p, f.x, f.y, 8);
@@ -60,7 +60,7 @@ void compare(const SetupTriangle& t, Compared& found) {
 
 }  // namespace
 
-TEST_CASE("attributes are perspective-correct with every rounding of the rule, for every subpixel setting", "[slow]") {
+TEST_CASE("attributes are perspective-correct with every rounding of the rule for every subpixel setting", "[slow]") {
     constexpr std::uint64_t seed = 71;
     Random random{seed};
     std::uint64_t values = 0, wrong = 0;
@@ -76,7 +76,7 @@ TEST_CASE("attributes are perspective-correct with every rounding of the rule, f
     CHECK(wrong == 0);
 }
 
-TEST_CASE("with w = 1 the quotient is left out and nothing changes", "[slow]") {
+TEST_CASE("with w = 1 the division is skipped and nothing changes", "[slow]") {
     Random random{72};
     Compared found;
     for (SetupTriangle t : random_triangles(random, 60, 12, 8)) {
@@ -87,11 +87,11 @@ TEST_CASE("with w = 1 the quotient is left out and nothing changes", "[slow]") {
     CHECK(found.wrong == 0);
 }
 
-TEST_CASE("the quotient is taken where any vertex has another w than 1, whichever vertices have 1", "[slow]") {
+TEST_CASE("the division is made if any vertex has a w other than 1 in any combination", "[slow]") {
     Random random{73};
     Compared found;
     for (SetupTriangle t : random_triangles(random, 6, 12, 8))
-        for (int others = 1; others < 8; ++others) {  // bit i: vertex i has a w of its own
+        for (int others = 1; others < 8; ++others) {  // bit i: w of vertex i is not 1
             for (std::size_t i = 0; i < 3; ++i)
                 t.inverse_w[i] = (others >> i & 1) != 0 ? 0.3f + 0.2f * static_cast<float>(i) : 1;
             compare(t, found);
@@ -100,7 +100,7 @@ TEST_CASE("the quotient is taken where any vertex has another w than 1, whicheve
     CHECK(found.wrong == 0);
 }
 
-TEST_CASE("three equal vertex values are that constant, whatever w does") {
+TEST_CASE("three equal vertex values are that constant for any w") {
     Random random{73};
     std::uint64_t wrong = 0, fragments = 0;
     for (SetupTriangle t : random_triangles(random, 60, 12, 8)) {
@@ -115,9 +115,9 @@ TEST_CASE("three equal vertex values are that constant, whatever w does") {
     CHECK(wrong == 0);
 }
 
-// Red grows by one unit in the last place a pixel, so that every pixel's centre is half way between two numbers; green
-// grows by two.
-TEST_CASE("a value half way between two numbers is decided exactly once a fragment, one that is a number is not") {
+// Red increases by one unit in the last place per pixel, so that every pixel centre is half way between two numbers;
+// green increases by two.
+TEST_CASE("a value half way between two numbers is decided exactly once per fragment and a representable one never") {
     SetupTriangle t = window_triangle({{{0, 0}, {16 << 8, 0}, {0, 16 << 8}}}, 8);
     for (std::size_t i = 0; i < 3; ++i) t.attribute[i] = {1, 1, 1, 1, 0, 0};
     t.attribute[1][0] = 1.0f + 0x1p-19f;
@@ -138,7 +138,7 @@ TEST_CASE("a value half way between two numbers is decided exactly once a fragme
     }
 }
 
-TEST_CASE("attribute planes can start at the unsnapped positions, and then extrapolate") {
+TEST_CASE("attribute planes can start at the unsnapped positions and then extrapolate") {
     Random random{74};
     std::uint64_t wrong = 0, changed = 0, fragments = 0;
     for (SetupTriangle t : random_triangles(random, 90, 12, 4)) {
@@ -174,7 +174,7 @@ TEST_CASE("attribute planes can start at the unsnapped positions, and then extra
     CHECK(wrong == 0);
 }
 
-TEST_CASE("shader_z is neither clamped nor quantised, the code is clamped to the depth range, reversed or not") {
+TEST_CASE("shader_z is neither clamped nor quantized and the code is clamped to the depth range") {
     const std::array<SubpixelPoint, 3> p{{{0, 0}, {16 * 256, 0}, {0, 16 * 256}}};
     Geometry geometry = window_geometry({window_triangle(p, 8, {-0.5, 1.5, 0.5})}, 16, 16, {});
     for (const bool reversed : {false, true})
@@ -190,7 +190,7 @@ TEST_CASE("shader_z is neither clamped nor quantised, the code is clamped to the
                         z < Rational{1, 4} ? Rational{1, 4} : (z > Rational{7, 8} ? Rational{7, 8} : z);
                     below += z < 0 ? 1 : 0;
                     above += z > 1 ? 1 : 0;
-                    wrong += Rational{f.shader_z} != z ? 1 : 0;  // few bits: exact
+                    wrong += Rational{f.shader_z} != z ? 1 : 0;  // few bits, so exact
                     const Rational max = format == DepthFormat::d16 ? 65535 : 16777215;
                     const Integer code = format == DepthFormat::d32f
                                              ? Integer{std::bit_cast<std::uint32_t>(nearest_float(clamped))}
@@ -203,7 +203,7 @@ TEST_CASE("shader_z is neither clamped nor quantised, the code is clamped to the
             }
 }
 
-TEST_CASE("fragments outside the depth range do not exist with per-fragment z clip, unless depth is clamped") {
+TEST_CASE("fragments outside the depth range are removed with per-fragment z clip unless depth is clamped") {
     const std::array<SubpixelPoint, 3> p{{{0, 0}, {16 * 16, 0}, {0, 16 * 16}}};
     const RasterRules rules{.subpixel_bits = 4, .z_clip = ZClip::per_fragment};
     // Beyond both ends of the range, beyond one of them, and beyond none.
@@ -222,7 +222,7 @@ TEST_CASE("fragments outside the depth range do not exist with per-fragment z cl
     }
 }
 
-TEST_CASE("the three depth paths store a vertex value that lies on a sample") {
+TEST_CASE("the three depth paths store a vertex value at a sample on that vertex") {
     const std::array<SubpixelPoint, 3> p{{{8, 8}, {8 + 4 * 16, 8}, {8, 8 + 4 * 16}}};
     const RasterRules rules{
         .subpixel_bits = 4, .window_z = WindowZ::buffer_units, .depth_rounding = DepthRounding::floor};

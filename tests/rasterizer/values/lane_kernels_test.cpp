@@ -1,4 +1,4 @@
-// The kernel of depth where a batch ends within a vector: what lies behind its count decides nothing.
+// Tests the depth kernel on a batch that ends within a vector: lanes after its count must not matter.
 #include "rasterizer/values/lane_kernels.h"
 
 #include <catch2/catch.hpp>
@@ -9,9 +9,9 @@
 
 using namespace strata::rasterizer;
 
-// Of the last vector of 65 to 80 pixels all lie in row 5 but the last pixel, in row 6; the lanes behind them still say
-// row 5. The weights by themselves are what the kernel `weights` gives pixel by pixel.
-TEST_CASE("a vector that the batch fills in part is not taken for a row by what its other lanes hold") {
+// Of the last vector of 65 to 80 pixels all are in row 5 except the last pixel, in row 6; the lanes after them still
+// have row 5. The expected weights are computed by the kernel `weights` pixel by pixel.
+TEST_CASE("a partly filled vector is not taken for one row because of its unused lanes") {
     const Geometry geometry =
         window_geometry({window_triangle({{{3, 7}, {30000, 900}, {500, 28000}}}, 8, {0.125, 0.5, 0.75})}, 128, 128, {});
     const PixelWeights weights{geometry, geometry.triangles[0]};

@@ -1,5 +1,5 @@
-// The model: swiftshader-rasterizer.md 1.1, 1.4 and 2 from the vertices that were given, each operation a rational
-// rounded once.
+// Tests ordered planes against swiftshader-rasterizer.md 1.1, 1.4 and 2, computed from the given vertices with each
+// operation in rationals and rounded once.
 #include "rasterizer/values/ordered_planes.h"
 
 #include <bit>
@@ -15,7 +15,7 @@ using namespace strata::rasterizer;
 
 [[nodiscard]] float without_denormals(float v) { return std::abs(v) < 0x1p-126f ? 0.0f : v; }
 
-// A binary32 whose operations are those of the rationals, rounded once; what is below 2^-126 is 0.
+// A binary32 whose operations are computed in rationals and rounded once; magnitudes below 2^-126 become 0.
 struct Single {
     float v = 0;
 
@@ -28,7 +28,7 @@ struct Single {
 };
 
 struct OwnCorner {
-    Single x, y;                   // whole sixteenths of a pixel from the centre of the first pixel of the lowest row
+    Single x, y;                   // in 1/16 pixel from the centre of the first pixel of the lowest row
     Single clip_y, w, q, depth;    // depth: z / w
     std::array<Single, 6> values;  // colours, coordinates
 };
@@ -57,7 +57,7 @@ using OwnCorners = std::array<OwnCorner, 3>;
     return c;
 }
 
-// From (p2, p0, p1): the least y comes first, then the greatest w.
+// From the order (p2, p0, p1): least y first, then greatest w.
 [[nodiscard]] OwnCorners in_order(const OwnCorners& p) {
     OwnCorners v{p[2], p[0], p[1]};
     const auto turn = [&](auto key, auto best) {
@@ -99,7 +99,7 @@ struct OwnTriangle {
         const Single slope{std::max(std::abs(p.a.v), std::abs(p.b.v))};
         return unit * Single{by.units} + slope * Single{by.factor};
     }
-    // Of the values u_k, and of 1 / w where they are 1.
+    // The plane of the values u_k; of 1 / w if they are 1.
     [[nodiscard]] OwnPlane plane(const std::array<Single, 3>& u) const {
         const Single s{1.0f / 16}, s1 = v[1].w * s, s2 = v[2].w * s, zero{0};
         const Single x1 = s1 * (v[1].x - v[0].x), y1 = s1 * (v[1].y - v[0].y), x2 = s2 * (v[2].x - v[0].x),
@@ -115,7 +115,7 @@ struct OwnTriangle {
     }
 };
 
-// The sign that decides which way the corners turn; 1: counter-clockwise with y up.
+// The sign that decides the winding; 1: counterclockwise with y up.
 [[nodiscard]] int turn_of(const OwnCorners& p) {
     const Single area = ((p[0].y - p[2].y) * p[1].x + (p[2].y - p[1].y) * p[0].x) + (p[1].y - p[0].y) * p[2].x;
     int turn = area.v < 0 ? 1 : area.v > 0 ? -1 : 0;
@@ -138,7 +138,7 @@ struct OwnTriangle {
             .offset_unit = OffsetUnit::differences};
 }
 
-// Ties of y and w, so that the order of the corners shows.
+// With ties of y and w, so that the order of the corners matters.
 [[nodiscard]] TriangleSoup soup_with_ties(std::uint64_t seed, int triangles, SoupKind kind) {
     TriangleSoup soup = random_soup(seed, triangles, kind);
     for (TriangleRun& run : soup.runs) run.double_sided = true;
@@ -244,7 +244,7 @@ TEST_CASE("polygon offset is added to the value of each fragment, its unit that 
     }
 }
 
-TEST_CASE("with the corners that clipping left, each piece has the planes that it would have if it were given") {
+TEST_CASE("with clipped plane corners each piece has the planes that it would have if it were given") {
     RasterRules rules = ordered_rules();
     rules.area_sign = AreaSign::exact;
     rules.plane_corners = PlaneCorners::clipped;
@@ -276,7 +276,7 @@ TEST_CASE("with the corners that clipping left, each piece has the planes that i
     CHECK(unlike > found.size() / 10);
 }
 
-TEST_CASE("a sliver whose area binary32 gets wrong is lost, and no other", "[slow]") {
+TEST_CASE("a sliver whose binary32 area has the wrong sign is lost and no other", "[slow]") {
     Random random{524};
     TriangleSoup soup;
     constexpr int width = 1920, height = 1080, count = 20000;
@@ -312,7 +312,7 @@ TEST_CASE("a sliver whose area binary32 gets wrong is lost, and no other", "[slo
     CHECK(set_up(soup, state, ordered_rules(), 1).counters.degenerate == flat + lost);
 }
 
-TEST_CASE("corners without an area have slopes of 0, and a w of 0 counts as 1") {
+TEST_CASE("corners without an area have slopes of 0 and a w of 0 counts as 1") {
     RasterState state = scene_state(16, 16);
     std::array<ClipVertex, 3> v{};
     for (std::size_t k = 0; k < 3; ++k) v[k].w = 1.0f, v[k].x = 0.25f * static_cast<float>(k);
@@ -327,7 +327,7 @@ TEST_CASE("corners without an area have slopes of 0, and a w of 0 counts as 1") 
     CHECK(at_eye.depth().origin == 0.75f);
 }
 
-TEST_CASE("a plane of the greatest w is asked at the sample, an exact way from the centre") {
+TEST_CASE("a plane of the greatest w is evaluated at the sample at an exact distance from the centre") {
     RasterState state = scene_state(16, 16);
     const std::array<ClipVertex, 3> v{ClipVertex{.x = -0.7f, .y = -0.4f, .z = 0.1f, .w = 1.0f},
                                       ClipVertex{.x = 0.9f, .y = -0.3f, .z = 0.7f, .w = 1.5f},
@@ -350,7 +350,7 @@ TEST_CASE("a plane of the greatest w is asked at the sample, an exact way from t
     CHECK(wrong == 0);
 }
 
-TEST_CASE("what is below 2^-126 is the zero of its sign, read or left") {
+TEST_CASE("a magnitude below 2^-126 becomes a zero of its sign when read or stored") {
     const auto bits = [](Flushed v) { return std::bit_cast<std::uint32_t>(v.v); };
     const Flushed least{0x1p-126f};
     CHECK(bits(Flushed{-0x1.fffffcp-127f}) == 0x80000000u);

@@ -1,5 +1,5 @@
-// The model: exact rationals and their rounding by definition (rational.h); depth codes as floor(V) or floor(V + 1/2)
-// of them.
+// Tests exact planes against rationals and their rounding by definition (rational.h); depth codes are floor(V) or
+// floor(V + 1/2) of them.
 #include "rasterizer/values/plane.h"
 
 #include <catch2/catch.hpp>
@@ -61,8 +61,7 @@ void compare(const SetupTriangle& triangle, const RasterRules& rules, DepthForma
 }  // namespace
 
 TEST_CASE(
-    "float32 and exact depth are the rational plane rounded once, for every subpixel setting and up to the guard "
-    "band",
+    "float32 and exact depth are the rational plane rounded once for every subpixel setting and up to the guard band",
     "[slow]") {
     constexpr std::uint64_t seed = 21;
     Random random{seed};
@@ -85,7 +84,7 @@ TEST_CASE(
     CHECK(tally.wrong_code == 0);
 }
 
-TEST_CASE("depth in buffer units is divided and rounded once, for shader_z and for the code", "[slow]") {
+TEST_CASE("depth in buffer units is divided and rounded once for shader_z and for the code", "[slow]") {
     constexpr std::uint64_t seed = 22;
     Random random{seed};
     Tally tally;
@@ -105,9 +104,9 @@ TEST_CASE("depth in buffer units is divided and rounded once, for shader_z and f
     CHECK(tally.wrong_code == 0);
 }
 
-TEST_CASE("planes that pass through rounding boundaries reach the exact arithmetic, and it is right") {
-    // z steps by one code a pixel from an integer, or by half a unit in the last place of a float: every pixel is a
-    // tie.
+TEST_CASE("planes through rounding boundaries reach the exact arithmetic and give correct results") {
+    // z increases by one code per pixel from an integer, or by half a unit in the last place of a float: every pixel is
+    // a tie.
     Tally tally;
     const int bits = 8, unit = 1 << bits, half = unit / 2;
     const std::array<SubpixelPoint, 3> corners{{{half, half}, {half + 16 * unit, half}, {half, half + 16 * unit}}};
@@ -126,7 +125,7 @@ TEST_CASE("planes that pass through rounding boundaries reach the exact arithmet
     CHECK(tally.wrong_code == 0);
 }
 
-TEST_CASE("values a hair beside a tie go to their own side, whatever the triangle", "[slow]") {
+TEST_CASE("values next to a tie are rounded to their own side for any triangle", "[slow]") {
     // z = base + x step exactly, a tie at every second or every pixel; then one vertex moves by a few units of 2^-52 of
     // it.
     constexpr std::uint64_t seed = 24;
@@ -145,7 +144,7 @@ TEST_CASE("values a hair beside a tie go to their own side, whatever the triangl
             compare(plane(0.75, 0x1p-25, 0x1p-53), {.subpixel_bits = bits}, DepthFormat::d24, 24, floats);
             compare(plane(0.5 - 12 * 0x1p-10, 0x1p-10, 0.0), {.subpixel_bits = bits},
                     n % 2 == 0 ? DepthFormat::d16 : DepthFormat::d24, 24,
-                    codes);  // 0.5 lies half way between two codes
+                    codes);  // 0.5 is half way between two codes
             const DepthRounding rounding = n % 4 < 2 ? DepthRounding::floor : DepthRounding::nearest;
             const double base = rounding == DepthRounding::floor ? 5000.0 : 5000.5;
             compare(plane(base, 3.0, 0x1p-40),
@@ -159,12 +158,12 @@ TEST_CASE("values a hair beside a tie go to their own side, whatever the triangl
     CHECK(floats.wrong_code + codes.wrong_code == 0);
 }
 
-TEST_CASE("complete cancellation gives +0 and almost complete cancellation the right tiny value") {
+TEST_CASE("complete cancellation gives +0 and almost complete cancellation the correct tiny value") {
     Tally tally;
     const int bits = 4, unit = 16, half = 8;
     const std::array<SubpixelPoint, 3> corners{{{half, half}, {half + 8 * unit, half}, {half, half + 8 * unit}}};
     for (const double tiny :
-         {0.0, 0x1p-149, 0x1p-140, 0x1p-60}) {  // z vanishes along x = 4 but for the third corner's part
+         {0.0, 0x1p-149, 0x1p-140, 0x1p-60}) {  // z is zero along x = 4 except for the third corner's part
         const SetupTriangle t = window_triangle(corners, bits, {-1.0, 1.0, -1.0 + tiny});
         compare(t, {.subpixel_bits = bits}, DepthFormat::d24, 8, tally);
         compare(window_triangle(corners, bits, {-1.0, 1.0, tiny}), {.subpixel_bits = bits}, DepthFormat::d24, 8, tally);

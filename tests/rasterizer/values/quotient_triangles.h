@@ -15,7 +15,7 @@ struct QuotientTriangle {
     std::array<float, 3> r, q;
 };
 
-// r / q lies within the buffer's range but for a few; q is w, and 1/w what the window has of it.
+// r / q is within the buffer's range except for a few; q is w, and 1/w the window's.
 [[nodiscard]] inline std::vector<QuotientTriangle> random_quotient_triangles(std::uint64_t seed, int count, int bits,
                                                                              double units) {
     Random random{seed};

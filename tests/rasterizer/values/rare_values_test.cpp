@@ -1,6 +1,6 @@
-// Values that random triangles hardly meet: edge values outside of a triangle and beyond 2^34, areas beyond 2^36, terms
-// of depth that no sum can see, infinities and NaN. Models: rationals cut by the rules (rational.h); corners at which
-// only one term is left.
+// Tests values that random triangles rarely produce: edge values outside of a triangle and beyond 2^34, areas beyond
+// 2^36, negligible terms of depth, infinities and NaN. Expected values are rationals truncated by the rules
+// (rational.h), or come from corners at which only one term remains.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/nv20_arithmetic.h"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace strata::rasterizer;
 
-// A whole number of up to `bits` bits, and at least 1.
+// A positive integer of up to `bits` bits.
 [[nodiscard]] std::uint64_t random_whole(Random& random, int bits) { return (random() >> (64 - bits)) | 1u; }
 
 [[nodiscard]] Rational signed_cut(const Rational& v, int bits) {
@@ -32,7 +32,7 @@ const float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE("an edge value is cut to 24 bits toward zero on either side of its edge, however large it is") {
+TEST_CASE("an edge value is truncated to 24 bits toward zero on either side of its edge for any magnitude") {
     Random random{71};
     std::size_t wrong = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -44,7 +44,8 @@ TEST_CASE("an edge value is cut to 24 bits toward zero on either side of its edg
     CHECK(wrong == 0);
 }
 
-TEST_CASE("weights by a cut reciprocal are those of rationals for areas and edge values of up to 48 bits", "[slow]") {
+TEST_CASE("weights by a truncated reciprocal are those of rationals for areas and edge values of up to 48 bits",
+          "[slow]") {
     Random random{72};
     std::size_t wrong = 0, large = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -63,7 +64,7 @@ TEST_CASE("weights by a cut reciprocal are those of rationals for areas and edge
     CHECK(large > 500);
 }
 
-TEST_CASE("perspective weights take the sizes of edge values and of w, whatever their signs") {
+TEST_CASE("perspective weights use the magnitudes of edge values and of w regardless of their signs") {
     Random random{73};
     std::size_t wrong = 0;
     for (int i = 0; i < 500; ++i) {
@@ -80,13 +81,13 @@ TEST_CASE("perspective weights take the sizes of edge values and of w, whatever 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("the corner of the largest edge value is the one that depths start from, on either side of the edges") {
+TEST_CASE("depths start from the corner of the edge value with the largest magnitude") {
     CHECK(reference_vertex({-(1 << 20), 5, 7}) == 0);
     CHECK(reference_vertex({5, -(1 << 20), 7}) == 1);
     CHECK(reference_vertex({5, 7, -(1 << 20)}) == 2);
 }
 
-TEST_CASE("a difference of depths is exact, and 0 of equal ones") {
+TEST_CASE("a difference of depths is exact and 0 for equal ones") {
     const Dyadic none = difference(3.0f, 3.0f);
     CHECK(none.magnitude == 0);
     const Dyadic far = difference(0x1p60f, -0x1p60f);
@@ -96,11 +97,11 @@ TEST_CASE("a difference of depths is exact, and 0 of equal ones") {
     CHECK(both_zero.magnitude == 0);
 }
 
-TEST_CASE("a depth's terms that lie far below the largest leave nothing of themselves, and all of 0 is 0") {
+TEST_CASE("terms of a depth far below the largest contribute nothing and a depth of zero terms is 0") {
     // Weights of powers of two: 1/2, 1/4 and 1/4 of an area of 2^20. Differences too far apart for binary64's products.
     const std::int64_t area = 1 << 20;
     const WindowZ24 apart{{0.0, 1.0, 0x1p-110}, area};
-    CHECK(apart.value({area / 2, area / 4, area / 4}) == 0.25);  // and 2^-112, which is cut away
+    CHECK(apart.value({area / 2, area / 4, area / 4}) == 0.25);  // plus 2^-112, which is truncated
     CHECK(apart.value({area, 0, 0}) == 0.0);                     // at the corner of depth 0
     CHECK(apart.value({0, area, 0}) == 1.0);
     CHECK(apart.value({0, 0, area}) == 0x1p-110);
@@ -109,7 +110,7 @@ TEST_CASE("a depth's terms that lie far below the largest leave nothing of thems
     CHECK(close.value({area / 4, area / 4, area / 2}) == 0x1p59);
 }
 
-TEST_CASE("NV20's product is IEEE's where a factor is infinite or no number, and so are its reciprocals' ends") {
+TEST_CASE("NV20's product is IEEE's if a factor is infinite or NaN and so are its reciprocals of infinity and zero") {
     CHECK(nv20::multiply(infinity, 2.0f) == infinity);
     CHECK(nv20::multiply(2.0f, -infinity) == -infinity);
     CHECK(std::isnan(nv20::multiply(not_a_number, 2.0f)));
@@ -119,7 +120,7 @@ TEST_CASE("NV20's product is IEEE's where a factor is infinite or no number, and
     CHECK(nv20::reciprocal(-0.0f) == -infinity);
 }
 
-TEST_CASE("cut divisions leave zeros, infinities and NaN as they are") {
+TEST_CASE("truncated divisions leave zeros and infinities and NaN unchanged") {
     for (const float v : {0.0f, -0.0f, infinity, -infinity}) {
         CHECK(std::bit_cast<std::uint32_t>(toward_zero(v)) == std::bit_cast<std::uint32_t>(v));
         CHECK(std::bit_cast<std::uint32_t>(round_mantissa(v, 16)) == std::bit_cast<std::uint32_t>(v));
@@ -132,7 +133,7 @@ TEST_CASE("cut divisions leave zeros, infinities and NaN as they are") {
     CHECK(divide(1.0f, 0.0f, DivideRule::low_reciprocal) == infinity);
 }
 
-TEST_CASE("two needs together are what either of them needs, value by value") {
+TEST_CASE("two combined needs include what either of them needs value by value") {
     constexpr bool FragmentNeeds::*values[]{
         &FragmentNeeds::shader_z, &FragmentNeeds::code,   &FragmentNeeds::exact_code, &FragmentNeeds::color,
         &FragmentNeeds::texcoord, &FragmentNeeds::facing, &FragmentNeeds::reference};
@@ -148,8 +149,8 @@ TEST_CASE("two needs together are what either of them needs, value by value") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a w buffer's slope is taken along the axis in which w changes, from the first row that has pixels") {
-    // 1/w = 1/8 + x/64 in pixels: its axis is x. Corners on the window's 1/16 pixels; the top one lies at x = 4.
+TEST_CASE("a w buffer's slope is taken along the axis in which w changes from the first row that has pixels") {
+    // 1/w = 1/8 + x/64 in pixels, so its axis is x. Corners are on the window's 1/16 pixels; the top one is at x = 4.
     constexpr int bits = 4;
     const auto inverse_w = [](double x) { return 1.0 / 8 + x / 64; };
     const auto triangle = [&](const std::array<std::array<int, 2>, 3>& pixels) {
@@ -169,7 +170,7 @@ TEST_CASE("a w buffer's slope is taken along the axis in which w changes, from t
         const double expected = std::fabs(1 / inverse_w(second + 0.5) - 1 / inverse_w(second - 0.5));
         CHECK(w_slope(along_x, along_x.w, {0, 0, 16, 16}, rules) == Approx(expected).epsilon(1e-5));
     }
-    // A needle whose first rows hold no centre: the slope is that of a row below, and of w along x there, too.
+    // A needle whose first rows contain no centre: the slope is that of a lower row, and of w along x there, too.
     SetupTriangle needle = triangle({{{4, 0}, {5, 16}, {4, 16}}});
     const double at_second = std::fabs(1 / inverse_w(5.5) - 1 / inverse_w(4.5));
     rules.hypothesis.w_slope = WSlope::first_quad;
@@ -189,12 +190,12 @@ TEST_CASE("r and q of vertices follow the clip volume's convention of z") {
         add_rq(soup, state, {});
         return std::vector<float>(soup.extras.values.begin(), soup.extras.values.end());
     };
-    // depth = n + (f - n) z/w of Direct3D's volume, 1/4 + 1/2 * 1/2; OpenGL's z/w of 1/2 lies at 3/4 of the range.
+    // depth = n + (f - n) z/w of Direct3D's volume, 1/4 + 1/2 * 1/2; OpenGL's z/w of 1/2 is at 3/4 of the range.
     CHECK(rows(ClipDepth::zero_to_one) == std::vector<float>{0.5f * 0.5f, 0.5f});
     CHECK(rows(ClipDepth::minus_one_to_one) == std::vector<float>{0.625f * 0.5f, 0.5f});
 }
 
-TEST_CASE("a triangle of floats without an area covers nothing, and a reversed order has no depth bound") {
+TEST_CASE("a triangle of floats without an area covers nothing and a reversed order has no depth bound") {
     const FloatSpans line{{{{0, 0}, {4, 4}, {8, 8}}}};
     CHECK_FALSE(line.is_drawn());
     int visited = 0;
@@ -210,7 +211,7 @@ TEST_CASE("a triangle of floats without an area covers nothing, and a reversed o
     CHECK(depth_bound(geometry, geometry.all_triangles) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("corners whose unsnapped places lie on a line take the plane of the snapped ones, large and small") {
+TEST_CASE("corners whose unsnapped positions are on a line use the plane of the snapped ones whether large or small") {
     for (const int reach : {2, 40}) {
         std::vector<SetupTriangle> triangles;
         for (int i = 0; i < 5; ++i) {
@@ -236,11 +237,11 @@ TEST_CASE("corners whose unsnapped places lie on a line take the plane of the sn
             CHECK(model.fragments.size() >= 5);
             CHECK(found.fragments == model.fragments);
         }
-        CHECK(depth_bound(on_a_line, on_a_line.all_triangles) >= 0.75);  // no slope is known, the corners are
+        CHECK(depth_bound(on_a_line, on_a_line.all_triangles) >= 0.75);  // the slope is undefined, the corners are not
     }
 }
 
-TEST_CASE("every value of a fragment is the same whatever else is asked for, by every path into every format",
+TEST_CASE("every value of a fragment is independent of the other requested values for every path and format",
           "[slow]") {
     std::size_t wrong = 0, compared = 0;
     const auto compare = [&](const Geometry& g, const DepthRequest& depth) {

@@ -1,5 +1,5 @@
-// The model: a value that another draw hands out unrounded (reference_z, shader_z) or that rationals give, clamped to
-// the depth range and converted by the format's definition.
+// Tests stored depths against a value that another draw returns unrounded (reference_z, shader_z), or that rationals
+// give, clamped to the depth range and converted by the format's definition.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/values/fragment_values.h"
@@ -59,10 +59,8 @@ constexpr FragmentNeeds depth_and_reference{.color = false, .reference = true};
 
 }  // namespace
 
-TEST_CASE(
-    "a depth that is a value is stored clamped to the depth range and rounded by its format, on devices of either "
-    "unit",
-    "[slow]") {
+TEST_CASE("a depth value is stored clamped to the depth range and rounded by its format on devices of either unit",
+          "[slow]") {
     std::uint64_t wrong = 0, fragments = 0, clamped = 0;
     for (const DepthPath path : {DepthPath::perspective_rq, DepthPath::float32_plane})
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
@@ -88,7 +86,7 @@ TEST_CASE(
     CHECK(clamped > 5000);
 }
 
-TEST_CASE("depth replace keeps exactly the fragments whose quotient lies in the depth range, ends included") {
+TEST_CASE("depth replace keeps exactly the fragments whose quotient is in the depth range inclusive") {
     for (const WindowZ convention : {WindowZ::unit_interval, WindowZ::buffer_units})
         for (const DepthRange& range : depth_ranges) {
             const RasterRules rules{.subpixel_bits = 4, .window_z = convention, .depth_rounding = DepthRounding::floor};
@@ -98,7 +96,7 @@ TEST_CASE("depth replace keeps exactly the fragments whose quotient lies in the 
             for (const Fragment& f :
                  draw(g, {DepthPath::perspective_rq, DepthFormat::d16}, depth_and_reference).fragments) {
                 const Rational depth = Rational{f.reference_z} / 65535;
-                // The range's ends are binary32 and so are compared as such, times 65535 exactly.
+                // The range's ends are binary32 and are compared as such, times 65535 exactly.
                 if (held_in(range, depth) == depth) expected.push_back({f.x, f.y, static_cast<int>(f.primitive)});
             }
             for (const Fragment& f :
@@ -111,11 +109,11 @@ TEST_CASE("depth replace keeps exactly the fragments whose quotient lies in the 
         }
 }
 
-TEST_CASE("per-fragment z clip keeps the depths between near and far, reversed or not, below and above") {
+TEST_CASE("per-fragment z clip keeps the depths between near and far whether or not they are reversed") {
     std::uint64_t below = 0, above = 0;
     for (const DepthRange& range : depth_ranges) {
         const RasterRules rules{.subpixel_bits = 4, .z_clip = ZClip::per_fragment};
-        // One triangle crosses the near end alone, one the far end alone.
+        // One triangle crosses only the near plane, one only the far plane.
         for (const auto& z : {std::array{-0.5, 0.5, 0.5}, std::array{0.5, 0.5, 1.5}, std::array{-0.5, 0.5, 1.5}}) {
             const SetupTriangle t = window_triangle({{{0, 0}, {14 << 4, 0}, {0, 14 << 4}}}, 4, z);
             Geometry g = window_geometry({t}, 14, 14, rules);
@@ -129,7 +127,7 @@ TEST_CASE("per-fragment z clip keeps the depths between near and far, reversed o
             }
             for (const Fragment& f : draw(g).fragments) found.push_back({f.x, f.y});
             CHECK(found == expected);
-            found.clear();  // a pass that looks at no depth has the same fragments
+            found.clear();  // a pass that uses no depth has the same fragments
             for (const Fragment& f : draw(g, {}, coverage_only).fragments) found.push_back({f.x, f.y});
             CHECK(found == expected);
         }
@@ -138,19 +136,19 @@ TEST_CASE("per-fragment z clip keeps the depths between near and far, reversed o
     CHECK(above > 100);
 }
 
-TEST_CASE("a 16-bit float buffer keeps the plane cut to its mantissa, within the depth range, reversed or not",
+TEST_CASE("a 16-bit float buffer stores the plane truncated to its mantissa within the depth range reversed or not",
           "[slow]") {
     const auto value_of = [](std::uint32_t code) {
         return code < 4096 ? Rational{0}
                            : power(static_cast<int>(code / 4096) - 7) * Rational{4096 + code % 4096, 4096};
     };
-    const Rational hair = power(-22);  // of a value: what roundings to binary32 may do before the cut
+    const Rational hair = power(-22);  // relative error of the binary32 roundings before the truncation
     std::uint64_t wrong = 0, fragments = 0, clamped = 0;
     for (const DepthPath path : {DepthPath::float32, DepthPath::exact})
         for (const DepthRange& range : depth_ranges) {
             const RasterRules rules{.subpixel_bits = 4, .window_z = WindowZ::buffer_units};
             const Geometry g = deep_triangles(663, rules, DepthFormat::d16f, range, 511.9375, 200);
-            // Without a reference a kernel may take the short way: it must know the format, too.
+            // Without a compared depth a kernel may use its fast path, which must support the format, too.
             for (const FragmentNeeds& needs : {depth_and_reference, FragmentNeeds{.color = false}})
                 for (const Fragment& f : draw(g, {path, DepthFormat::d16f}, needs).fragments) {
                     const SetupTriangle t = g.triangle(f.primitive);
@@ -167,7 +165,7 @@ TEST_CASE("a 16-bit float buffer keeps the plane cut to its mantissa, within the
     CHECK(clamped > 300);
 }
 
-TEST_CASE("the chip's own sum goes into a 16-bit float buffer unfloored: fractions of a unit count") {
+TEST_CASE("the chip's own sum is stored in a 16-bit float buffer without rounding down so fractions of a unit count") {
     const RasterRules rules{
         .subpixel_bits = 4, .window_z = WindowZ::buffer_units, .depth_rounding = DepthRounding::floor};
     const Geometry g = deep_triangles(664, rules, DepthFormat::d16f, {0, 1}, 6.0);
@@ -178,7 +176,7 @@ TEST_CASE("the chip's own sum goes into a 16-bit float buffer unfloored: fractio
         const Rational found{d16f_value(f.code)};
         ++fragments;
         with_fraction += found != floor(found) ? 1 : 0;
-        if (exact < Rational{1, 32}) continue;  // near 0 the buffer's own zero begins
+        if (exact < Rational{1, 32}) continue;  // near 0 the buffer's code becomes 0
         wrong += found > exact + power(-18) || found < exact * (1 - power(-12)) - power(-18) ? 1 : 0;
     }
     CHECK(wrong == 0);

@@ -1,4 +1,4 @@
-// Texture units at fragments, against the rational plane: u (1/w) rounded, plane rounded, quotient rounded.
+// Tests texture units at fragments against the rational plane: u (1/w) rounded, plane rounded, quotient rounded.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -29,7 +29,7 @@ TriangleSoup soup_of(Random& random, int triangles, bool has_rq) {
     return soup;
 }
 
-// u at a pixel of a triangle: edge weights in integers, then the three roundings.
+// Expected u at a pixel of a triangle: edge weights in integers, then the three roundings.
 float expected(const Geometry& g, const TriangleRecord& t, const std::array<float, 3>& u, int x, int y) {
     const TriangleEdges edges{g.points(t), g.rules.tie_rule};
     const EdgeValues e = edges.at(pixel_centre(x, y, g.rules.subpixel_bits));
@@ -45,7 +45,7 @@ float expected(const Geometry& g, const TriangleRecord& t, const std::array<floa
 
 }  // namespace
 
-TEST_CASE("texture units are interpolated by perspective with three roundings, those that are asked for", "[slow]") {
+TEST_CASE("the requested texture units are interpolated in perspective with three roundings", "[slow]") {
     Random random{501};
     for (const bool has_rq : {false, true}) {
         RasterState state;
@@ -65,14 +65,14 @@ TEST_CASE("texture units are interpolated by perspective with three roundings, t
                 ++fragments;
             }
         };
-        REQUIRE(g.triangles.size() == 12);  // nothing was clipped: primitives are indices
+        REQUIRE(g.triangles.size() == 12);  // nothing was clipped, so primitives are indices
         rasterizer.draw(g, g.all_triangles, {}, needs, BatchSink{sink});
         CHECK(fragments > 400);
         CHECK(wrong == 0);
     }
 }
 
-TEST_CASE("under another hypothesis texture units are interpolated as r and q are") {
+TEST_CASE("under another hypothesis texture units are interpolated like r and q") {
     Random random{502};
     RasterState state;
     state.viewport = {0, 0, 32, 32};
@@ -80,7 +80,7 @@ TEST_CASE("under another hypothesis texture units are interpolated as r and q ar
     rules.hypothesis.interpolant_bits = 18;
     rules.hypothesis.divide = DivideRule::cut_reciprocal;
     TriangleSoup soup = soup_of(random, 12, true);
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v)  // unit 2's r and q are those of depth
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)  // unit 2 has the r and q of depth
         for (std::size_t c : {0u, 1u}) {
             soup.extras.values[v * soup.extras.stride + c] =
                 c == 1 ? 3.0f + static_cast<float>(v % 5) : static_cast<float>(v % 7);
@@ -101,9 +101,7 @@ TEST_CASE("under another hypothesis texture units are interpolated as r and q ar
     CHECK(wrong == 0);
 }
 
-TEST_CASE(
-    "fewer bits of the interpolants count in texture units whatever the rule for divides, and either alone changes "
-    "them") {
+TEST_CASE("fewer bits of the interpolants affect texture units under any rule for divisions") {
     Random random{503};
     RasterState state;
     state.viewport = {0, 0, 32, 32};
@@ -132,7 +130,7 @@ TEST_CASE(
             std::size_t changed = 0, far = 0;
             for (std::size_t i = 0; i < plain.size(); ++i) {
                 changed += other[i] != plain[i] ? 1 : 0;
-                // Sums may cancel: what is left is that share of the greatest corner, 100 times the range of 1/w.
+                // Sums may cancel: the error is then relative to the greatest corner, 100 times the range of 1/w.
                 far += std::abs(other[i] - plain[i]) > (bits == 16 ? 0x1p-5f : 0x1p-13f) ? 1 : 0;
             }
             CHECK(changed > plain.size() / 10);

@@ -1,5 +1,5 @@
-// When rows may stand for batches, at the limits; and that they do there. Model: the scalar reference's batches and a
-// plain loop.
+// Tests when rows may replace batches, at the limits, and that their results are equal there, against the scalar
+// reference's batches and a plain loop.
 #include <catch2/catch.hpp>
 #include <vector>
 
@@ -31,8 +31,7 @@ constexpr std::uint32_t untouched = 0xdeadbeef;
 
 }  // namespace
 
-TEST_CASE(
-    "rows suit every device setting that changes no fragment's existence, and a region of 128 pixels but not of 129") {
+TEST_CASE("rows support every device setting that removes no fragment and a region of 128 pixels but not of 129") {
     const bool has_rows = strata::chosen_simd() >= strata::Simd::avx2;
     Geometry g = random_triangles(671, 4, 8, {{}, {}});
     const DepthRequest plain{};
@@ -60,7 +59,7 @@ TEST_CASE(
     CHECK_FALSE(row_walk_suits(g, {DepthPath::float32, DepthFormat::d24}, {0, 0, 8, 8}));
 }
 
-TEST_CASE("rows are drawn by vectors alone: the scalar reference takes batches") {
+TEST_CASE("rows are drawn only by vector instruction sets and the scalar reference uses batches") {
     const Geometry g = random_triangles(672, 4, 8, {{}, {}});
     for (const strata::Simd simd : strata::available_simd()) {
         const strata::SimdScope scope{simd};
@@ -69,9 +68,7 @@ TEST_CASE("rows are drawn by vectors alone: the scalar reference takes batches")
     }
 }
 
-TEST_CASE(
-    "the widest region's rows leave what its fragments leave, for every depth format, rounding, range and tie rule",
-    "[slow]") {
+TEST_CASE("the widest region's rows give the result of its fragments for every format and rule", "[slow]") {
     std::uint64_t wrong = 0, passed = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         for (const TieRule tie : {TieRule::top_left, TieRule::bottom_left, TieRule::top_right, TieRule::bottom_right})

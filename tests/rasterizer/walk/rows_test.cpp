@@ -1,5 +1,5 @@
-// A pass that draws rows leaves what fragments leave that are tested one after the other. The model is the batches of
-// the scalar reference and a plain loop over them.
+// Tests that a pass drawn by rows gives the result of fragments tested one after the other: the batches of the scalar
+// reference and a plain loop over them.
 #include "rasterizer/walk/rows.h"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ struct Drawn {
     friend bool operator==(const Drawn&, const Drawn&) = default;
 };
 
-// Codes of every depth, and what lies behind the last pixel.
+// Codes of every depth, and values after the last pixel that must not change.
 [[nodiscard]] std::vector<std::uint32_t> stored_codes(const Rect& region, DepthFormat format) {
     Random random{97};
     std::vector<std::uint32_t> codes(region.area() + row_padding);
@@ -52,7 +52,7 @@ struct Drawn {
     return drawn;
 }
 
-// Every fifth plane lies between two neighbouring floats, so that many of its values are ties or close to one.
+// Every fifth plane is between two neighbouring floats, so that many of its values are ties or close to one.
 void add_ties(Geometry& geometry) {
     for (std::size_t i = 0; i < geometry.triangles.size(); i += 5)
         for (std::size_t k = 0; k < 3; ++k)
@@ -61,7 +61,7 @@ void add_ties(Geometry& geometry) {
 
 }  // namespace
 
-TEST_CASE("rows of depth leave the codes and the counts of fragments tested one after the other") {
+TEST_CASE("rows of depth give the codes and the counts of fragments tested one after the other") {
     const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = PlaneOrigin::unsnapped};
     const std::vector<Device> devices{{{}, {DepthPath::float32, DepthFormat::d32f}},
                                       {{.subpixel_bits = 4}, {DepthPath::float32, DepthFormat::d16}},
@@ -92,17 +92,15 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
     CHECK(wrong == 0);
 }
 
-TEST_CASE(
-    "tiny triangles side by side leave what their fragments leave one after the other, cut by regions and scissors",
-    "[slow]") {
+TEST_CASE("tiny triangles side by side give the result of one after the other within regions and scissors", "[slow]") {
     std::size_t wrong = 0, compared = 0;
     for (const DenseCase& dense : dense_cases()) {
         Geometry geometry = set_up(dense.soup, dense.state, dense.rules, 1);
-        // In places, depths of which 3/4 and 5/8 lie half way between two neighbours of binary32.
+        // At some vertices, depths of which 3/4 and 5/8 are half way between two neighbouring binary32.
         for (std::size_t v = 0; v < geometry.corners.size(); ++v)
             if (v / 64 % 3 == 0) geometry.corners[v].z = v % 3 == 0 ? 0.0f : 6'000'001 * 0x1p-23f;
         for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f})
-            // The last ones lie beside the scissor.
+            // The last ones are outside of the scissor.
             for (const Rect& part :
                  {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{61, 0, 70, 40}, Rect{0, 34, 70, 40}}) {
                 const Rect region = intersection(part, geometry.state.viewport);
@@ -121,7 +119,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("rows are not drawn where batches could hold what rows cannot") {
+TEST_CASE("rows are not drawn where batches support what rows do not") {
     const Device plain{{}, {DepthPath::float32, DepthFormat::d32f}};
     const Geometry geometry = random_triangles(5, 10, 8, plain);
     const Rect region{0, 0, 70, 40};
@@ -133,7 +131,8 @@ TEST_CASE("rows are not drawn where batches could hold what rows cannot") {
         return row_walk_suits(changed, depth, rect);
     };
     CHECK(suits([](auto&, auto&, auto&) {}) == (strata::chosen_simd() >= strata::Simd::avx2));
-    CHECK_FALSE(suits([](Geometry& g, auto&, auto&) { g.rules.subpixel_bits = 12; }));  // 64 bits may not hold an edge
+    // an edge function may exceed 64 bits
+    CHECK_FALSE(suits([](Geometry& g, auto&, auto&) { g.rules.subpixel_bits = 12; }));
     CHECK_FALSE(suits([](Geometry& g, auto&, auto&) { g.rules.z_clip = ZClip::per_fragment; }));
     CHECK_FALSE(suits([](auto&, DepthRequest& d, auto&) { d.path = DepthPath::exact; }));
     CHECK_FALSE(suits([](auto&, auto&, Rect& r) { r.x1 = max_row_pixels + 1; }));

@@ -1,4 +1,4 @@
-// Model: the pixels of a square, counted by hand. The README of rasterizer quotes this file.
+// Tests the pixels of a square, counted by hand. The README of rasterizer quotes this file.
 #include <catch2/catch.hpp>
 #include <set>
 

@@ -1,4 +1,4 @@
-// Coverage and values are a function of the set-up triangle and the pixel alone.
+// Tests that coverage and values depend only on the set-up triangle and the pixel.
 #include "rasterizer/walk/tile_rasterizer.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ struct Batches {
 
 }  // namespace
 
-TEST_CASE("every instruction set hands out the batches of the scalar reference, to the bit", "[slow]") {
+TEST_CASE("every instruction set gives batches bit-identical to those of the scalar reference", "[slow]") {
     std::vector<Device> all = devices();
     const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = PlaneOrigin::unsnapped};
     all.push_back({unsnapped, {DepthPath::float32, DepthFormat::d32f}});
@@ -121,7 +121,7 @@ TEST_CASE("every instruction set hands out the batches of the scalar reference, 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fragments are the same for every tile size, region and number of threads", "[slow]") {
+TEST_CASE("fragments are the same for every tile size and region and number of threads", "[slow]") {
     for (const SoupKind kind : {SoupKind::perspective, SoupKind::needs_clipping})
         for (const Device& device : devices()) {
             const TriangleSoup soup = random_soup(121, 120, kind);
@@ -133,7 +133,7 @@ TEST_CASE("fragments are the same for every tile size, region and number of thre
             for (const int tile_size : {8, 16, 32, 64, 128})
                 CHECK(tiled(geometry, device.depth, tile_size, tile_size == 16 ? 2 : 1) == expected);
             CHECK(tiled(geometry_of(soup, device, 150, 90, 4), device.depth, 32, 4) == expected);
-            std::vector<Fragment> parts;  // a split that follows no tiles
+            std::vector<Fragment> parts;  // a division that does not follow tiles
             for (const Rect part :
                  {Rect{0, 0, 1, 90}, Rect{1, 0, 150, 37}, Rect{1, 37, 63, 90}, Rect{63, 37, 150, 90}}) {
                 const DrawResult result = draw(geometry, device.depth, everything, part, geometry.all_triangles);
@@ -143,7 +143,7 @@ TEST_CASE("fragments are the same for every tile size, region and number of thre
         }
 }
 
-TEST_CASE("the arrays that a pass looks at do not depend on those that it leaves out") {
+TEST_CASE("the arrays that a pass uses do not depend on those that it omits") {
     const Device device = devices()[1];
     const Geometry geometry = geometry_of(random_soup(122, 60, SoupKind::perspective), device, 100, 70);
     const auto all = draw(geometry, device.depth, everything).fragments;
@@ -167,8 +167,9 @@ TEST_CASE("the arrays that a pass looks at do not depend on those that it leaves
     }
 }
 
-TEST_CASE("rotating a triangle's vertices changes nothing, except depth and colour on GeForce3", "[slow]") {
-    TriangleSoup soup = random_soup(123, 150, SoupKind::perspective);  // unclipped: a fan depends on its first corner
+TEST_CASE("rotating a triangle's vertices changes nothing except depth and colour on GeForce3", "[slow]") {
+    // Without clipping, because a fan depends on its first corner.
+    TriangleSoup soup = random_soup(123, 150, SoupKind::perspective);
     TriangleSoup rotated = soup;
     for (std::size_t i = 0; i < soup.indices.size(); i += 3) {
         rotated.indices[i] = soup.indices[i + 1];
@@ -196,7 +197,7 @@ TEST_CASE("rotating a triangle's vertices changes nothing, except depth and colo
     CHECK(other_color > 0);
 }
 
-TEST_CASE("fragments of a pixel come in submission order, batch by batch, each batch of one material") {
+TEST_CASE("fragments of a pixel come in submission order in batches of one material each") {
     const Device device = devices()[0];
     const Geometry geometry = geometry_of(random_soup(124, 400, SoupKind::perspective), device, 60, 60);
     TileRasterizer rasterizer{geometry.state.viewport};
@@ -233,7 +234,7 @@ TEST_CASE("a rasterizer that is used again gives the same fragments") {
     CHECK(results[0].fragments == results[1].fragments);
 }
 
-TEST_CASE("the scissor keeps what lies in it and changes nothing else") {
+TEST_CASE("the scissor keeps the fragments inside and changes nothing else") {
     const Device device = devices()[0];
     Geometry geometry = geometry_of(random_soup(126, 50, SoupKind::perspective), device, 60, 60);
     std::vector<Fragment> expected;
@@ -247,7 +248,7 @@ TEST_CASE("the scissor keeps what lies in it and changes nothing else") {
     CHECK(draw(geometry, device.depth).fragments.empty());
 }
 
-TEST_CASE("two triangles with the same vertices have the same depth in every sample, as EQUAL passes need") {
+TEST_CASE("two triangles with the same vertices have the same depth in every sample as EQUAL passes require") {
     for (const Device& device : devices()) {
         TriangleSoup soup = random_soup(127, 40, SoupKind::perspective);
         const auto once = soup.indices;

@@ -1,5 +1,5 @@
-// Rows of the chip's window z leave what fragments leave that are tested one after the other. The model is the batches
-// of the scalar set, which are WindowZ24's own text, and a plain loop over them; window_z_test proves that text by
+// Tests that rows of the chip's window z give the result of fragments tested one after the other: the batches of the
+// scalar set, which run the code of WindowZ24, and a plain loop over them; window_z_test tests that code against
 // rationals.
 #include <catch2/catch.hpp>
 #include <vector>
@@ -19,7 +19,7 @@ struct ChipCodes {
     friend bool operator==(const ChipCodes&, const ChipCodes&) = default;
 };
 
-// Codes all over the format's range; those behind the last pixel must stay.
+// Codes all over the format's range; those after the last pixel must not change.
 [[nodiscard]] std::vector<std::uint32_t> any_codes(const Rect& region, DepthFormat format) {
     Random random{31};
     std::vector<std::uint32_t> codes(region.area() + row_padding);
@@ -51,7 +51,8 @@ struct ChipCodes {
     return found;
 }
 
-// How often rows differ from fragments, over the sets that draw them; `passed` sums what was compared.
+// Number of differences between rows and fragments, over the instruction sets that draw rows; `passed` sums the
+// compared fragments.
 [[nodiscard]] int differences(const Geometry& g, const DepthRequest& depth, const Rect& region, std::uint64_t& passed) {
     const ChipCodes expected = tested_in_turn(g, depth, region);
     int wrong = 0;
@@ -79,9 +80,8 @@ constexpr std::array<std::array<int, 2>, 6> sizes{{{2, 180}, {4, 180}, {8, 90}, 
 
 }  // namespace
 
-TEST_CASE(
-    "rows of the chip's window z leave the codes and counts of fragments, in every format, size, range and offset",
-    "[slow]") {
+TEST_CASE("rows of the chip's window z give the codes and counts of fragments in every format and size and state",
+          "[slow]") {
     std::uint64_t passed = 0;
     int wrong = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f})
@@ -105,7 +105,7 @@ TEST_CASE(
     CHECK((passed > 100'000 || !has_rows_here()));
 }
 
-TEST_CASE("tiny triangles side by side have the chip's window z of each, and its range, in every format", "[slow]") {
+TEST_CASE("tiny triangles side by side have the chip's window z of each and its range in every format", "[slow]") {
     std::uint64_t passed = 0;
     int wrong = 0;
     for (DenseCase dense : dense_cases()) {
@@ -159,7 +159,7 @@ TEST_CASE("rows of the chip's window z follow every width of its reciprocal and 
     CHECK((passed > 100'000 || !has_rows_here()));
 }
 
-TEST_CASE("rows know the chip's window z alone: no other rule of it, no weights by the area, no window positions") {
+TEST_CASE("rows support only the chip's window z and no other rule for it or weights by the area or window positions") {
     const Device device{chip_rules(), {DepthPath::window_z, DepthFormat::d24}};
     const Geometry geometry = chip_triangles(3, 10, 8, device);
     const auto suits = [&](const auto& change) {
@@ -172,6 +172,5 @@ TEST_CASE("rows know the chip's window z alone: no other rule of it, no weights 
     CHECK_FALSE(suits([](Geometry& g) { g.rules.hypothesis.weights = WeightRule::area; }));
     CHECK_FALSE(suits([](Geometry& g) { g.state.window_positions = true; }));
     CHECK_FALSE(suits([](Geometry& g) { g.rules.subpixel_bits = 12; }));
-    CHECK_FALSE(
-        row_walk_suits(geometry, device.depth, {0, 0, 70, 40}));  // sums and lists of arrivals stay with float32
+    CHECK_FALSE(row_walk_suits(geometry, device.depth, {0, 0, 70, 40}));  // sums and recorded fragments require float32
 }
