@@ -1,5 +1,5 @@
-// tests/callgrind/callgrind_jobs.cpp - small fixed jobs of the core, one thread and AVX2, whose instructions counts.sh
-// counts. Run: callgrind_jobs --compiler | --list | JOB. Exit status 77: this processor lacks AVX2.
+// tests/callgrind/callgrind_jobs.cpp - small fixed jobs of the core, in one thread with AVX2, whose instructions
+// counts.sh counts. Run: callgrind_jobs --compiler | --list | JOB. Exit status 77: this processor lacks AVX2.
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -47,7 +47,7 @@ peeling::RenderResult draw(const golden::GoldenScene& scene, std::string_view al
 
 }  // namespace
 
-// What callgrind counts.
+// The function whose instructions callgrind counts.
 extern "C" [[gnu::noinline]] void strata_counted_job(const golden::GoldenScene& scene, std::string_view algorithm,
                                                      peeling::RenderResult& result) {
     result = draw(scene, algorithm);
@@ -59,7 +59,8 @@ int run(const Job& job) {
     if (!has_simd(Simd::avx2)) return 77;
     for (const golden::GoldenScene& scene : golden::core_scenes()) {
         if (scene.name != job.scene) continue;
-        peeling::RenderResult result = draw(scene, job.algorithm);  // tables, profiles and allocators are set up once
+        // This uncounted run sets up tables, profiles and allocators.
+        peeling::RenderResult result = draw(scene, job.algorithm);
         strata_counted_job(scene, job.algorithm, result);
         return result.outcome == peeling::Outcome::done ? 0 : 1;
     }

@@ -1,4 +1,5 @@
-// tests/fuzz/byte_source.h - choices, one or two bytes each. At the end of the bytes every choice is the first one.
+// tests/fuzz/byte_source.h - makes choices from one or two bytes each. After the end of the bytes every choice is the
+// first one.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -22,7 +22,7 @@ peeling::RenderResult run(const FrameCase& frame, const Way& way) {
     peeling::Renderer renderer{frame.list, frame.view, frame.profile, options};
     if (frame.algorithm == "depth_pass") return renderer.depth_pass({}, {.trust_idle = way.trust_idle});
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(frame.algorithm);
-    // Programs run twice then, and what they note is noted twice: only a broken promise is asked for.
+    // With this check programs run twice and record everything twice, so only broken contracts are reported.
     if (way.check_selections)
         static_cast<void>(renderer.render(algorithm, {}, {.check_selections = true, .trust_idle = way.trust_idle}));
     return renderer.render(algorithm, {}, {.trust_idle = way.trust_idle});
@@ -30,7 +30,7 @@ peeling::RenderResult run(const FrameCase& frame, const Way& way) {
 
 namespace {
 
-// Keeps what `change` makes of the frame if it still differs.
+// Applies `change` and keeps the changed frame if it still differs.
 bool try_change(FrameCase& frame, const std::function<void(FrameCase&)>& change) {
     FrameCase smaller = frame;
     change(smaller);
@@ -65,7 +65,7 @@ void for_all_materials(FrameCase& f, Visit&& visit) {
     for (pipeline::Material& m : f.list.materials) visit(m);
 }
 
-// State and attributes back to their defaults, one after the other.
+// Changes that reset state and attributes to their defaults, one after the other.
 const std::vector<std::function<void(FrameCase&)>>& simplifications() {
     static const peeling::RenderOptions plain;
     static const std::vector<std::function<void(FrameCase&)>> all{

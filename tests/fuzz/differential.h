@@ -1,7 +1,7 @@
-// tests/fuzz/differential.h - every way of running a frame against the first one, and the smallest case that still
+// tests/fuzz/differential.h - compares every way of running a frame with the first one, and reduces a case that
 // differs.
 //
-// Rule     Nothing that a user sees depends on execution, instruction set, tile size, effects or fragment memory.
+// Rule     Results do not depend on execution, instruction set, tile size, effects or fragment memory.
 // Tests    A difference is printed as a reduced case with the bytes that made it.
 #pragma once
 #include <iosfwd>
@@ -13,10 +13,10 @@ namespace strata::fuzz {
 
 [[nodiscard]] peeling::RenderResult run(const FrameCase& frame, const Way& way);
 
-// Which way differs from the first, and in what; empty if none does.
+// Name of the first way that differs and of the result that differs; empty if all are equal.
 [[nodiscard]] std::string first_difference(const FrameCase& frame);
 
-// Without the triangles, state and ways that the difference does not need.
+// The frame without triangles, state and ways that the difference does not need.
 [[nodiscard]] FrameCase reduced(FrameCase frame);
 
 // True if every way agrees, on up to `threads` threads; else prints the difference, the reduced case and the bytes.

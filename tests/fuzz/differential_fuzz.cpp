@@ -1,5 +1,5 @@
-// tests/fuzz/differential_fuzz.cpp - any bytes make a frame that every execution and instruction set draws alike.
-// Run: differential_fuzz CORPUS
+// tests/fuzz/differential_fuzz.cpp - libFuzzer's entry: makes a frame from the bytes, which every execution and
+// instruction set must draw alike. Run: differential_fuzz CORPUS
 #include <cstdlib>
 #include <iostream>
 

@@ -1,8 +1,9 @@
-// tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each come from its seed. Run:
-// differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference; --seeds A..B --threads N on N
-// threads,
-//      --seeds A..B --relations holds each frame against itself said in other ways;
-//      differential_seeds --write FOLDER: the bytes of the first hundred as files for libFuzzer to start from.
+// tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each frame are made from its
+// seed.
+// Run: differential_seeds --seeds A..B (B exclusive), exit status 1 at the first difference;
+//      --seeds A..B --threads N on N threads;
+//      --seeds A..B --relations compares each frame with equivalent forms of it;
+//      differential_seeds --write FOLDER: the bytes of the first hundred frames as a corpus for libFuzzer.
 #include <charconv>
 #include <cstdlib>
 #include <exception>
@@ -50,7 +51,7 @@ void write(const std::filesystem::path& folder) {
     }
 }
 
-// The sum, and a line a relation.
+// Prints the sum and one line per relation.
 void print(const strata::fuzz::RelationCounts& held) {
     std::uint64_t all = 0;
     for (const auto& [name, frames] : held) all += frames;

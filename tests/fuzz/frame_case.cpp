@@ -17,13 +17,13 @@ constexpr std::uint64_t usual_memory = std::uint64_t{256} << 20;
 
 struct Running {
     Execution execution;
-    std::uint64_t fragment_memory;  // unless the bytes say otherwise
+    std::uint64_t fragment_memory;  // default
 };
 constexpr Running rasterizing{Execution::replay, 0}, replaying{Execution::replay, usual_memory},
     literal{Execution::literal, usual_memory};
 constexpr std::array runnings{replaying, rasterizing, literal};
 
-// A profile that can run the algorithm; now and then any.
+// A profile that can run the algorithm; sometimes any profile.
 DeviceProfile profile_for(ByteSource& bytes, const peeling::Algorithm* algorithm) {
     std::vector<DeviceProfile> profiles;
     const bool any = bytes.one_in(16);
@@ -32,7 +32,7 @@ DeviceProfile profile_for(ByteSource& bytes, const peeling::Algorithm* algorithm
     return profiles[static_cast<std::size_t>(bytes.below(static_cast<int>(profiles.size())))];
 }
 
-// Other values of up to four rules, one after the other, unless others rule them out.
+// Changes up to four rules, one after the other, unless another rule excludes the value.
 void vary_rules(ByteSource& bytes, DeviceProfile& profile) {
     std::vector<const ProfileField*> rules;
     for (const ProfileField& field : profile_fields())
@@ -59,7 +59,7 @@ void choose_formats(ByteSource& bytes, const DeviceProfile& profile, peeling::Re
     }
 }
 
-// Another depth compared than stored, or by vertices that went another way.
+// Chooses a compared depth other than the stored one, or another vertex path for it.
 void choose_comparison(ByteSource& bytes, const DeviceProfile& profile, peeling::RenderOptions& o) {
     constexpr std::array stored{DepthPath::float32_plane, DepthPath::exact, DepthPath::perspective_rq,
                                 DepthPath::depth_replace};
@@ -136,7 +136,7 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     if (bytes.one_in(6)) o.alpha = bytes.fraction();
     if (bytes.one_in(2))
         for (float& channel : components(o.background)) channel = bytes.fraction();
-    if (o.background[3] < 0.5f) o.background[3] = 1;  // dual's resolve is for opaque ones
+    if (o.background[3] < 0.5f) o.background[3] = 1;  // dual's resolve requires an opaque background
     o.termination = termination(bytes);
     if (bytes.one_in(6)) o.max_passes = 1 + bytes.below(8);
     o.keep_layers = algorithm != nullptr && algorithm->makes_layers && bytes.one_in(4);
@@ -160,7 +160,7 @@ Way way(ByteSource& bytes, const Running& running, Simd simd) {
     return w;
 }
 
-// A picture or a back of another format than its colours.
+// Chooses another format for the picture or the back than for the colours.
 void choose_other_formats(ByteSource& bytes, const DeviceProfile& profile, const peeling::Algorithm* algorithm,
                           peeling::RenderOptions& o) {
     constexpr std::array formats{Format::rgba8, Format::rgba16f, Format::rgba32f};
@@ -208,7 +208,7 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
     vary_rules(bytes, frame.profile);
     frame.list = list_of(bytes, frame.view, frame.options.width, frame.options.height);
     choose_other_formats(bytes, frame.profile, algorithm,
-                         frame.options);  // these are last, so that kept inputs mean what they did
+                         frame.options);  // these are last, so that kept inputs keep their meaning
     if (frame.profile.raster.coverage == rasterizer::CoverageRule::snapped_edges && bytes.one_in(3)) {
         const int x = bytes.below(16), y = bytes.below(16);
         frame.options.raster.sample = rasterizer::SamplePoint{x, y};

@@ -1,5 +1,5 @@
-// tests/fuzz/frame_case.h - a small frame and several ways to run it, made of any bytes. Equal bytes make an equal
-// case; bytes that are missing count as 0, and 0 stands for the plainest choice.
+// tests/fuzz/frame_case.h - makes a small frame and several ways to run it from any bytes. Equal bytes make an equal
+// case; missing bytes count as 0, which is the plainest choice.
 #pragma once
 #include <cstdint>
 #include <iosfwd>
@@ -12,20 +12,20 @@
 
 namespace strata::fuzz {
 
-// What no result may depend on.
+// Settings that no result may depend on.
 struct Way {
     pipeline::Execution execution = pipeline::Execution::literal;
     Simd simd = Simd::best;
     int tile_size = 32;
     pipeline::Effects effects = pipeline::Effects::needed;
     bool trust_idle = true;
-    bool check_selections = false;  // beforehand: passes visit every fragment, too, and compare
+    bool check_selections = false;  // first runs passes that visit every fragment as well, and compares
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
 };
 
 struct FrameCase {
     std::string algorithm;            // "depth_pass" is Renderer::depth_pass
-    pipeline::DeviceProfile profile;  // a built-in one, some of whose rules may have other values
+    pipeline::DeviceProfile profile;  // a built-in one, possibly with changed rules
     peeling::RenderOptions options;
     pipeline::DrawList list;
     pipeline::View view;

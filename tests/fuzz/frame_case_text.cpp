@@ -1,4 +1,4 @@
-// A case as a list that a person can read and type in again; numbers with all their digits.
+// Prints a case in a form that can be read and typed in again; numbers have all their digits.
 #include <algorithm>
 #include <iomanip>
 #include <ostream>
@@ -59,7 +59,7 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
     out << '\n';
 }
 
-// Only what its triangles use.
+// Prints only what the mesh's triangles use.
 void print_mesh(std::ostream& out, const pipeline::Mesh& mesh) {
     print_numbers(out, " indices", mesh.indices);
     out << '\n';

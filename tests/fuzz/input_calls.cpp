@@ -1,5 +1,5 @@
-// tests/fuzz/input_calls.cpp - any sequence of calls on one renderer: each answers what it answers on a renderer of its
-// own.
+// tests/fuzz/input_calls.cpp - makes a sequence of calls on one renderer from any bytes; each must return what it
+// returns on a new renderer.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,7 +27,7 @@ struct Asked {
     const peeling::Algorithm* algorithm;
 };
 
-// What a call gave: a result, fragments, or a sentence.
+// Result of a call: a picture, fragments, or an error message.
 struct Answer {
     peeling::RenderResult result{};
     std::vector<std::array<std::uint32_t, 9>> fragments{};

@@ -1,5 +1,5 @@
-// tests/fuzz/input_files.cpp - inputs that are read from files: a pack's manifest beside its arrays, and EXR files
-// given back.
+// tests/fuzz/input_files.cpp - fuzzed inputs that are read from files: a pack's manifest with its arrays, and EXR
+// files.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -19,7 +19,7 @@ namespace strata::fuzz {
 
 namespace {
 
-// Gone when the process ends.
+// A folder that is deleted when the process ends.
 const std::filesystem::path& folder() {
     static const test::OwnFolder own;
     static const std::filesystem::path path = own.path();
@@ -31,7 +31,7 @@ void write(const std::filesystem::path& path, Bytes bytes) {
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-// The manifest of a small scene, whose arrays go to `to`.
+// The manifest of a small scene, whose arrays are written to `to`.
 std::string manifest_beside_arrays(const std::filesystem::path& to) {
     const scenes::Scene scene = scenes::make_procedural("random:seed=3,triangles=4", {});
     scenes::PackFiles files{[&](const std::string& name, const std::string& bytes) {

@@ -1,6 +1,6 @@
-// tests/fuzz/input_fuzz.cpp - libFuzzer's way into tests/fuzz/inputs.h. The program's name says which input:
-// profile_fuzz, camera_fuzz, plan_fuzz, pack_fuzz, exr_fuzz and calls_fuzz are links to it, so that the processes that
-// libFuzzer starts itself know it, too. Run: profile_fuzz CORPUS
+// tests/fuzz/input_fuzz.cpp - libFuzzer's entry to tests/fuzz/inputs.h. The program's name selects the input:
+// profile_fuzz, camera_fuzz, plan_fuzz, pack_fuzz, exr_fuzz and calls_fuzz are links to it, so that processes that
+// libFuzzer starts select the same input. Run: profile_fuzz CORPUS
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>

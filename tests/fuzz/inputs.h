@@ -1,12 +1,13 @@
-// tests/fuzz/inputs.h - what people hand to the program, each kind by itself: any bytes are refused in a sentence, or
-// keep a promise.
+// tests/fuzz/inputs.h - the kinds of input that users give to the program: any bytes must be rejected with an error
+// message, or satisfy the rule below.
 //
-// Rule     profile, camera what is read and written reads back as it is. plan its cells are there, none twice. pack a
-//          manifest beside the arrays of a small scene: what is read can be drawn. exr its targets have the digests
-//          that are told without reading them whole. calls a sequence of calls on one renderer answers what each call
-//          answers on a renderer of its own.
-// Tests    tests/fuzz/corpus holds archives of inputs that reach different code; tests/fuzz/replay_inputs.cpp asks
-//          each.
+// Rule     profile, camera: what is read and written is unchanged when read again. plan: all of its cells exist,
+// without
+//          duplicates. pack: a manifest with the arrays of a small scene; if it is read, it can be drawn. exr: its
+//          targets
+//          have the digests that are computed without reading them completely. calls: each call of a sequence on one
+//          renderer returns what it returns on a new renderer.
+// Tests    tests/fuzz/corpus has archives of inputs that reach different code; tests/fuzz/replay_inputs.cpp runs each.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -19,15 +20,15 @@ using Bytes = std::span<const std::uint8_t>;
 
 struct Input {
     std::string_view name;
-    // Throws std::logic_error for a broken promise; what is refused is no fault.
+    // Throws std::logic_error if the rule is broken; rejecting the bytes is not a fault.
     void (*try_bytes)(Bytes bytes);
-    // Files to start from.
+    // Writes a corpus to start from.
     void (*write_seeds)(const std::filesystem::path& folder);
 };
 
 [[nodiscard]] std::span<const Input> inputs();
 
-// Throws std::logic_error with these words unless it holds.
+// Throws std::logic_error with this message unless `holds`.
 void require(bool holds, const char* promise);
 
 void try_pack(Bytes bytes);

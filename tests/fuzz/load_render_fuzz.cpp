@@ -1,5 +1,5 @@
-// tests/fuzz/load_render_fuzz.cpp - any bytes are refused with InputError or give a scene that can be rendered.
-// Run: load_render_fuzz CORPUS (made by make_corpus); one minute of it belongs to tools/test.sh.
+// tests/fuzz/load_render_fuzz.cpp - any bytes must be rejected with InputError or give a scene that can be rendered.
+// Run: load_render_fuzz CORPUS (made by make_corpus); tools/test.sh runs it for one minute.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace {
 
 using strata::scenes::Scene;
 
-// Small, so that a run is many files and not a few large ones; a product run differs in these numbers alone.
+// Small limits, so that a run reads many files instead of a few large ones; otherwise the same as in normal use.
 constexpr strata::scenes::GltfLimits limits{.elements = 4096, .texels = 1 << 16, .instanced = 1 << 16};
 
 void require(bool holds) {
     if (!holds) std::abort();
 }
 
-// What the machine relies on without asking again.
+// Conditions that the renderer relies on without checking them.
 void check_invariants(const Scene& scene) {
     for (const auto& mesh : scene.list.meshes) {
         require(mesh.indices.size() % 3 == 0 && !mesh.indices.empty());
@@ -44,8 +44,8 @@ void check_invariants(const Scene& scene) {
     }
 }
 
-// At 16 x 16, by the layered and the min-max peel, opaque surfaces first; replay (by rasterizing every pass) and
-// literal execution must agree.
+// Renders at 16 x 16 by the layered and the min-max peel with opaque surfaces first; replay, which rasterizes every
+// pass here, and literal execution must agree.
 void render(const Scene& scene) {
     strata::peeling::RenderOptions options{.width = 16, .height = 16, .max_passes = 8, .tile_size = 8, .threads = 1};
     const auto view = strata::scenes::orbit_view(scene.bounds, 30, 20, 1.0);

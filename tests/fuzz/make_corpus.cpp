@@ -1,4 +1,4 @@
-// tests/fuzz/make_corpus.cpp - seeds for load_render_fuzz: one small file of each kind that the loader knows.
+// tests/fuzz/make_corpus.cpp - writes seeds for load_render_fuzz: one small file of each kind that the loader reads.
 // Run: make_corpus FOLDER
 #include <filesystem>
 #include <fstream>

@@ -19,13 +19,13 @@ using pipeline::Mesh;
 
 namespace {
 
-// Beside these take fragments by more than their depths: as they come, by object, by a limited number, or by two
+// All other algorithms process fragments not only by depth: in submission order, by object, a limited number, or by two
 // depths.
 constexpr std::array<std::string_view, 10> by_depth{
     "depth_units", "front_to_back",    "dual",           "dual_independent", "layer_peel",
     "a_buffer",    "coherent_stencil", "coherent_blend", "coherent_ideal",   "depth_pass"};
 
-// std::shuffle leaves it to the library which order comes out.
+// std::shuffle's order depends on the standard library.
 template <class T, class Random>
 void permute(std::vector<T>& values, Random& random) {
     for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random() % i]);
@@ -44,7 +44,7 @@ bool compares_what_it_stores(const peeling::RenderOptions& o) {
            o.vertex_paths == peeling::VertexPaths{};
 }
 
-// Neither by the codes that are stored nor by the exact ones.
+// True if fragments tie by the stored or by the exact codes.
 bool has_ties(const FrameCase& frame, const peeling::Algorithm& algorithm) {
     peeling::RenderOptions options = frame.options;
     options.keep_layers = false;
@@ -85,8 +85,8 @@ bool has_order_by_depth(const FrameCase& frame) {
     const peeling::RenderOptions& o = frame.options;
     if (std::find(by_depth.begin(), by_depth.end(), frame.algorithm) == by_depth.end()) return false;
     if (frame.algorithm == "depth_pass") return true;
-    // A run is blended in one pass, and how a list falls into runs is a matter of its order: where a pass rounds once,
-    // so are colours.
+    // A run is blended in one pass, and the division of a list into runs depends on its order; where each pass rounds
+    // once, so do colours.
     const bool rounds_passes = frame.profile.blend_storage != pipeline::BlendStorage::target;
     if (rounds_passes && frame.algorithm.starts_with("coherent_")) return false;
     if (o.termination.rule != pipeline::TerminationRule::exact || o.max_passes != 0 ||

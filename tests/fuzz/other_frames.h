@@ -1,22 +1,22 @@
-// tests/fuzz/other_frames.h - frames in another place, with more state or in another order, that must stay the same
-// picture; and for which frames that may be asked.
+// tests/fuzz/other_frames.h - changes of a frame that must not change its picture: another position, additional state,
+// another order; and the frames for which this is true.
 #pragma once
 #include "tests/fuzz/frame_case.h"
 
 namespace strata::fuzz {
 
-// White texels, an offset of 0, a scissor as large as the viewport, and all effects.
+// Adds white texels, an offset of 0, a scissor as large as the viewport, and all effects.
 void add_idle_state(FrameCase& frame);
 
-// The viewport further by whole tiles of every size: asked of devices whose planes are exact, not stepped from pixel to
+// Moves the viewport by whole tiles of every size. Only for devices whose planes are exact, not stepped from pixel to
 // pixel.
 inline constexpr int tiles_x = 384, tiles_y = 128;
 [[nodiscard]] bool can_move(const FrameCase& frame);
 void move_by_tiles(FrameCase& frame);
 
-// No two transparent fragments of a pixel have one depth, and the algorithm takes them by their depth alone.
+// True if no two transparent fragments of a pixel have equal depths and the algorithm orders them by depth alone.
 [[nodiscard]] bool has_order_by_depth(const FrameCase& frame);
-// Transparent instances in another order, and the triangles of each.
+// Changes the order of the transparent instances and of the triangles in each.
 void permute_triangles(FrameCase& frame);
 
 }  // namespace strata::fuzz

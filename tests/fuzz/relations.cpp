@@ -15,7 +15,7 @@ using pipeline::DrawList;
 using pipeline::Instance;
 using pipeline::Mesh;
 
-// Every instance as two, one behind the other, with half of its triangles each.
+// Splits every instance into two, one after the other, with half of its triangles each.
 void split_meshes(DrawList& list) {
     std::vector<Instance> parts;
     for (const Instance& whole : list.instances) {
@@ -43,7 +43,7 @@ void take_each(std::vector<T>& values, const std::vector<std::uint32_t>& indices
     values = std::move(taken);
 }
 
-// No two triangles share a corner.
+// Gives every triangle separate vertices.
 void part_corners(DrawList& list) {
     for (Mesh& mesh : list.meshes) {
         take_each(mesh.positions, mesh.indices);
@@ -65,14 +65,14 @@ void add_unreferenced(DrawList& list) {
     }
 }
 
-// Behind each mesh's triangles one whose three corners are one.
+// Adds a triangle with three equal corners at the end of each mesh.
 void add_points(DrawList& list) {
     for (Mesh& mesh : list.meshes)
         if (!mesh.indices.empty()) mesh.indices.insert(mesh.indices.end(), 3, mesh.indices.back());
 }
 
-// What must stay of the frame: all that a user sees, with first pixels further by whole tiles, all but what
-// counts triangles, or the picture and its layers.
+// Results that must be equal: everything, except that first pixels are moved by whole tiles; everything but counts of
+// triangles; or only the picture and its layers.
 enum class Stays : std::uint8_t { everything, but_places, but_counts, picture };
 
 struct Relation {
@@ -89,12 +89,12 @@ void to_list(FrameCase& frame) {
 
 bool always(const FrameCase&) { return true; }
 
-// These two draw object by object.
+// These two algorithms draw object by object.
 bool has_no_objects(const FrameCase& frame) {
     return frame.algorithm != "object_sorted" && frame.algorithm != "batched";
 }
 
-// Buckets and shuffles look at all triangles, points included.
+// Buckets and shuffles depend on the number of triangles, including points.
 bool counts_no_triangles(const FrameCase& frame) {
     const peeling::SortRule rule = frame.options.sort.rule;
     return rule != peeling::SortRule::bucket && rule != peeling::SortRule::shuffle;
@@ -109,7 +109,7 @@ constexpr std::array<Relation, 7> relations{
      {"viewport moved by whole tiles", can_move, move_by_tiles, Stays::but_places},
      {"another order of triangles", has_order_by_depth, permute_triangles, Stays::picture}}};
 
-// A first pixel on the surface, as it was before the viewport moved.
+// Moves a first pixel on the surface back to its position before the viewport moved.
 template <class Count>
 void move_back(Count& count) {
     if (count.first_x < 0) return;
@@ -117,7 +117,7 @@ void move_back(Count& count) {
     count.first_y -= tiles_y;
 }
 
-// What must not be compared is taken from the other result.
+// Copies the values that must not be compared from the other result.
 void forgive(peeling::RenderResult& found, const peeling::RenderResult& expected, Stays stays) {
     if (stays == Stays::everything) return;
     if (stays == Stays::but_places) {
@@ -138,7 +138,7 @@ void forgive(peeling::RenderResult& found, const peeling::RenderResult& expected
 
 bool check_relations(std::span<const std::uint8_t> bytes, RelationCounts& held, std::ostream& out) {
     FrameCase frame = make_case(bytes);
-    frame.profile = *pipeline::find_profile(frame.profile.name);  // rules of other devices have relations of their own
+    frame.profile = *pipeline::find_profile(frame.profile.name);  // rules of other devices have their own relations
     if (frame.profile.raster.coverage == rasterizer::CoverageRule::float_spans) frame.options.raster.sample.reset();
     const peeling::RenderResult expected = run(frame, frame.ways.front());
     for (const Relation& relation : relations) {

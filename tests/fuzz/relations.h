@@ -1,10 +1,12 @@
-// tests/fuzz/relations.h - frames that are said in another way and must stay the same picture.
+// tests/fuzz/relations.h - changes of a frame that must not change its picture.
 //
-// Rule     A mesh in two parts, triangles with corners of their own, materials, meshes and textures that are not
-//          referenced, a viewport further by whole tiles, and state that changes nothing (a white texel, an offset of
-//          0, a scissor as large as the viewport, all effects) leave whatever a user sees. Triangles without an area
-//          change counters and diagnostics alone. Where no two fragments of a pixel have one depth, the order of
-//          triangles leaves the pictures of algorithms that sort by depth.
+// Rule     Splitting meshes in two, giving triangles separate corners, adding unreferenced materials, meshes and
+// textures,
+//          moving the viewport by whole tiles, and adding state without effect (a white texel, an offset of 0, a
+//          scissor
+//          as large as the viewport, all effects) change no result. Triangles without an area change only counters and
+//          diagnostics. Where no two fragments of a pixel have equal depths, the order of triangles does not change the
+//          pictures of algorithms that sort by depth.
 #pragma once
 #include <cstdint>
 #include <iosfwd>
@@ -16,11 +18,11 @@
 
 namespace strata::fuzz {
 
-// By a relation's name: of how many frames it was asked, and held.
+// By a relation's name: the number of frames for which it was tested and held.
 using RelationCounts = std::map<std::string_view, std::uint64_t>;
 
-// Counts the relations that hold for the frame that these bytes make. If one does not: false, and which it is and the
-// frame are printed.
+// Counts the relations that hold for the frame that these bytes make. If one does not hold, prints it and the frame and
+// returns false.
 [[nodiscard]] bool check_relations(std::span<const std::uint8_t> bytes, RelationCounts& held, std::ostream& out);
 
 }  // namespace strata::fuzz

@@ -1,6 +1,7 @@
-// tests/fuzz/replay_inputs.cpp - the kept inputs, without a fuzzer. Run: replay_inputs FOLDER: each file of FOLDER/NAME
-// is asked what an input of that name is asked, and of FOLDER/gltf what a scene is;
-//      exit status 1 if a promise is broken. replay_inputs --write FOLDER: files to start from.
+// tests/fuzz/replay_inputs.cpp - runs the kept inputs without a fuzzer.
+// Run: replay_inputs FOLDER: each file of FOLDER/NAME is tried as an input of that name, those of FOLDER/gltf as
+// scenes;
+//      exit status 1 if a rule is broken. replay_inputs --write FOLDER: writes a corpus to start from.
 #include <algorithm>
 #include <fstream>
 #include <iostream>
@@ -10,7 +11,7 @@
 
 #include "tests/fuzz/inputs.h"
 
-// Of load_render_fuzz.cpp.
+// Defined in load_render_fuzz.cpp.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {

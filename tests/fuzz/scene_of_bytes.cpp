@@ -29,7 +29,7 @@ constexpr std::array<float, 16> hard_numbers{0.0f,
 
 enum class Placement : std::uint8_t { corners, on_grid, anywhere, hard };
 
-// A channel: 0 and 1 come often.
+// A channel value; 0 and 1 are frequent.
 float channel(ByteSource& bytes) {
     const int code = bytes.byte();
     return code < 32 ? 1.0f : code < 64 ? 0.0f : static_cast<float>(code) / 255.0f;
@@ -37,23 +37,23 @@ float channel(ByteSource& bytes) {
 
 Rgba color(ByteSource& bytes) { return {channel(bytes), channel(bytes), channel(bytes), channel(bytes)}; }
 
-// In [-1.5, 1.5] on the screen, pixels counted in halves.
+// In [-1.5, 1.5] in clip space, or a multiple of half a pixel.
 float coordinate(ByteSource& bytes, Placement placement, int pixels) {
     if (placement == Placement::hard && bytes.one_in(3)) return bytes.pick(hard_numbers);
     if (placement != Placement::on_grid) return 3 * bytes.fraction() - 1.5f;
     return static_cast<float>(bytes.below(2 * pixels + 9) - 4) / static_cast<float>(pixels) - 1;
 }
 
-// A vertex of a mesh that fills the screen is a corner of it; others lie somewhere.
+// A vertex of a mesh that fills the screen is a corner of it; others are anywhere.
 Vec3 position(ByteSource& bytes, Placement placement, bool is_perspective, int width, int height, int corner) {
     const bool is_corner = placement == Placement::corners && corner < 4;
     const float x = is_corner ? (corner % 2 == 0 ? -1.25f : 1.0f) : coordinate(bytes, placement, width);
     const float y = is_corner ? (corner < 2 ? -1.0f : 1.25f) : coordinate(bytes, placement, height);
-    const float reach = bytes.one_in(6) ? 2.0f : 1.0f;  // beyond the planes, or between them
+    const float reach = bytes.one_in(6) ? 2.0f : 1.0f;  // beyond the near and far planes, or between them
     const float z = placement == Placement::anywhere ? reach * (2 * bytes.fraction() - 1)
                                                      : reach * static_cast<float>(bytes.below(15) - 7) / 8;
     if (!is_perspective) return {x, y, z};
-    const float distance = 3 + 2 * z;  // z in [-1, 1] lies between the planes, z < -1.5 behind the eye
+    const float distance = 3 + 2 * z;  // z in [-1, 1] is between the planes, z < -1.5 behind the eye
     return {x * distance * 0.5f, y * distance * 0.5f, -distance};
 }
 
@@ -65,7 +65,7 @@ void add_vertices(ByteSource& bytes, Mesh& mesh, bool is_perspective, int width,
     const int count = 3 + bytes.below(8);
     for (int i = 0; i < count; ++i) {
         Vec3 p = position(bytes, placement, is_perspective, width, height, i);
-        if (i > 0 && bytes.one_in(8)) {  // a sliver: beside the vertex before
+        if (i > 0 && bytes.one_in(8)) {  // a sliver: next to the previous vertex
             p = mesh.positions.back();
             p[static_cast<std::size_t>(bytes.below(3))] += bytes.fraction() * 0x1p-6f;
         }
@@ -76,7 +76,7 @@ void add_vertices(ByteSource& bytes, Mesh& mesh, bool is_perspective, int width,
     }
 }
 
-// Neighbours share vertices; some triangles come twice, some are degenerate.
+// Neighbours share vertices; some triangles occur twice, some are degenerate.
 void add_triangles(ByteSource& bytes, Mesh& mesh) {
     const auto vertices = static_cast<int>(mesh.positions.size());
     const int count = 1 + bytes.below(8);

@@ -1,4 +1,4 @@
-// tests/fuzz/scene_of_bytes.h - what a case draws: few triangles, but every trouble that triangles know.
+// tests/fuzz/scene_of_bytes.h - the scene of a case: few triangles, with all kinds of difficult geometry.
 #pragma once
 #include "pipeline/vertices/draw_list.h"
 #include "tests/fuzz/byte_source.h"

@@ -1,5 +1,5 @@
-// tests/golden/core_digests.cpp - the digests of the core's five scenes; tools/test.sh --matrix compares them between
-// compilers.
+// tests/golden/core_digests.cpp - prints the digests of the core's five scenes; tools/test.sh --matrix compares them
+// between compilers.
 #include <exception>
 #include <iostream>
 

@@ -20,7 +20,7 @@ std::uint32_t next(std::uint32_t& state) {  // Numerical Recipes' generator; its
 
 float fraction(std::uint32_t& state) { return static_cast<float>(next(state) % 256) / 256.0f; }
 
-// A draw list that grows a quad or a triangle at a time, each with a material of its own.
+// Builds a draw list from quads and triangles, each with its own material.
 struct Builder {
     pipeline::DrawList list;
 
@@ -57,7 +57,7 @@ pipeline::DrawList soup() {
     return builder.list;
 }
 
-pipeline::DrawList stack() {  // drawn in an order that is neither front to back nor back to front
+pipeline::DrawList stack() {  // drawn neither front to back nor back to front
     Builder builder;
     for (int i = 0; i < 8; ++i) {
         const float z = -1.5f - static_cast<float>(i * 5 % 8) * 0.375f;

@@ -1,4 +1,4 @@
-// tests/golden/core_scenes.h - five small scenes made without a file, a library or a rounding: what the core alone can
+// tests/golden/core_scenes.h - five small scenes made without files, libraries or rounding, which the core alone can
 // draw.
 #pragma once
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace strata::golden {
 
-// soup, stack, crossing, ties, textured. Coordinates are small binary fractions, the projection's entries too.
+// soup, stack, crossing, ties, textured. Coordinates and the projection's entries are small binary fractions.
 [[nodiscard]] std::vector<GoldenScene> core_scenes();
 
 }  // namespace strata::golden

@@ -79,7 +79,7 @@ Settings parse(int count, char** words) {
 std::string lines(const GoldenScene& scene, const Settings& settings) {
     std::string text;
     for (const pipeline::DeviceProfile& profile : pipeline::builtin_profiles()) {
-        // The fragments of Mesa's rasterizers are held to Mesa's own, by tools/bench.
+        // tools/bench compares the fragments of Mesa's rasterizers with Mesa's own.
         if (profile.raster.plane_rule != rasterizer::PlaneRule::exact) continue;
         peeling::RenderOptions options;
         options.width = scene.width;

@@ -1,6 +1,5 @@
-// tests/golden/golden.h - digests of scenes as reviewable lines: scene profile algorithm colour depth outcome.
-// Model: none; a golden pins bits that the other groups prove. It fails when a bit depends on a setting that no bit may
-// depend on.
+// tests/golden/golden.h - digests of scenes as reviewable lines: scene profile algorithm colour depth outcome. A golden
+// digest pins bits that other tests prove. It also fails if a bit depends on a setting that it must not depend on.
 #pragma once
 #include <string>
 
@@ -9,8 +8,9 @@
 
 namespace strata::golden {
 
-// What must not change a bit. Given as words: threads=N tile=N execution=literal|replay memory=BYTES effects=needed|all
-// simd=scalar|avx2|avx512 check=FILE. An instruction set that this processor lacks is replaced by the best it has.
+// Settings that must not change a bit, given as arguments: threads=N tile=N execution=literal|replay memory=BYTES
+// effects=needed|all simd=scalar|avx2|avx512 check=FILE. An instruction set that this processor lacks is replaced
+// by the best available one.
 struct Settings {
     int threads = 1;
     int tile_size = 32;
@@ -21,7 +21,7 @@ struct Settings {
     std::string check;  // the file to compare with; empty: print
 };
 
-// Throws std::invalid_argument for a word that is none of these.
+// Throws std::invalid_argument for an unknown argument.
 [[nodiscard]] Settings parse(int count, char** words);
 
 struct GoldenScene {
@@ -32,7 +32,7 @@ struct GoldenScene {
     std::optional<float> alpha{};
 };
 
-// One line for every built-in profile and algorithm.
+// One line per built-in profile and algorithm.
 [[nodiscard]] std::string lines(const GoldenScene& scene, const Settings& settings);
 
 // Prints `text`, or compares it with the file and shows the first lines that differ. Exit status: 0, or 1 for

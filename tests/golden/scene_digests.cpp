@@ -1,4 +1,4 @@
-// tests/golden/scene_digests.cpp - the digests of every procedural scene by every algorithm on every profile.
+// tests/golden/scene_digests.cpp - prints the digests of every procedural scene by every algorithm on every profile.
 #include <exception>
 #include <iostream>
 

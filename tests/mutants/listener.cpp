@@ -1,5 +1,5 @@
-// tests/mutants/listener.cpp - writes to STRATA_REACHED, a line a test case: its name, its file, its seconds of
-// processor time and the changes that it reached.
+// tests/mutants/listener.cpp - appends a line per test case to the file STRATA_REACHED: its name, its file, its seconds
+// of processor time and the changes that it reached.
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
 #include <catch2/catch.hpp>
 #include <cstring>

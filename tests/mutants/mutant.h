@@ -37,7 +37,7 @@ template <int n, class T>
     return is<n>() != static_cast<bool>(value);
 }
 
-// `a < Less<n>{} < b`: the first comparison keeps a, the second is the one that was meant, or its neighbour.
+// `a < Less<n>{} < b`: the first comparison stores a, the second applies the original operator or its neighbour.
 template <class A, class Operator>
 struct Left {
     const A& value;

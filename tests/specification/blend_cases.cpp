@@ -1,5 +1,5 @@
-// tests/specification/blend_cases.cpp - random blend states on hard values: infinities, NaN, denormals, signed zeros,
-// ties of rounding.
+// tests/specification/blend_cases.cpp - random blend states on special values: infinities, NaN, denormals, signed
+// zeros, ties of rounding.
 #include <array>
 #include <bit>
 #include <ostream>

@@ -1,5 +1,4 @@
-// tests/specification/dual_cases.cpp - pixels with fragments of a few depths, ties among them, peeled by dual on
-// geforce8.
+// tests/specification/dual_cases.cpp - pixels with fragments at a few depths, with ties, peeled by dual on geforce8.
 #include <algorithm>
 #include <ostream>
 
@@ -23,7 +22,7 @@ testing::GivenFragment random_fragment(testing::Random& random, int depths) {
 testing::FragmentScene random_scene(testing::Random& random) {
     constexpr int side = 32;
     testing::FragmentScene scene{side, side};
-    const int depths = 1 << random_int(random, 2, 10);  // few depths: ties
+    const int depths = 1 << random_int(random, 2, 10);  // few depths, so that some tie
     for (testing::GivenPixel& pixel : scene.pixels) {
         for (int n = random_int(random, 0, 9); n > 0; --n) pixel.fragments.push_back(random_fragment(random, depths));
         if (random_int(random, 0, 3) == 0) pixel.opaque = random_fragment(random, depths);

@@ -1,4 +1,4 @@
-// tests/specification/line.h - one case as a line of text.
+// tests/specification/line.h - formats one case as a line of text.
 #pragma once
 #include <array>
 #include <bit>

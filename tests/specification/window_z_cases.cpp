@@ -1,4 +1,4 @@
-// tests/specification/window_z_cases.cpp - random triangles over pixels, slivers and steep ones among them, drawn on
+// tests/specification/window_z_cases.cpp - random triangles over pixels, including slivers and steep ones, drawn on
 // geforce3.
 #include <bit>
 #include <ostream>
@@ -17,8 +17,8 @@ using testing::random_int;
 
 constexpr int width = 640, height = 480;
 
-// Clip-space positions with w = 1 in the viewport: anywhere, or near one of the others; depths alike, far apart, or at
-// an end.
+// Clip-space positions with w = 1 in the viewport: anywhere, or near another one; depths similar, far apart, or at an
+// end.
 TriangleSoup random_triangles(testing::Random& random, int count) {
     TriangleSoup soup;
     const auto depth = [&](float near_to) {
@@ -52,7 +52,7 @@ void write_window_z(std::ostream& out, std::uint64_t cases, std::uint64_t seed) 
     state.viewport = {0, 0, width, height};
     state.depth_format = DepthFormat::d24;
     const RasterRules rules = pipeline::find_profile("geforce3")->raster;
-    constexpr int few_pixels = 8;  // of each triangle: many triangles say more than many pixels
+    constexpr int few_pixels = 8;  // per triangle: many triangles test more than many pixels
     while (cases > 0) {
         Geometry geometry = set_up(random_triangles(random, 64), state, rules, 1);
         for (std::size_t t = 0; t < geometry.triangles.size() && cases > 0; ++t) {
