@@ -23,7 +23,7 @@ TEST_CASE("compare with a scene accepts a correct picture in any format and orde
     }
 }
 
-TEST_CASE("compare with a scene names the mistake of a peel that stops early, and ends with 1", "[long]") {
+TEST_CASE("compare with a scene names the mistake of a peel that stops early and exits with status 1", "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,
                   "strata render teapot --size 48x36 --algorithm front_to_back --max-passes 2 -q -o a.png && "
@@ -42,7 +42,7 @@ TEST_CASE("compare with a scene names the mistake of a peel that stops early, an
     CHECK(document["explanations"][0]["mistakes"][0]["n"] == 2);
 }
 
-TEST_CASE("a picture that is right by another profile's rules is right, and says by which", "[long]") {
+TEST_CASE("a picture that is correct under another profile is accepted and that profile is named", "[long]") {
     const Folder folder;
     const std::string scene = "random:seed=3,triangles=80";
     const std::string draw = "strata render " + scene + " --size 48x36 --profile softpipe --color-format rgba32f -q ";

@@ -6,7 +6,7 @@
 
 using namespace strata::test;
 
-TEST_CASE("diagnose names the mistake that render was told to make, with status 1, and a right picture with status 0",
+TEST_CASE("diagnose names the mistake given to render with status 1 and accepts a correct picture with status 0",
           "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,

@@ -247,8 +247,7 @@ TEST_CASE("the test that a report lists as rejecting most fragments is the one t
     CHECK(killed_pixels > 10);
 }
 
-TEST_CASE("a report stays within 8 MiB, loads nothing, is the same every time, and says what it leaves out",
-          "[long][slow]") {
+TEST_CASE("a report of at most 8 MiB loads nothing and is reproducible and lists what it omits", "[long][slow]") {
     const auto [options, leaves_out] = GENERATE(table<std::string, bool>(
         {{"teapot --algorithm dual,a_buffer", false},
          {"volume-beam:slices=64 --algorithm weighted_average,a_buffer --color-format rgba32f --profile ideal", true},

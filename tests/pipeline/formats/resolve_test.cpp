@@ -162,7 +162,7 @@ TEST_CASE("the nearest depth of a pixel's samples is its least code or its great
     CHECK(least.format == Format::d24);
 }
 
-TEST_CASE("Quincunx counts the centre a half and each corner of the pixel an eighth, half up") {
+TEST_CASE("Quincunx weights the centre by 1/2 and each corner of the pixel by 1/8 with ties up") {
     Random random{56};
     const auto samples = random_samples(random, Format::rgba8, 2, random_code);
     std::uint64_t wrong = 0;

@@ -148,7 +148,7 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("depth first, the view volume cuts by near and far before its sides, new corners weighed by both distances",
+TEST_CASE("depth first the view volume clips by near and far and weights new corners by both distances",
           "[long][slow]") {
     const Clipper clipper{scene_state(64, 48), {.clip = ClipVolume::view_volume_depth_first}};
     Random random{513};

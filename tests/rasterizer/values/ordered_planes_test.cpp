@@ -223,7 +223,7 @@ TEST_CASE("planes begin at the corner of the greatest w of what was given: depth
     }
 }
 
-TEST_CASE("polygon offset is added to the value of each fragment, its unit that of differences of depth",
+TEST_CASE("polygon offset is added to the value of each fragment and its unit is that of depth differences",
           "[long][slow]") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d32f}) {
         RasterState state = scene_state(23, 17);
