@@ -144,7 +144,7 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     oracle::verdict::Verdict found = judge(fragments, seen);
     const pipeline::DrawList& list = session.scene.list;
     std::optional<OtherProfile> other;
-    if (!found.is_right)
+    if (!found.is_right && !found.is_undecided())
         other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen,
                                        found.right.wrong_pixels);
     std::string profile;

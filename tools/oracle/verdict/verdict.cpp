@@ -202,10 +202,12 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     Verdict verdict{.width = scene.width()};
     const auto is_right = [&](Checked&& right, const Sample& even) {
         verdict.right = std::move(right);
-        work.allow(limits.narrower + of_fragments);
+        // Two codes are what another order of the same blends changes: no room that a mistake would need.
+        const bool is_narrow = has_codes(storage) && verdict.right.possible <= 2;
+        work.allow((is_narrow ? limits.mistakes : limits.narrower) + of_fragments);
         verdict.explanations = told_better(scene, candidate, all, verdict.right, even);
         verdict.is_stopped = work.is_cut_short();
-        verdict.is_right = verdict.explanations.empty() && !verdict.is_stopped;
+        verdict.is_right = verdict.explanations.empty() && (is_narrow || !verdict.is_stopped);
         if (verdict.explanations.empty()) find_alike(scene, candidate, verdict);
         return verdict;
     };

@@ -29,7 +29,8 @@ struct Verdict {
     bool is_stopped = false;  // the search ended before all was tried
     std::string telling{};    // a command whose scene shows the explanations apart, if one is known
 
-    // A right port may leave every pixel, but not all was tried that may tell the picture more closely.
+    // A right port may leave every pixel by rounding of more than two codes, but not all was tried that may tell the
+    // picture more closely.
     [[nodiscard]] bool is_undecided() const noexcept { return !is_right && explanations.empty() && right.is_whole(); }
 };
 

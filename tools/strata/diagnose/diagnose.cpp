@@ -178,7 +178,7 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     const oracle::verdict::Colors seen{*colors};
     oracle::verdict::Verdict layers = judge(fragments, seen);
     std::string profile;
-    if (!layers.is_right) {
+    if (!layers.is_right && !layers.is_undecided()) {
         const pipeline::DeviceProfile& given = opened.session.profile;
         if (auto other = right_by_other_profile({list, opened.session.view, given, options}, options.fragment_memory,
                                                 seen, layers.right.wrong_pixels, more_profiles(opened.options))) {
