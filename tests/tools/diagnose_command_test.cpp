@@ -16,7 +16,7 @@ TEST_CASE("diagnose names the mistake given to render with status 1 and accepts 
                 .status == 0);
     const Ended right = run_strata(folder, {"diagnose", "showroom", "right.png"});
     CHECK(right.status == 0);
-    CHECK(right.out.starts_with("100 % of the pixels are those of: the right machine\n"));
+    CHECK(right.out.starts_with("100 % of the pixels are those of: a correct implementation\n"));
     const Ended wrong = run_strata(folder, {"diagnose", "showroom", "wrong.exr"});
     CHECK(wrong.status == 1);
     CHECK(wrong.out.starts_with(
@@ -112,7 +112,7 @@ TEST_CASE("message options are accepted with a folder of packs and with a suite"
     for (const std::string option : {"-q", "--quiet", "-v", "--color=never"}) {
         const Ended ended = run_strata(folder, {"diagnose", "set", "made", option});
         CHECK(ended.status == 0);
-        CHECK(ended.out.starts_with("all 1 scenes are those of: the right machine"));
+        CHECK(ended.out.starts_with("all 1 scenes are those of: a correct implementation"));
         const Ended suite = run_strata(folder, {"golden", "--suite", "no_such_scene", option, "-o", "suite"});
         CHECK(suite.err.find("no_such_scene") != std::string::npos);
     }

@@ -31,7 +31,7 @@ struct Manifest {
         return json.at(pointer);
     }
     [[nodiscard]] std::string text(const std::string& place) const {
-        if (!at(place).is_string()) refuse(place, "a text", at(place).dump());
+        if (!at(place).is_string()) refuse(place, "a string", at(place).dump());
         return at(place).get<std::string>();
     }
     [[nodiscard]] int number(const std::string& place) const {

@@ -148,7 +148,7 @@ ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
     const json& probe = document["probe"];
     const auto text_of = [&](const json& object, const std::string& key, const std::string& place) -> std::string {
         if (!object.contains(key)) return "";
-        if (!object[key].is_string()) throw InputError(file, place, "a text", object[key].type_name());
+        if (!object[key].is_string()) throw InputError(file, place, "a string", object[key].type_name());
         return object[key].get<std::string>();
     };
     ProbePack pack{.made_by = text_of(document, "made_by", "/made_by"),

@@ -39,7 +39,7 @@ int check(const std::string& path, Simd simd) {
     };
     const std::vector<oracle::PackFault> faults = checked();
     for (const oracle::PackFault& fault : faults) print(fault.file + ": " + fault.sentence + '\n');
-    if (faults.empty()) print(path + ": every file is what this program derives\n");
+    if (faults.empty()) print(path + ": all files match\n");
     return faults.empty() ? 0 : 1;
 }
 

@@ -127,7 +127,7 @@ std::vector<Cell> parse_plan(const std::string& text, const std::string& file, c
     for (const auto& [name, value] : plan.items())
         if (name != "common" && name != "grids" && name != "about")
             source.fail("/", "keys about, common or grids", found_but_near(name, {"about", "common", "grids"}));
-    if (plan.contains("about") && !plan["about"].is_string()) source.fail("/about", "a text", plan["about"].dump());
+    if (plan.contains("about") && !plan["about"].is_string()) source.fail("/about", "a string", plan["about"].dump());
     if (!plan.contains("grids") || !plan["grids"].is_array() || plan["grids"].empty())
         source.fail("/grids", "a list of at least one grid", plan.contains("grids") ? plan["grids"].dump() : "none");
     // A grid's own values override /common, which overrides the options, which override the defaults.

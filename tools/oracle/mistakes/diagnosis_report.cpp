@@ -79,7 +79,7 @@ ordered_json names_of(const std::vector<const Mistake*>& mistakes) {
 }  // namespace
 
 std::string sentence_of(const std::vector<const Mistake*>& mistakes) {
-    if (mistakes.empty()) return "the right machine";
+    if (mistakes.empty()) return "a correct implementation";
     std::string text;
     for (const Mistake* mistake : mistakes)
         text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->sentence, mistake->name);
@@ -102,7 +102,7 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     std::string text = first_line(d);
     const Finding& best = d.findings.front();
     if (!best.mistakes.empty()) text += line_of(best.passes, "that machine");
-    text += line_of(d.right_passes, "the right machine");
+    text += line_of(d.right_passes, "a correct implementation");
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",

@@ -80,7 +80,8 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
     };
     if (!parsed.is_object() || parsed.value("format", nlohmann::json{}) != "strata-suite")
         fail("/format", "\"strata-suite\"", "something else");
-    if (parsed.value("version", nlohmann::json{}) != 1) fail("/version", "1", "something else");
+    if (const auto version = parsed.value("version", nlohmann::json{}); version != 1)
+        fail("/version", "1", version.is_null() ? "none" : version.dump());
     const auto listed = parsed.find("scenes");
     if (listed == parsed.end() || !listed->is_array()) fail("/scenes", "an array", "none");
     for (std::size_t i = 0; i < listed->size(); ++i) {
@@ -99,7 +100,7 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
 std::string first_difference(const std::string& found, const std::string& expected) {
     const auto at = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
     const auto line = 1 + std::count(found.begin(), at.first, '\n');
-    return "line " + std::to_string(line) + ": is not what the scenes give now";
+    return "line " + std::to_string(line) + ": differs from the suite made again";
 }
 
 }  // namespace

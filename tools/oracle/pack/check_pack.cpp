@@ -67,7 +67,7 @@ std::string difference(const std::string& found, const std::string& expected, co
 std::string manifest_difference(const std::string& found, const std::string& expected) {
     const json patch = json::diff(json::parse(found), json::parse(expected));
     if (patch.empty()) return difference(found, expected, "manifest.json");
-    return fmt::format("{}: is not what the scene gives now", patch[0]["path"].get<std::string>());
+    return fmt::format("{}: differs from the pack made again", patch[0]["path"].get<std::string>());
 }
 
 std::uint64_t sum_at(const ManifestValue& listed, std::size_t i) {
