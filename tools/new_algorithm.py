@@ -67,7 +67,7 @@ std::vector<Algorithm> entries() {
 
 
 TEST = '''\
-// NAME: what it shows. Model: one fragment over the background, by OVER's formula.
+// NAME: what it shows. Expected value: one fragment over the background, by OVER's formula.
 #include <bit>
 #include <catch2/catch.hpp>
 

@@ -4,10 +4,10 @@
 //     build/release/tests/faults/allocation_faults --render # some of the requests of each way to draw a frame
 //     build/release/tests/faults/allocation_faults --render --all # each of the first 2,000, then every tenth
 //
-// Model: the same job without a fault. A job that lacked memory ends with std::bad_alloc, or with the same result if
-// what asked can do without. Done again it gives the same result, and holds as many blocks as before: nothing has
-// leaked. Profiles and cameras are left out: the JSON library's values ask for memory where they are destroyed, which
-// ends a process that has none.
+// Expected values: the same job without a fault. A job that lacked memory ends with std::bad_alloc, or with the same
+// result if what asked can do without. Done again it gives the same result, and holds as many blocks as before: nothing
+// has leaked. Profiles and cameras are left out: the JSON library's values ask for memory where they are destroyed,
+// which ends a process that has none.
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>

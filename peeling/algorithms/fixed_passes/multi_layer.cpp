@@ -1,5 +1,5 @@
 // peeling/algorithms/fixed_passes/multi_layer.cpp - the k nearest fragments so far at every pixel; one more merges the
-// two farthest. Salvi and Vaidyanathan 2014, "Multi-Layer Alpha Blending", section 3; algorithms.md 19.
+// two farthest. Salvi and Vaidyanathan 2014, "Multi-Layer Alpha Blending"; algorithms.md 19.
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), a float target for depths.
 // Passes     1. Exact where no pixel has more than k visible fragments, or arrives front to back. Equal depths: the

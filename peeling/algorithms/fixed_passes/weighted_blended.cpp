@@ -21,7 +21,7 @@ namespace {
 // other target; shared: the revealage is the alpha of the sums, and the other target sums the weights.
 enum class Form : std::uint8_t { apart, shared };
 
-// Targets that blend differently, or sums of colours and a product of alphas in both (section 4).
+// Targets that blend differently, or sums of colours and a product of alphas in both.
 std::array<Blend, max_color_targets> blends_of(Form form) noexcept {
     constexpr BlendTerm sum{BlendEquation::add, BlendFactor::one, BlendFactor::one};
     constexpr BlendTerm by_color{BlendEquation::add, BlendFactor::zero, BlendFactor::one_minus_src_color};

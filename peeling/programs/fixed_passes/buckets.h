@@ -1,7 +1,7 @@
 // peeling/programs/fixed_passes/buckets.h - which of 16 buckets of a pixel's depths a fragment belongs to.
 //
 // Rule     trunc((d - near) / (far - near) 16), at most 15; 0 where all depths are one. Under reversed depth of 1 - d.
-// Source   algorithms.md 24; Liu et al. 2009, section 3.
+// Source   algorithms.md 24; Liu et al. 2009.
 // Tests    tests/peeling/algorithms/bucket_peel_test.cpp
 #pragma once
 #include "peeling/programs/region_programs.h"

@@ -3,43 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "tools/oracle/verdict/parted.h"
 #include "tools/oracle/verdict/pricing.h"
 
 namespace strata::oracle::verdict {
 
 namespace {
-
-struct PartedPixel {
-    const SampledPixel* sampled = nullptr;
-    StackedPixel right{};  // by the right structure
-};
-
-// The sample's pixels apart: those that the closest account of the right structure calls wrong, and the others.
-struct Parted {
-    std::vector<PartedPixel> wrong{}, right{};
-};
-
-Parted parted(const Sample& sample, const Hypothesis& closest) {
-    const Compositor compositor{closest};
-    StackMaker maker{sample.setting()};
-    Parted parts;
-    for (const SampledPixel& pixel : sample.pixels()) {
-        PartedPixel made{&pixel, stacked({}, pixel, maker)};
-        (reaching(compositor, made.right, maker.steps()) == nullptr ? parts.wrong : parts.right)
-            .push_back(std::move(made));
-    }
-    return parts;
-}
-
-using Rules = std::vector<Rule>;
-
-// Whether a pixel's structures are the right ones; the division of a peel from both ends aside.
-bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
-    return std::ranges::equal(made.stacks, pixel.right.stacks, [](const Stack& a, const Stack& b) {
-        return a.layers == b.layers && a.background == b.background && a.is_linear == b.is_linear &&
-               a.finish == b.finish && a.mixing == b.mixing;
-    });
-}
 
 // Whether one of the hypotheses holds for all pixels under the rules, and of codes for most of them without another
 // rasterizer's help. Right pixels that the rules leave alone are right under them, too.
@@ -125,13 +94,6 @@ double bits_of(const Checked& checked) {
     const Pricing pricing{checked.account.hypothesis.result.storage};
     return bits_of(checked.account.hypothesis) + checked.bits +
            static_cast<double>(checked.wrong_pixels.size()) * pricing.of_wrong();
-}
-
-std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, std::size_t most) {
-    std::vector<const PartedPixel*> some;
-    const std::size_t step = pixels.size() / most + 1;
-    for (std::size_t i = 0; i < pixels.size(); i += step) some.push_back(&pixels[i]);
-    return some;
 }
 
 // The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the
@@ -296,69 +258,6 @@ void drop_roomy(std::vector<Checked>& found, double most_bits) {
     std::erase_if(found, [&](const Checked& c) { return bits_of(c) > most; });
 }
 
-// Which of the pixels the rules reach; `unchanged`: those that they leave alone. Nothing if that takes more than a
-// rule's share.
-std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rules& rules, const Compositor& compositor,
-                          const Setting& setting, bool unchanged) {
-    StackMaker maker{setting, setting.work->share()};
-    std::vector<bool> are_reached;
-    for (const PartedPixel* pixel : pixels) {
-        if (maker.steps().is_over()) return {};
-        const StackedPixel made = stacked(rules, *pixel->sampled, maker);
-        are_reached.push_back(is_unchanged(made, *pixel) ? unchanged
-                                                         : reaching(compositor, made, maker.steps()) != nullptr);
-    }
-    return are_reached;
-}
-
-// One after the other the rules that explain the most of what those before them do not, less the right pixels that
-// speak against them.
-std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
-                           const Setting& setting) {
-    constexpr std::size_t most_leads = 6, most_looked_at = 1024;
-    const Compositor compositor{hypothesis};
-    const auto wrong = thinned(parts.wrong, most_looked_at), right = thinned(parts.right, most_looked_at);
-    std::vector<Lead> leads(all.size());
-    std::vector<std::vector<bool>> explained(all.size());
-    setting.work->for_each(all.size(), [&](std::size_t i) {
-        explained[i] = reached(wrong, all[i], compositor, setting, false);
-        const auto holds = static_cast<std::uint64_t>(std::ranges::count(explained[i], true));
-        leads[i] = {.rules = all[i], .explained = holds, .of = wrong.size(), .right = right.size()};
-        if (holds == 0) return;
-        const std::vector<bool> are_right = reached(right, all[i], compositor, setting, true);
-        leads[i].contradicted = static_cast<std::uint64_t>(std::ranges::count(are_right, false));
-        if (are_right.size() != right.size()) explained[i].clear();
-    });
-    std::vector<bool> is_told(wrong.size());
-    std::vector<Lead> best;
-    while (best.size() < most_leads) {
-        std::ptrdiff_t most = 0;
-        std::size_t next = all.size();
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            // A port may do it at some pixels alone, by what no rule knows.
-            std::ptrdiff_t gain = -static_cast<std::ptrdiff_t>(leads[i].contradicted / 4);
-            for (std::size_t p = 0; p < explained[i].size(); ++p) gain += explained[i][p] && !is_told[p] ? 1 : 0;
-            if (gain <= most) continue;
-            most = gain;
-            next = i;
-        }
-        if (next == all.size()) break;
-        for (std::size_t p = 0; p < wrong.size(); ++p) is_told[p] = is_told[p] || explained[next][p];
-        best.push_back(leads[next]);
-    }
-    return best;
-}
-
-}  // namespace
-
-namespace {
-
-std::vector<Rules> singles(const std::vector<Rule>& rules) {
-    std::vector<Rules> all;
-    for (const Rule& rule : rules) all.push_back({rule});
-    return all;
-}
-
 }  // namespace
 
 std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
@@ -432,12 +331,6 @@ std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candi
     std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried);
     drop_roomy(found, std::numeric_limits<double>::max());
     return found;
-}
-
-std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample) {
-    const Hypothesis& hypothesis = closest.account.hypothesis;
-    return leads_of(singles(rules_for(facts_of(scene, sample))), parted(sample, hypothesis), hypothesis,
-                    scene.setting());
 }
 
 }  // namespace strata::oracle::verdict

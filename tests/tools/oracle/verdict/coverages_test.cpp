@@ -1,4 +1,5 @@
-// Model: pictures of rasterizers that break ties or snap otherwise, drawn by the machine with another profile.
+// Expected values: pictures of rasterizers that break ties or snap otherwise, drawn by the machine with another
+// profile.
 #include "tools/oracle/verdict/coverages.h"
 
 #include <catch2/catch.hpp>

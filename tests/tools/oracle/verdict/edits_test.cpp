@@ -1,4 +1,4 @@
-// Model: pictures of ports that lose layers by a loop of their own (wrong_ports.h).
+// Expected values: pictures of ports that lose layers by a loop of their own (wrong_ports.h).
 #include "tools/oracle/verdict/edits.h"
 
 #include <catch2/catch.hpp>

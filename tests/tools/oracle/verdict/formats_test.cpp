@@ -1,4 +1,5 @@
-// Model: pictures of the machine itself are right by definition, whatever its accumulators and its picture keep.
+// Expected values: pictures of the machine itself are right by definition, whatever its accumulators and its picture
+// keep.
 #include <bit>
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
-// Model: Renderer::fragments, which lists a frame's fragments in the order of submission by another way; hidden and
-// sorted here.
+// Expected values: Renderer::fragments, which lists a frame's fragments in the order of submission by another way;
+// hidden and sorted here.
 #include "tools/oracle/verdict/fragments.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Model: whole numbers over 2^80, in 256 bits.
+// Expected values: whole numbers over 2^80, in 256 bits.
 #include "tools/oracle/verdict/interval.h"
 
 #include <boost/multiprecision/cpp_int.hpp>

@@ -1,4 +1,4 @@
-// Model: the picture of each kind of mistake, whose cause is known because it was made by it.
+// Expected values: the picture of each kind of mistake, whose cause is known because it was made by it.
 #include <catch2/catch.hpp>
 #include <mutex>
 #include <set>

@@ -1,4 +1,4 @@
-// Model: a list of five fragments; what each rule leaves of it is written down by hand.
+// Expected values: a list of five fragments; what each rule leaves of it is written down by hand.
 #include "tools/oracle/verdict/rules.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Model: ports of the test that change their lists by a loop of their own (wrong_ports.h); the machine's own peels that
-// are stopped.
+// Expected values: ports of the test that change their lists by a loop of their own (wrong_ports.h); the machine's own
+// peels that are stopped.
 #include "tools/oracle/verdict/search.h"
 
 #include <catch2/catch.hpp>

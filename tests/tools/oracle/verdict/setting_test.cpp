@@ -1,4 +1,4 @@
-// Model: two instances whose points are worked out by hand.
+// Expected values: two instances whose points are worked out by hand.
 #include "tools/oracle/verdict/setting.h"
 
 #include <catch2/catch.hpp>

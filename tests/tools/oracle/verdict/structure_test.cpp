@@ -1,4 +1,4 @@
-// Model: lists of a few fragments, layers written down by hand as keys-and-counts.md 2.2 has them.
+// Expected values: lists of a few fragments, layers written down by hand as keys-and-counts.md 2.2 has them.
 #include "tools/oracle/verdict/structure.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Model: a scene of one layer hides what a scene of many shows.
+// Expected values: a scene of one layer hides what a scene of many shows.
 #include "tools/oracle/verdict/telling.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
-// Model: pictures of the machine itself are right by definition; pictures changed by hand are wrong where they were
-// changed.
+// Expected values: pictures of the machine itself are right by definition; pictures changed by hand are wrong where
+// they were changed.
 #include "tools/oracle/verdict/verdict.h"
 
 #include <catch2/catch.hpp>

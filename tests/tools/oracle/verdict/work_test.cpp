@@ -1,4 +1,4 @@
-// Model: counts, which are the same whatever threads do; what a stopped search may say.
+// Expected values: counts, which are the same whatever threads do; what a stopped search may say.
 #include "tools/oracle/verdict/work.h"
 
 #include <catch2/catch.hpp>

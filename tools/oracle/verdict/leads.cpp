@@ -1,0 +1,72 @@
+// tools/oracle/verdict/leads.cpp - rules that explain some of the wrong pixels (search.h).
+#include <algorithm>
+
+#include "tools/oracle/verdict/parted.h"
+#include "tools/oracle/verdict/search.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+// Which of the pixels the rules reach; `unchanged`: those that they leave alone. Nothing if that takes more than a
+// rule's share.
+std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rules& rules, const Compositor& compositor,
+                          const Setting& setting, bool unchanged) {
+    StackMaker maker{setting, setting.work->share()};
+    std::vector<bool> are_reached;
+    for (const PartedPixel* pixel : pixels) {
+        if (maker.steps().is_over()) return {};
+        const StackedPixel made = stacked(rules, *pixel->sampled, maker);
+        are_reached.push_back(is_unchanged(made, *pixel) ? unchanged
+                                                         : reaching(compositor, made, maker.steps()) != nullptr);
+    }
+    return are_reached;
+}
+
+// One after the other the rules that explain the most of what those before them do not, less the right pixels that
+// speak against them.
+std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
+                           const Setting& setting) {
+    constexpr std::size_t most_leads = 6, most_looked_at = 1024;
+    const Compositor compositor{hypothesis};
+    const auto wrong = thinned(parts.wrong, most_looked_at), right = thinned(parts.right, most_looked_at);
+    std::vector<Lead> leads(all.size());
+    std::vector<std::vector<bool>> explained(all.size());
+    setting.work->for_each(all.size(), [&](std::size_t i) {
+        explained[i] = reached(wrong, all[i], compositor, setting, false);
+        const auto holds = static_cast<std::uint64_t>(std::ranges::count(explained[i], true));
+        leads[i] = {.rules = all[i], .explained = holds, .of = wrong.size(), .right = right.size()};
+        if (holds == 0) return;
+        const std::vector<bool> are_right = reached(right, all[i], compositor, setting, true);
+        leads[i].contradicted = static_cast<std::uint64_t>(std::ranges::count(are_right, false));
+        if (are_right.size() != right.size()) explained[i].clear();
+    });
+    std::vector<bool> is_told(wrong.size());
+    std::vector<Lead> best;
+    while (best.size() < most_leads) {
+        std::ptrdiff_t most = 0;
+        std::size_t next = all.size();
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            // A port may do it at some pixels alone, by what no rule knows.
+            std::ptrdiff_t gain = -static_cast<std::ptrdiff_t>(leads[i].contradicted / 4);
+            for (std::size_t p = 0; p < explained[i].size(); ++p) gain += explained[i][p] && !is_told[p] ? 1 : 0;
+            if (gain <= most) continue;
+            most = gain;
+            next = i;
+        }
+        if (next == all.size()) break;
+        for (std::size_t p = 0; p < wrong.size(); ++p) is_told[p] = is_told[p] || explained[next][p];
+        best.push_back(leads[next]);
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample) {
+    const Hypothesis& hypothesis = closest.account.hypothesis;
+    return leads_of(singles(rules_for(facts_of(scene, sample))), parted(sample, hypothesis), hypothesis,
+                    scene.setting());
+}
+
+}  // namespace strata::oracle::verdict
