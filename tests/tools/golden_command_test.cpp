@@ -16,8 +16,7 @@ TEST_CASE("a pack passes its check and replaces a scene and its options in every
                 .status == 0);
     const Ended check = run_strata(folder, {"golden", "--check", "pack"});
     CHECK(check.status == 0);
-    CHECK(check.out == "pack: all files match
-");
+    CHECK(check.out == "pack: all files match\n");
     for (const std::string simd : {"scalar", "avx2", "avx512"}) {
         const Ended again = run_strata(folder, {"golden", "--check", "pack", "--simd", simd});
         const bool is_missing = again.err.find("what this processor has") != std::string::npos;
