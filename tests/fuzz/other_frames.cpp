@@ -76,7 +76,8 @@ void add_idle_state(FrameCase& frame) {
 bool can_move(const FrameCase& frame) {
     const rasterizer::RasterRules& rules = frame.profile.raster;
     return rules.plane_rule == rasterizer::PlaneRule::exact &&
-           rules.coverage == rasterizer::CoverageRule::snapped_edges;
+           rules.coverage == rasterizer::CoverageRule::snapped_edges &&
+           frame.algorithm != "stochastic";  // its masks depend on the pixel's position
 }
 
 void move_by_tiles(FrameCase& frame) { frame.options.window_origin = {tiles_x, tiles_y}; }

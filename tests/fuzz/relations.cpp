@@ -94,10 +94,10 @@ bool has_no_objects(const FrameCase& frame) {
     return frame.algorithm != "object_sorted" && frame.algorithm != "batched";
 }
 
-// Buckets and shuffles depend on the number of triangles, including points.
+// Buckets, shuffles and the masks of stochastic depend on the numbers of triangles, including points.
 bool counts_no_triangles(const FrameCase& frame) {
     const peeling::SortRule rule = frame.options.sort.rule;
-    return rule != peeling::SortRule::bucket && rule != peeling::SortRule::shuffle;
+    return rule != peeling::SortRule::bucket && rule != peeling::SortRule::shuffle && frame.algorithm != "stochastic";
 }
 
 constexpr std::array<Relation, 7> relations{

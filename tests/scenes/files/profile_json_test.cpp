@@ -120,6 +120,7 @@ TEST_CASE("missing later fields have the values of the behaviour before them sin
                                            "depth24",
                                            "has_d24f",
                                            "has_unordered_access",
+                                           "min_samples",
                                            "origin",
                                            "raster.area_sign",
                                            "raster.depth_limits",
@@ -128,10 +129,13 @@ TEST_CASE("missing later fields have the values of the behaviour before them sin
                                            "raster.plane_corners",
                                            "raster.perspective_coordinates",
                                            "raster.reciprocal_deficit",
+                                           "raster.sample_divisor",
                                            "raster.w_signs",
                                            "raster.w_slope",
                                            "raster.weights",
-                                           "raster.y_axis"};
+                                           "raster.y_axis",
+                                           "resolve",
+                                           "sample_positions"};
     DeviceProfile before;
     before.name = "old";
     nlohmann::json all = nlohmann::json::parse(to_json(before));

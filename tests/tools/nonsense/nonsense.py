@@ -45,6 +45,7 @@ ACCEPTED = {
     ("*", "--fragment-memory", "9223372036854775808"): "a limit that no machine reaches",
     ("*", "--alpha", "-0"): "zero",
     ("*", "--compare-epsilon", "-0"): "zero",
+    ("*", "--overestimation", "-0"): "zero",
     ("bench", "--warm-up", "-0"): "zero",
     ("bench", "--json", "-"): "standard output, in the old spelling",
 }
