@@ -1,12 +1,12 @@
-// peeling/sampled_renderer.h - frames of one or several samples a pixel, as one call.
+// peeling/sampled_renderer.h - frames of one or several samples per pixel, as one call.
 //
-// Rule     Sample shading: every sample is a frame of its own, whose pixels are looked at where the sample lies,
-// composited by the
-//          algorithm and then resolved. Counters, order errors, diagnostics and work add up over the samples; passes,
-//          layers and fragments of the deepest pixel and differences are the greatest of a sample's. Layer k of the
-//          frame is resolved of layer k of every sample from the same end; a sample without one has codes of 0. Z is
-//          the nearest of the samples.
-// Source   fragment-stages.md 13. Tests    tests/peeling/sampled_renderer_test.cpp
+// Rule     Sample shading: every sample is a frame of its own. Its fragments are evaluated at the sample's position and
+//          composited by the algorithm; then the samples are resolved. Counters, order errors, diagnostics and work are
+//          summed over the samples; passes, layers, the fragments of the deepest pixel and differences are the maximum
+//          of the samples. Layer k of the frame is resolved from layer k, from the same end, of every sample; a sample
+//          without such a layer has codes of 0. Depth is the nearest of the samples.
+// Source   fragment-stages.md 13
+// Tests    tests/peeling/sampled_renderer_test.cpp
 #pragma once
 #include <functional>
 #include <memory>

@@ -28,7 +28,7 @@ struct AlgorithmOptions {
     int moments = 4;                     // moments: 4, 6 or 8
     std::optional<float> moment_bias{};  // moments: the share of the moments of a fixed distribution; by their number
     float overestimation = 0.25f;        // moments: the share of a fragment's own absorbance that it is seen through
-    int stochastic_samples = 4;          // stochastic: samples a pixel
+    int stochastic_samples = 4;          // stochastic: samples per pixel
     std::uint32_t stochastic_seed = 0;
     friend bool operator==(const AlgorithmOptions&, const AlgorithmOptions&) = default;
 };

@@ -197,7 +197,7 @@ Verdict check_size(const DeviceProfile& profile, int width_px, int height_px) {
 }
 
 Verdict check_samples(const DeviceProfile& profile, int samples) {
-    return check_limit(profile, &DeviceProfile::max_samples, samples, std::to_string(samples) + " samples a pixel",
+    return check_limit(profile, &DeviceProfile::max_samples, samples, std::to_string(samples) + " samples per pixel",
                        "ARB_multisample");
 }
 
@@ -208,7 +208,7 @@ Verdict check_multisampling(const DeviceProfile& profile, int samples) {
                p.raster.coverage == rasterizer::CoverageRule::snapped_edges;
     };
     if (samples == 1 || has(profile)) return std::nullopt;
-    return Refusal{"pictures of " + std::to_string(samples) + " samples a pixel", "ARB_multisample", way_out(has)};
+    return Refusal{"pictures of " + std::to_string(samples) + " samples per pixel", "ARB_multisample", way_out(has)};
 }
 
 Verdict check_texture_units(const DeviceProfile& profile, int units) {

@@ -63,7 +63,7 @@ TEST_CASE("a rejected algorithm names the first missing feature with its extensi
     CHECK(sentence({"geforce8", "coherent_ideal"}) ==
           "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
     CHECK(sentence({"llvmpipe", "stencil_routed_k_buffer"}) ==
-          "profile llvmpipe has no 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
+          "profile llvmpipe has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
 }
 
 TEST_CASE("depth replace is rejected by its extension where there are no texture shaders") {

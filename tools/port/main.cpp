@@ -86,7 +86,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
         ->check(CLI::IsMember(driver_names()));
     app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
-    app.add_option("--samples", o.samples, "samples a pixel, each shaded by itself (default 1)")
+    app.add_option("--samples", o.samples, "samples per pixel, each shaded by itself (default 1)")
         ->check(CLI::Range(1, 32));
     app.add_option("--sample", o.sample, "what is written is this sample (default: the resolved picture)")
         ->check(CLI::Range(0, 31));

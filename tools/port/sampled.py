@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds what llvmpipe draws with 4 samples a pixel, each shaded by itself, to profile llvmpipe.
+"""Holds what llvmpipe draws with 4 samples per pixel, each shaded by itself, to profile llvmpipe.
 
     sampled.py --build build/release [--quick] [--driver llvmpipe_sse]
 

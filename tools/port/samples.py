@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Says whether a device's answers with several samples a pixel follow the rules of one sample.
+"""Says whether a device's answers with several samples per pixel follow the rules of one sample.
 
     samples.py KIT ANSWERS    KIT is what `strata probe -o KIT` wrote, ANSWERS what `strata_port_probe KIT -o ANSWERS --samples 2,4,8` wrote
 

@@ -68,9 +68,9 @@ constexpr Unprobed unprobed[]{
     {"raster.texture_coordinates", "no scene has a texture"},
     {"raster.perspective_coordinates", "no scene has a texture"},
     {"texture_filter", "no scene has a texture"},
-    {"raster.sample_divisor", "no scene has several samples a pixel"},
-    {"sample_positions", "no scene has several samples a pixel"},
-    {"resolve", "no scene has several samples a pixel"},
+    {"raster.sample_divisor", "no scene has several samples per pixel"},
+    {"sample_positions", "no scene has several samples per pixel"},
+    {"resolve", "no scene has several samples per pixel"},
 };
 
 }  // namespace

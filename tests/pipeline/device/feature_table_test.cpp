@@ -153,7 +153,7 @@ TEST_CASE(
           "profile geforce3 has no 17 texture units (ARB_multitexture); use llvmpipe, llvmpipe_sse, softpipe or "
           "swiftshader");
     CHECK(check_samples(geforce3, 8)->sentence(geforce3) ==
-          "profile geforce3 has no 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
+          "profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
     CHECK(check_samples(geforce3, 16)->way_out.empty());
     CHECK(check_size(geforce3, 20000, 7)->feature == "viewport of 20000 x 7 pixels");
 }

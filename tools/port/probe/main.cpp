@@ -145,7 +145,7 @@ int main(int count, char** words) {
                    "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
         ->check(CLI::IsMember(strata::port::driver_names()));
     app.add_option("--samples", options.samples,
-                   "also draw with so many samples a pixel, numbers with commas between: ANSWERS/samples")
+                   "also draw with so many samples per pixel, numbers with commas between: ANSWERS/samples")
         ->delimiter(',')
         ->check(CLI::Range(2, 32));
     try {

@@ -61,7 +61,7 @@ SampledTarget::SampledTarget(Size size, int samples)
       depth_{make_sampled_texture(GL_DEPTH_COMPONENT32F, size, samples)},
       framebuffer_{make_sampled_framebuffer(color_, depth_)} {
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error(fmt::format("OpenGL: no target of {} samples a pixel", samples));
+        throw std::runtime_error(fmt::format("OpenGL: no target of {} samples per pixel", samples));
     glGetIntegerv(GL_SAMPLES, &samples_);
 }
 

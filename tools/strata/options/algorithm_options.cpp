@@ -69,9 +69,10 @@ void add_algorithm_options(CLI::App& app, AlgorithmOptions& options) {
         {"--overestimation", "SHARE",
          "share of its own absorbance through which moments shows a fragment (default 0.25)", "a number from 0 to 1"},
         to_share);
-    add_option(app, options.stochastic_samples,
-               {"--stochastic-samples", "N", "samples a pixel of stochastic (default 4)", "a whole number from 1 to 8"},
-               from_one_to(peeling::most_stochastic_samples));
+    add_option(
+        app, options.stochastic_samples,
+        {"--stochastic-samples", "N", "samples per pixel of stochastic (default 4)", "a whole number from 1 to 8"},
+        from_one_to(peeling::most_stochastic_samples));
     add_option(app, options.stochastic_seed,
                {"--stochastic-seed", "SEED", "seed of the masks of stochastic (default 0)",
                 "a whole number from 0 to 4294967295"},

@@ -68,7 +68,7 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
 
 void add_sample_options(CLI::App& app, RunOptions& options) {
     add_choice(app, options.samples, "--samples", sample_counts,
-               "samples a pixel, where the profile has them, each shaded by itself (default 1)");
+               "samples per pixel, where the profile has them, each shaded by itself (default 1)");
     add_option(app, options.sample,
                {"--sample", "N", "one of the samples alone, by its number from 0, instead of all of them resolved",
                 "a whole number from 0"},
