@@ -118,7 +118,7 @@ struct Renderer::State {
         needs.reference = compares_apart;
         return {.bytes = options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)),
                 .needs = needs,
-                .bytes_a_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
+                .bytes_per_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
     }
 
     // A correct peel needs one pass per fragment of the deepest pixel, and one more. If the compared depth is not the
@@ -374,7 +374,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
     const std::uint64_t fragments = fragment_count(*frame.transparent);
-    const std::uint64_t bytes = FrameFragments::bytes_a_fragment * fragments;
+    const std::uint64_t bytes = FrameFragments::bytes_per_fragment * fragments;
     if (bytes > state_->audit_memory())
         throw InputError("strata", "--fragment-memory",
                          "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(fragments) +

@@ -54,7 +54,7 @@ void move(PixelCount& count, int dx, int dy) {
 
 // The requested sum is what this pixel's fragment lists need, doubled because the trace has the other half.
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
-    const std::uint64_t list_bytes = fragments * AuditMemory::bytes_a_fragment * 2;
+    const std::uint64_t list_bytes = fragments * AuditMemory::bytes_per_fragment * 2;
     const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the length of the trace is not known
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +

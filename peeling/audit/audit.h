@@ -29,8 +29,8 @@ struct AuditMemory {
     int workers = 1;          // number of workers that audit at the same time
     // Half of a worker's share is for traces, the other half for fragments.
     [[nodiscard]] std::uint64_t trace_bytes() const noexcept { return bytes / static_cast<unsigned>(workers) / 2; }
-    [[nodiscard]] std::uint64_t fragments() const noexcept { return trace_bytes() / bytes_a_fragment; }
-    static constexpr std::uint64_t bytes_a_fragment = 52;
+    [[nodiscard]] std::uint64_t fragments() const noexcept { return trace_bytes() / bytes_per_fragment; }
+    static constexpr std::uint64_t bytes_per_fragment = 52;
 };
 
 // The audit of one frame. It must exist while the frame runs.

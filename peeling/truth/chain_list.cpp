@@ -124,7 +124,7 @@ std::optional<std::array<double, 4>> ChainList::real_color(const RealTriangle& t
     const Material& material = scene_.list.materials[triangle.material()];
     if (material.texture >= 0) {
         const auto texel =
-            real_sample(scene_.list.textures[static_cast<std::size_t>(material.texture)], values[4], values[5]);
+            unquantized_sample(scene_.list.textures[static_cast<std::size_t>(material.texture)], values[4], values[5]);
         for (std::size_t c = 0; c < color.size(); ++c) color[c] *= texel[c];
     }
     if (material.alpha_mode != AlphaMode::mask) return color;

@@ -39,7 +39,7 @@ struct RealTexels {
 
 }  // namespace
 
-std::array<double, 4> real_sample(const Texture& texture, double s, double t) noexcept {
+std::array<double, 4> unquantized_sample(const Texture& texture, double s, double t) noexcept {
     const RealTexels x = texels_at({texture.target, texture.wrap_s, texture.width}, texture.filter, s);
     const RealTexels y = texels_at({texture.target, texture.wrap_t, texture.height}, texture.filter, t);
     std::array<double, 4> color{};

@@ -13,6 +13,6 @@
 
 namespace strata::peeling {
 
-[[nodiscard]] std::array<double, 4> real_sample(const pipeline::Texture& texture, double s, double t) noexcept;
+[[nodiscard]] std::array<double, 4> unquantized_sample(const pipeline::Texture& texture, double s, double t) noexcept;
 
 }  // namespace strata::peeling

@@ -93,7 +93,7 @@ void CachedTarget::blend(const CachedLanes& lanes, int first, int end) {
     }
 }
 
-void CachedTarget::put_back(std::uint32_t tile) {
+void CachedTarget::write_back(std::uint32_t tile) {
     for (std::size_t sample = 0; sample < planes_.samples.size(); ++sample) {
         auto& pixels = held_of(tile, sample);
         for (std::size_t first = 0; first < pixels.size(); first += batch_capacity)
@@ -118,8 +118,8 @@ void CachedTarget::write(const std::uint32_t* pixels, int count, int sample) {
                   codes_.data());
 }
 
-void CachedTarget::put_back() {
-    for (std::uint32_t tile = 0; tile < tiles_.count(); ++tile) put_back(tile);
+void CachedTarget::write_back() {
+    for (std::uint32_t tile = 0; tile < tiles_.count(); ++tile) write_back(tile);
 }
 
 TileCache::TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame)
@@ -140,7 +140,7 @@ bool TileCache::knows(const Blend& blending, Format format) noexcept {
 // Writes back the tile that occupies the slot.
 void TileCache::take_place(CachedTarget& target, std::size_t number, std::uint32_t tile) {
     std::uint32_t& owner = owner_[number][tiles_.place_of(tile)];
-    if (owner != no_tile && owner != tile) target.put_back(owner);
+    if (owner != no_tile && owner != tile) target.write_back(owner);
     owner = tile;
 }
 
@@ -172,7 +172,7 @@ void TileCache::blend(std::size_t number, const CachedLanes& lanes) {
 void TileCache::close() {
     for (std::size_t number = 0; number < targets_.size(); ++number) {
         if (!targets_[number]) continue;
-        targets_[number]->put_back();
+        targets_[number]->write_back();
         targets_[number].reset();
     }
 }

@@ -69,8 +69,8 @@ class CachedTarget {
 
     // Blends lanes [first, end). Precondition: no two of their tiles share a slot.
     void blend(const CachedLanes& lanes, int first, int end);
-    void put_back(std::uint32_t tile);
-    void put_back();
+    void write_back(std::uint32_t tile);
+    void write_back();
     // True if a pixel has been blended since its tile was fetched.
     [[nodiscard]] bool is_held(std::uint32_t pixel, int sample) const noexcept {
         return held_[word(pixel, sample)] != 0;

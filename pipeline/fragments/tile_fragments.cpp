@@ -169,7 +169,7 @@ void TileFragments::fetch(std::span<const std::uint32_t> places, const FragmentN
     }
 }
 
-std::span<const std::uint32_t> TileFragments::next_places(Reading& reading, Lanes<std::uint32_t>& places) const {
+std::span<const std::uint32_t> TileFragments::next_indices(Reading& reading, Lanes<std::uint32_t>& places) const {
     ++reading.batch;
     std::size_t count = 0;
     while (reading.next < size_ && count < places.size()) {

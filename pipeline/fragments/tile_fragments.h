@@ -84,8 +84,8 @@ class TileFragments {
         std::uint32_t batch = 0;
         std::vector<std::uint32_t> stamp;
     };
-    [[nodiscard]] std::span<const std::uint32_t> next_places(Reading& reading,
-                                                             rasterizer::Lanes<std::uint32_t>& places) const;
+    [[nodiscard]] std::span<const std::uint32_t> next_indices(Reading& reading,
+                                                              rasterizer::Lanes<std::uint32_t>& places) const;
 
   private:
     enum class State : std::uint8_t { empty, filling, complete, too_large };

@@ -31,7 +31,7 @@ std::uint64_t sorted_words(const Rect& rect, const Depths& of) {
 }
 
 bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
-    return of.all * replay.bytes_a_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes;
+    return of.all * replay.bytes_per_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes;
 }
 
 // A triangle has at most one fragment per pixel of its box. The boxes are rarely needed: most tiles would fit if every
@@ -96,7 +96,7 @@ class CutTile {
 std::vector<RegionArea> tile_parts(const Frame& frame, int threads) {
     const Geometry& geometry = frame.repeated()->geometry;
     const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
-    const bool cuts = frame.replay.bytes >= least_memory && frame.replay.bytes_a_fragment > 0;
+    const bool cuts = frame.replay.bytes >= least_memory && frame.replay.bytes_per_fragment > 0;
     std::vector<std::vector<RegionArea>> parts(tiles);
     parallel_for(tiles, threads, [&](std::size_t tile) {
         const Rect rect = tile_rect(geometry, tile);

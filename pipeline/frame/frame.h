@@ -17,7 +17,7 @@ namespace strata::pipeline {
 struct Replay {
     std::uint64_t bytes = 0;            // per region; 0: every pass rasterizes
     rasterizer::FragmentNeeds needs{};  // union of the needs of the algorithm's passes
-    std::uint64_t bytes_a_fragment =
+    std::uint64_t bytes_per_fragment =
         0;  // bytes per fragment there: tiles are split until their fragments fit (tile_parts.h); 0: unknown
 };
 

@@ -126,8 +126,8 @@ void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
     reading = {0, 0, std::move(reading.stamp)};
     reading.stamp.assign(shared_.rect().area(), 0);
     Lanes<std::uint32_t> places;
-    for (auto next = shared_.scratch.fragments.next_places(reading, places); !next.empty();
-         next = shared_.scratch.fragments.next_places(reading, places)) {
+    for (auto next = shared_.scratch.fragments.next_indices(reading, places); !next.empty();
+         next = shared_.scratch.fragments.next_indices(reading, places)) {
         batch.count = static_cast<int>(next.size());
         batch.material = 0;
         for (std::size_t i = 0; i < next.size(); ++i) batch.pixel[i] = shared_.scratch.fragments.pixel()[next[i]];

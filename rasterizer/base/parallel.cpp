@@ -47,7 +47,7 @@ class Supply {
   private:
     void ask(int threads) {
         const std::size_t stack = tbb::global_control::active_value(tbb::global_control::thread_stack_size);
-        const int workers = threads_to_be_had(threads - 1, stack);
+        const int workers = available_threads(threads - 1, stack);
         if (workers == threads - 1) return proven_.store(threads, std::memory_order_release);
         // One less than was granted: oneTBB needs memory of its own in addition to the stacks.
         const int had = std::max<int>(proven_, std::max(workers - 1, 0) + 1);

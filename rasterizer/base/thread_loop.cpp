@@ -21,7 +21,7 @@ void* wait_at(void* gate) {
 
 }  // namespace
 
-int threads_to_be_had(int wanted, std::size_t stack_bytes) noexcept try {
+int available_threads(int wanted, std::size_t stack_bytes) noexcept try {
     std::vector<pthread_t> threads;
     threads.reserve(static_cast<std::size_t>(wanted));
     pthread_attr_t attributes;

@@ -11,7 +11,7 @@ namespace strata {
 
 // The number of threads with stacks of `stack_bytes` that can run at the same time, at most `wanted`. Starts them and
 // joins them.
-[[nodiscard]] int threads_to_be_had(int wanted, std::size_t stack_bytes) noexcept;
+[[nodiscard]] int available_threads(int wanted, std::size_t stack_bytes) noexcept;
 
 // Calls body(i) for every i in [0, count) on `threads` threads including the caller; the others are started and joined
 // here, so that the thread sanitizer can follow them. An exception from a body ends the loop and is rethrown.

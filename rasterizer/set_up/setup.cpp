@@ -69,8 +69,8 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       window_{state, rules},
       plain_rules_{window_.plain_rules(state.clip_depth)},
       set_up_plain_{clipper_.holds_view_volume() && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
-      goes_one_by_one_{rules.area_sign == AreaSign::single || rules.plane_corners == PlaneCorners::given},
-      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions || goes_one_by_one_ ? nullptr
+      needs_scalar_setup_{rules.area_sign == AreaSign::single || rules.plane_corners == PlaneCorners::given},
+      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions || needs_scalar_setup_ ? nullptr
                               : rules.coverage == CoverageRule::snapped_edges ? rasterizer::set_up_plain_triangles()
                                                                               : rasterizer::set_up_plain_spans()},
       vertices_{vertices},
@@ -332,7 +332,7 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k].vertex;
         const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled &&
-                              !state_.window_positions && !goes_one_by_one_;
+                              !state_.window_positions && !needs_scalar_setup_;
         if (is_plain && group.small[k] != 0 && rules_.coverage == CoverageRule::snapped_edges)
             count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
         else

@@ -116,7 +116,7 @@ class TriangleSetup {
     WindowTransform window_;
     std::optional<PlainVertexRules> plain_rules_;
     SetUpPlain set_up_plain_;
-    bool goes_one_by_one_;  // rules that the kernels for several triangles do not implement
+    bool needs_scalar_setup_;  // rules that the kernels for several triangles do not implement
     SetUpPlainTriangles set_up_plain_triangles_;
     std::span<const ClipVertex> vertices_;
     const VertexExtras& extras_;

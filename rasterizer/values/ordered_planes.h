@@ -31,9 +31,9 @@ class OrderedPlanes {
         if (state.sample) right_ = state.sample->right(), down_ = state.sample->down();
         is_done_ = state.window_positions;
         const bool is_against = !is_done_ && state.y_direction == YDirection::up && rules.y_axis == YAxis::memory;
-        turn_round([=](const ClipVertex& v) { return is_against ? -v.y : v.y; },
-                   [](float a, float b) { return a < b; });
-        turn_round([](const ClipVertex& v) { return v.w; }, [](float a, float b) { return a > b; });
+        rotate_corners([=](const ClipVertex& v) { return is_against ? -v.y : v.y; },
+                       [](float a, float b) { return a < b; });
+        rotate_corners([](const ClipVertex& v) { return v.w; }, [](float a, float b) { return a > b; });
         const float n = state.depth_near, f = state.depth_far;
         const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
         scale_ = Flushed{symmetric ? (f - n) * 0.5f : f - n};
@@ -95,7 +95,7 @@ class OrderedPlanes {
     }
 
     template <class Key, class Better>
-    constexpr void turn_round(const Key& key, const Better& is_better) noexcept {
+    constexpr void rotate_corners(const Key& key, const Better& is_better) noexcept {
         const std::array<float, 3> k{key(at(0)), key(at(1)), key(at(2))};
         float best = k[0];
         for (const float each : k)

@@ -14,7 +14,7 @@ int start_threads() {
     static const int started = [] {
         constexpr std::size_t usual_stack = std::size_t{8} << 20;
         const int wanted = thread_count(0);
-        const int found = wanted > 1 && threads_to_be_had(wanted, usual_stack) == wanted ? wanted : 0;
+        const int found = wanted > 1 && available_threads(wanted, usual_stack) == wanted ? wanted : 0;
         Imf::setGlobalThreadCount(found);
         return found;
     }();

@@ -20,7 +20,7 @@ namespace strata::scenes {
 namespace {
 
 constexpr std::size_t buffer_bytes = 65536;
-std::atomic<void (*)(const std::string& path)> told_of_files{nullptr};
+std::atomic<void (*)(const std::string& path)> on_file_written{nullptr};
 constexpr std::string_view temporary_ending = ".tmp";
 
 // The process id and a counter make the name unique; the same folder makes the rename atomic, within one file system.
@@ -161,7 +161,7 @@ void AtomicFile::send() noexcept {
 void AtomicFile::commit() {
     if (flush()) is_stream_ ? send() : put_in_place();
     if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes the file
-    if (const auto told = told_of_files.load()) told(path_);
+    if (const auto told = on_file_written.load()) told(path_);
 }
 
 void AtomicFile::discard() noexcept {
@@ -173,7 +173,7 @@ void AtomicFile::discard() noexcept {
     slot_ = -1;
 }
 
-void tell_written_files(void (*told)(const std::string& path)) noexcept { told_of_files = told; }
+void report_written_files(void (*told)(const std::string& path)) noexcept { on_file_written = told; }
 
 bool is_standard_output(std::string_view path) noexcept {
     return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";

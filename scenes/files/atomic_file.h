@@ -57,7 +57,7 @@ class AtomicFile {
 };
 
 // From now on `told` is called with the path of every committed file, on the thread that wrote it.
-void tell_written_files(void (*told)(const std::string& path)) noexcept;
+void report_written_files(void (*told)(const std::string& path)) noexcept;
 
 // True for "-" and for the names by which Linux calls standard output.
 [[nodiscard]] bool is_standard_output(std::string_view path) noexcept;

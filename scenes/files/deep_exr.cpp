@@ -16,15 +16,15 @@
 namespace strata::scenes {
 namespace {
 
-constexpr std::size_t words_a_fragment = 7;
-constexpr std::array<const char*, words_a_fragment> names{"R", "G", "B", "A", "Z", "Zbits", "id"};
+constexpr std::size_t words_per_fragment = 7;
+constexpr std::array<const char*, words_per_fragment> names{"R", "G", "B", "A", "Z", "Zbits", "id"};
 constexpr std::size_t first_integer = 5;  // the words before it are FLOAT
 
-using Words = std::array<std::uint32_t, words_a_fragment>;
+using Words = std::array<std::uint32_t, words_per_fragment>;
 
 PartHeader header_of(const DeepFragments& fragments, const Attributes& attributes) {
     PartHeader header{.width = fragments.width, .height = fragments.height, .is_deep = true};
-    for (std::size_t i = 0; i < words_a_fragment; ++i)
+    for (std::size_t i = 0; i < words_per_fragment; ++i)
         header.channels.push_back({names[i], i < first_integer ? StoredType::single : StoredType::word});
     header.attributes = prefixed(attributes);
     header.space = stored_space(fragments.space);
@@ -80,9 +80,9 @@ class DeepRows {
 };
 
 // The offset of each of our words in a fragment of the file.
-std::array<std::size_t, words_a_fragment> offsets_in(const PartHeader& header, const std::string& path) {
-    std::array<std::size_t, words_a_fragment> offsets{};
-    for (std::size_t i = 0; i < words_a_fragment; ++i) {
+std::array<std::size_t, words_per_fragment> offsets_in(const PartHeader& header, const std::string& path) {
+    std::array<std::size_t, words_per_fragment> offsets{};
+    for (std::size_t i = 0; i < words_per_fragment; ++i) {
         const auto channel = find_channel(header, names[i]);
         const StoredType type = i < first_integer ? StoredType::single : StoredType::word;
         // A deep file of another program has other channels and is rejected.
@@ -130,7 +130,7 @@ DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
     // One fragment per iteration; its seven words may be in any order in the file.
     for (std::size_t at = 0; at < part.bytes.size(); at += stride) {
         Words words{};
-        for (std::size_t i = 0; i < words_a_fragment; ++i)
+        for (std::size_t i = 0; i < words_per_fragment; ++i)
             std::memcpy(&words[i], &part.bytes[at + offsets[i]], sizeof words[i]);
         append(words, fragments);
     }

@@ -6,7 +6,8 @@
 //          and height are at most 16384 texels, and the data must be long enough for the size in the header (deflate
 //          packs at most 1032 to 1; a JPEG block takes at least one bit).
 // Source   glTF 2.0, 3.8.3; PNG 11.2.2; JPEG: ITU T.81, B.2. JPEG's own arithmetic is libjpeg-turbo's (integer, slow
-//          but exact). Tests    tests/scenes/gltf/gltf_image_test.cpp
+//          but exact).
+// Tests    tests/scenes/gltf/gltf_image_test.cpp
 #pragma once
 #include <cstdint>
 #include <string>

@@ -87,7 +87,7 @@ bool has_address_space(std::size_t bytes) {
 void require_room() {
     constexpr int wanted = 4;
     constexpr std::size_t usual_stack = std::size_t{8} << 20, libraries = std::size_t{400} << 20;
-    if (const int found = threads_to_be_had(wanted, usual_stack); found < wanted)
+    if (const int found = available_threads(wanted, usual_stack); found < wanted)
         throw SystemError(image_file.file, image_file.task,
                           "expected " + std::to_string(wanted) + " threads for the image library, the system gives " +
                               std::to_string(found));

@@ -1,8 +1,9 @@
 // scenes/gltf/accessor.h - reads the elements of a checked accessor one by one, with sparse values applied.
 //
 // Rule     An accessor without a bufferView is zero everywhere; sparse values replace elements; sparse indices strictly
-//          increase. Source   glTF 2.0, 3.6.2. What a component's bits mean: element.h. Tests
-//          tests/scenes/gltf/gltf_accessor_test.cpp
+//          increase.
+// Source   glTF 2.0, 3.6.2. What a component's bits mean: element.h.
+// Tests    tests/scenes/gltf/gltf_accessor_test.cpp
 #pragma once
 #include <array>
 #include <map>

@@ -11,7 +11,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-Ended bench(const Folder& folder, std::vector<std::string> more) {
+CommandResult bench(const Folder& folder, std::vector<std::string> more) {
     const std::vector<std::string> small{
         "bench", "random:seed=3,triangles=60", "--size", "64x64", "--repeat", "2", "--warm-up", "0"};
     more.insert(more.begin(), small.begin(), small.end());
@@ -40,8 +40,9 @@ std::string wrong_with(const ordered_json& job) {
 
 TEST_CASE("strata bench --json prints every documented key and the algorithms that the profile rejects") {
     const Folder folder;
-    const Ended ended = bench(folder, {"--algorithm", "depth,dual,dual_independent", "--execution", "all", "--simd",
-                                       "scalar,best", "--effects", "needed,all", "--counters", "--json"});
+    const CommandResult ended =
+        bench(folder, {"--algorithm", "depth,dual,dual_independent", "--execution", "all", "--simd", "scalar,best",
+                       "--effects", "needed,all", "--counters", "--json"});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
     const auto document = ordered_json::parse(ended.out);
@@ -60,7 +61,8 @@ TEST_CASE("strata bench --json prints every documented key and the algorithms th
 
 TEST_CASE("the literal fragment count and the picture of a job are the same in every execution") {
     const Folder folder;
-    const Ended ended = bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--counters", "--json"});
+    const CommandResult ended =
+        bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--counters", "--json"});
     const auto jobs = ordered_json::parse(ended.out).at("jobs");
     REQUIRE(jobs.size() == 2);
     for (const auto& job : jobs)
@@ -75,7 +77,7 @@ TEST_CASE("strata bench --baseline prints old over new for equal jobs and names 
     old["jobs"][1]["seconds"]["median"] = 1e6;  // recognisable in the ratio
     CHECK(shell(folder, "cat > old.json <<'END'\n" + old.dump() + "\nEND").status == 0);
     const std::vector<std::string> words{"--algorithm", "dual,unsorted", "--baseline", "old.json"};
-    const Ended table = bench(folder, words);
+    const CommandResult table = bench(folder, words);
     CHECK(table.status == 0);
     CHECK(table.out.find("1000000000.00") != std::string::npos);  // milliseconds
     CHECK(table.out.find("not in the baseline: random:seed=3,triangles=60 unsorted") != std::string::npos);
@@ -96,7 +98,7 @@ TEST_CASE("a baseline without a memory is read with the default and execution ti
         if (is_tiled) old["jobs"][0]["execution"] = "tiled";
         CHECK(shell(folder, "cat > old.json <<'END'\n" + old.dump() + "\nEND").status == 0);
         for (const char* memory : {"0", "256M"}) {
-            const Ended run = bench(
+            const CommandResult run = bench(
                 folder, {"--algorithm", "unsorted", "--json", "--baseline", "old.json", "--fragment-memory", memory});
             const auto job = ordered_json::parse(run.out).at("jobs")[0];
             INFO("memory " << memory << ", tiled " << is_tiled);

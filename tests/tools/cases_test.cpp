@@ -84,7 +84,8 @@ TEST_CASE("blended surfaces that write depth are diagnosed because surfaces behi
         return color;
     });
     for (const char* algorithm : {"unsorted", "painter", "front_to_back", "dual", "weighted_sum"}) {
-        const Ended found = run_strata(folder, {"diagnose", "panes.json", "written.ppm", "--algorithm", algorithm});
+        const CommandResult found =
+            run_strata(folder, {"diagnose", "panes.json", "written.ppm", "--algorithm", algorithm});
         INFO(algorithm << found.out << found.err);
         CHECK(found.status == 1);
         CHECK_THAT(found.out, StartsWith("100 % of the pixels are those of: blended surfaces write depth"));
@@ -104,7 +105,7 @@ TEST_CASE("a pixel centre on an edge that both triangles or neither draw is diag
             return color;
         });
         for (const char* command : {"diagnose", "compare"}) {
-            const Ended found = run_strata(folder, {command, "fade.json", "edge.ppm"});
+            const CommandResult found = run_strata(folder, {command, "fade.json", "edge.ppm"});
             INFO(command << times << found.out << found.err);
             CHECK(found.status == 1);
             CHECK_THAT(found.out, StartsWith(fmt::format("wrong: a centre on an edge is drawn by {} triangle",
@@ -127,8 +128,8 @@ TEST_CASE("a peel with too few passes is diagnosed with their number") {
                       "front_to_back --max-passes " +
                           passes + " -o few.png")
                     .status == 0);
-        const Ended found = run_strata(folder, {"diagnose", "stack.json", "few.png", "--algorithm", "front_to_back",
-                                                "--background", "0.2,0.3,0.5"});
+        const CommandResult found = run_strata(folder, {"diagnose", "stack.json", "few.png", "--algorithm",
+                                                        "front_to_back", "--background", "0.2,0.3,0.5"});
         INFO(found.out);
         CHECK(found.status == 1);
         const std::string layers = passes == "1" ? "layer" : passes + " layers";
@@ -138,7 +139,7 @@ TEST_CASE("a peel with too few passes is diagnosed with their number") {
     REQUIRE(
         shell(folder, "strata render stack.json --size 40x40 -q --algorithm dual --max-passes 2 -o few.png").status ==
         0);
-    const Ended dual = run_strata(folder, {"diagnose", "stack.json", "few.png", "--algorithm", "dual"});
+    const CommandResult dual = run_strata(folder, {"diagnose", "stack.json", "few.png", "--algorithm", "dual"});
     CHECK_THAT(dual.out, StartsWith("100 % of the pixels are those of: only the first 2 passes of 4 (--max-passes 2)"));
 }
 
@@ -146,7 +147,7 @@ TEST_CASE("a picture of another processor is recognised as that of its profile")
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 96x72 --algorithm dual --profile llvmpipe_sse -q -o theirs.png")
                 .status == 0);
-    const Ended found = run_strata(folder, {"diagnose", "teapot", "theirs.png", "--profile", "llvmpipe", "-q"});
+    const CommandResult found = run_strata(folder, {"diagnose", "teapot", "theirs.png", "--profile", "llvmpipe", "-q"});
     INFO(found.out);
     CHECK(found.status == 0);
     CHECK_THAT(found.out, StartsWith("right under other options: every pixel is that of: profile llvmpipe_sse ("));
@@ -174,7 +175,7 @@ TEST_CASE("blends of sources that are not codes are accepted as another rounding
     const std::pair<const char*, const char*> right[] = {
         {"unsorted", "as_it_came.ppm"}, {"painter", "sorted.ppm"}, {"dual", "sorted.ppm"}};
     for (const auto& [algorithm, picture] : right) {
-        const Ended found = run_strata(
+        const CommandResult found = run_strata(
             folder, {"diagnose", "stack.json", picture, "--algorithm", algorithm, "--background", "0.2,0.3,0.5"});
         INFO(algorithm << found.out);
         CHECK(found.status == 0);
@@ -232,7 +233,7 @@ TEST_CASE("a blended square at the depth of an opaque one is diagnosed as LEQUAL
         shell(folder, "strata render before.gltf --camera front.json --size 48x48 --algorithm dual -q -o lequal.png")
             .status == 0);
     for (const char* algorithm : {"dual", "layer_peel", "hybrid", "coherent_stencil", "stencil_routed_k_buffer"}) {
-        const Ended found = run_strata(
+        const CommandResult found = run_strata(
             folder, {"diagnose", "on.gltf", "lequal.png", "--camera", "front.json", "--algorithm", algorithm, "-q"});
         INFO(algorithm << found.out << found.err);
         CHECK(found.status == 1);
@@ -250,8 +251,8 @@ TEST_CASE(
                   "strata render planes:count=5 --orbit 50,30 --size 32x32 --color-format rgba32f --profile u.json "
                   "-q -o flat.exr")
                 .status == 0);
-    const Ended found = run_strata(folder, {"diagnose", "planes:count=5", "flat.exr", "--orbit", "50,30",
-                                            "--color-format", "rgba32f", "--profile", "llvmpipe", "-q"});
+    const CommandResult found = run_strata(folder, {"diagnose", "planes:count=5", "flat.exr", "--orbit", "50,30",
+                                                    "--color-format", "rgba32f", "--profile", "llvmpipe", "-q"});
     INFO(found.out);
     CHECK(found.status == 0);
     CHECK_THAT(found.out, StartsWith("right under other options: every pixel is that of: triangles of one colour"));

@@ -16,7 +16,7 @@ TEST_CASE("compare with a scene accepts a correct picture in any format and orde
             "strata render teapot --size 48x36 --background 0.2,0.3,0.5 --color-format rgba16f -q -o b.exr")
             .status == 0);
     for (const std::string picture : {"a.dual.png", "a.front_to_back.png", "b.exr"}) {
-        const Ended found = run_strata(folder, {"compare", "teapot", picture, "--background", "0.2,0.3,0.5"});
+        const CommandResult found = run_strata(folder, {"compare", "teapot", picture, "--background", "0.2,0.3,0.5"});
         INFO(picture << found.out << found.err);
         CHECK(found.status == 0);
         CHECK(found.out.starts_with("right: structure exact at all 1728 pixels; rounding at most "));
@@ -29,12 +29,12 @@ TEST_CASE("compare with a scene names the mistake of a peel that stops early and
                   "strata render teapot --size 48x36 --algorithm front_to_back --max-passes 2 -q -o a.png && "
                   "strata golden teapot --size 48x36 --algorithm front_to_back -q -o pack")
                 .status == 0);
-    const Ended text = run_strata(folder, {"compare", "teapot", "a.png"});
+    const CommandResult text = run_strata(folder, {"compare", "teapot", "a.png"});
     CHECK(text.status == 1);
     CHECK(text.out.starts_with("wrong: "));
     CHECK(text.out.find("only the nearest 2 layers of up to ") != std::string::npos);
     // A pack's state replaces the options.
-    const Ended json = run_strata(folder, {"compare", "pack", "a.png", "--json"});
+    const CommandResult json = run_strata(folder, {"compare", "pack", "a.png", "--json"});
     CHECK(json.status == 1);
     const auto document = nlohmann::json::parse(json.out);
     CHECK(document["verdict"] == "wrong");
@@ -47,14 +47,14 @@ TEST_CASE("a picture that is correct under another profile is accepted and that 
     const std::string scene = "random:seed=3,triangles=80";
     const std::string draw = "strata render " + scene + " --size 48x36 --profile softpipe --color-format rgba32f -q ";
     REQUIRE(shell(folder, draw + "-o a.exr && " + draw + "--mistake alpha_squared -o b.exr").status == 0);
-    const Ended right = run_strata(folder, {"compare", scene, "a.exr", "--report", "page.html"});
+    const CommandResult right = run_strata(folder, {"compare", scene, "a.exr", "--report", "page.html"});
     INFO(right.out << right.err);
     CHECK(right.status == 0);
     CHECK(right.out.starts_with("right: structure exact at all 1728 pixels; "));
     CHECK(right.out.find("\n  by the rules of profile softpipe; by those of geforce8 it would be wrong at ") !=
           std::string::npos);
     CHECK(content_of(folder / "page.html").find("by the rules of profile softpipe") != std::string::npos);
-    const Ended json = run_strata(folder, {"compare", scene, "a.exr", "--json"});
+    const CommandResult json = run_strata(folder, {"compare", scene, "a.exr", "--json"});
     CHECK(nlohmann::json::parse(json.out)["profile"] == "softpipe");
     CHECK(run_strata(folder, {"compare", scene, "b.exr"}).status == 1);
 }
@@ -65,7 +65,7 @@ TEST_CASE("floats that sum codes of another profile are correct by its rules at 
         "strata render random:seed=7 --size 48x36 --profile llvmpipe_sse --algorithm coherent_stencil "
         "--color-format rgba8 --result-format rgba32f -q -o a.exr";
     REQUIRE(shell(folder, draw).status == 0);
-    const Ended found = run_strata(folder, {"compare", "random:seed=7", "a.exr"});
+    const CommandResult found = run_strata(folder, {"compare", "random:seed=7", "a.exr"});
     INFO(found.out << found.err);
     CHECK(found.status == 0);
     CHECK(found.out.find("\n  by the rules of profile llvmpipe_sse; ") != std::string::npos);
@@ -75,21 +75,23 @@ TEST_CASE("explain --candidate reports which layers a port composited at a pixel
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 24x18 --algorithm front_to_back --max-passes 2 -q -o a.png")
                 .status == 0);
-    const Ended compared = run_strata(folder, {"compare", "teapot", "a.png", "--json", "--report", "page.html"});
+    const CommandResult compared =
+        run_strata(folder, {"compare", "teapot", "a.png", "--json", "--report", "page.html"});
     const auto first = nlohmann::json::parse(compared.out)["first_wrong"][0];
     const std::string pixel = first[0].dump() + "," + first[1].dump();
-    const Ended text = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", pixel});
+    const CommandResult text = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", pixel});
     CHECK(text.status == 1);
     CHECK(text.out.starts_with("pixel " + pixel + ": wrong; "));
     CHECK(text.out.find("it comes out so if only the nearest 2 layers of up to ") != std::string::npos);
-    const Ended right = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "0,0", "--json"});
+    const CommandResult right =
+        run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "0,0", "--json"});
     CHECK(right.status == 0);
     CHECK(nlohmann::json::parse(right.out)["edits"].empty());
     // The counts in the page's legend are those of its map.
     const std::string page = content_of(folder / "page.html");
     CHECK(page.find("What each wrong pixel composited") != std::string::npos);
     CHECK(page.find("pixels: only the nearest 2 layers of up to ") != std::string::npos);
-    const Ended outside = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "24,0"});
+    const CommandResult outside = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "24,0"});
     CHECK(outside.status == 2);
     CHECK(outside.err.find("expected a pixel from 0,0 to 23,17, found 24,0") != std::string::npos);
 }
@@ -101,7 +103,7 @@ TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit", "
                   "strata golden teapot --size 32x24 --algorithm dual -q -o pack")
                 .status == 0);
     CHECK(run_strata(folder, {"compare", "teapot", "a.dual.png", "--exact"}).out == "equal\n");
-    const Ended other = run_strata(folder, {"compare", "teapot", "a.front_to_back.png", "--exact"});
+    const CommandResult other = run_strata(folder, {"compare", "teapot", "a.front_to_back.png", "--exact"});
     CHECK(other.status == 1);
     CHECK(other.out.starts_with("different: "));
     CHECK(run_strata(folder, {"compare", "teapot", "a.front_to_back.png", "--exact", "--algorithm", "front_to_back"})
@@ -113,7 +115,7 @@ TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit", "
 
 TEST_CASE("options that describe a scene are rejected when the reference is a picture") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {"compare", "a.png", "b.png", "--profile", "llvmpipe"});
+    const CommandResult ended = run_strata(folder, {"compare", "a.png", "b.png", "--profile", "llvmpipe"});
     CHECK(ended.status == 2);
     CHECK(ended.err == "strata: --profile goes with a scene as the reference, not with a picture\n");
 }

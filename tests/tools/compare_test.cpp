@@ -16,11 +16,11 @@ TEST_CASE("compare exits with 0 for equal pictures and 1 for different ones and 
                   "strata render teapot --size 48x36 -o a.exr && strata render teapot --size 48x36 -o a.png && "
                   "strata render teapot --size 48x36 --orbit 31,20 -o b.png")
                 .status == 0);
-    const Ended same = run_strata(folder, {"compare", "a.exr", "a.png"});
+    const CommandResult same = run_strata(folder, {"compare", "a.exr", "a.png"});
     CHECK(same.status == 0);
     CHECK(same.out == "equal\n  not compared: depth: in the reference alone\n");
-    const Ended other = run_strata(folder, {"compare", "a.png", "b.png", "--json", "--heat", "heat.png", "--side",
-                                            "side.png", "--junit", "report.xml"});
+    const CommandResult other = run_strata(folder, {"compare", "a.png", "b.png", "--json", "--heat", "heat.png",
+                                                    "--side", "side.png", "--junit", "report.xml"});
     CHECK(other.status == 1);
     const auto document = nlohmann::json::parse(other.out);
     CHECK_FALSE(document["equal"].get<bool>());
@@ -45,7 +45,7 @@ TEST_CASE("compare uses the given background and distinguishes lost coverage fro
     const auto kinds = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words{"compare", "a.png", "b.png", "--json"};
         words.insert(words.end(), more.begin(), more.end());
-        const Ended ended = run_strata(folder, words);
+        const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 1);
         const auto document = nlohmann::json::parse(ended.out);
         std::vector<std::string> found;
@@ -94,7 +94,7 @@ TEST_CASE("deep files are compared by their layers") {
                   "strata layers planes:count=2 --size 16x12 --algorithm front_to_back --deep b.exr")
                 .status == 0);
     CHECK(run_strata(folder, {"compare", "a.exr", "a.exr"}).out == "equal\n");
-    const Ended other = run_strata(folder, {"compare", "a.exr", "b.exr"});
+    const CommandResult other = run_strata(folder, {"compare", "a.exr", "b.exr"});
     CHECK(other.status == 1);
     CHECK(other.out.find("layer") != std::string::npos);
 }
@@ -142,13 +142,13 @@ TEST_CASE("pictures of other programs are compared by the meaning of their chann
     CHECK(compared({"a.ppm", "b.ppm"}).status == 1);
     CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "color=63"}).status == 1);
     CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "color=64"}).status == 0);
-    const Ended spent = compared({"a.ppm", "b.ppm", "--tolerance", "color=2,pixels=1"});
+    const CommandResult spent = compared({"a.ppm", "b.ppm", "--tolerance", "color=2,pixels=1"});
     CHECK(spent.status == 0);
     CHECK_THAT(spent.out, Catch::Contains("pixels: 1 of 1 pixels spent"));
     CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "pixels=25%"}).status == 0);
     CHECK(compared({"a.ppm", "b.ppm", "--tolerance", "pixels=24%"}).status == 1);
     CHECK(compared({"a.ppm", "c.raw", "--layout", "4x1:bgr8:offset=2"}).out == "equal\n");
-    const Ended grey = compared({"a.ppm", "d.pgm"});
+    const CommandResult grey = compared({"a.ppm", "d.pgm"});
     CHECK(grey.status == 1);
     CHECK_THAT(grey.out, Catch::Contains("different: 2 of 4 pixels differ") &&
                              Catch::Contains("the candidate is grey, which counts as equal red, green and blue"));
@@ -167,7 +167,7 @@ TEST_CASE("a picture with the lower left corner first is correct if that origin 
         more.insert(more.begin(), {"compare", scene[0], "gl.png", "--profile", "llvmpipe"});
         return run_strata(folder, more);
     };
-    const Ended right = compared({"--origin", "lower-left"});
+    const CommandResult right = compared({"--origin", "lower-left"});
     INFO(right.out << right.err);
     CHECK(right.status == 0);
     CHECK(compared({"--exact", "--algorithm", "dual", "--origin", "lower-left"}).out == "equal\n");
@@ -180,7 +180,7 @@ TEST_CASE("32-bit codes are compared in every bit and a difference in the lowest
     std::ofstream{folder / "a.raw"} << bytes;
     bytes[8] ^= 1;
     std::ofstream{folder / "b.raw"} << bytes;
-    const Ended found = run_strata(folder, {"compare", "a.raw", "b.raw", "--layout", "2x2:d32f"});
+    const CommandResult found = run_strata(folder, {"compare", "a.raw", "b.raw", "--layout", "2x2:d32f"});
     CHECK(found.status == 1);
     CHECK(found.out.find("differ by at most 1 codes") != std::string::npos);
 }
@@ -208,7 +208,7 @@ std::size_t number_of(const std::string& text, const std::string& part) {
 TEST_CASE("comparing a pack with a port's folder writes a page with both pictures and their differences") {
     const Folder folder;
     make_folders(folder, true);
-    const Ended ended = run_strata(folder, {"compare", "pack", "mine/", "--report", "page.html"});
+    const CommandResult ended = run_strata(folder, {"compare", "pack", "mine/", "--report", "page.html"});
     INFO(ended.err);
     REQUIRE(ended.status == 1);
     const std::string page = content_of(folder / "page.html");

@@ -14,7 +14,7 @@ using namespace strata::test;
 namespace {
 
 // A small teapot with the settings that take little time and produce every kind of row.
-Ended cost(const Folder& folder, const std::string& to, std::vector<std::string> more = {}) {
+CommandResult cost(const Folder& folder, const std::string& to, std::vector<std::string> more = {}) {
     const std::vector<std::string> words{
         "cost",      "teapot",   "--size", "48x40",  "--alpha",
         "0.5",       "--repeat", "1",      "--knob", "subpixel_bits,depth,average_count,peels,chain,alone",
@@ -117,7 +117,7 @@ TEST_CASE("every sentence agrees with its row and the exact end of the chain lea
 
 TEST_CASE("a cost sweep draws a frontier for each of its three times and reports where its files are") {
     const Folder folder;
-    const Ended ended = cost(folder, "out", {"--clock", "processor"});
+    const CommandResult ended = cost(folder, "out", {"--clock", "processor"});
     REQUIRE(ended.status == 0);
     for (const char* column : {"default", "literal", "modelled"}) {
         const std::string svg = content_of(folder / (std::string("out/frontier.teapot.") + column + ".svg"));
@@ -130,13 +130,14 @@ TEST_CASE("a cost sweep draws a frontier for each of its three times and reports
 
 TEST_CASE("a scene without a reference and a repeated scene and a missing folder are rejected with an error message") {
     const Folder folder;
-    const Ended light = run_strata(folder, {"cost", "shadow-demo", "--size", "16x16", "--knob", "peels", "-o", "out"});
+    const CommandResult light =
+        run_strata(folder, {"cost", "shadow-demo", "--size", "16x16", "--knob", "peels", "-o", "out"});
     CHECK(light.status == 2);
     CHECK(light.err == "strata: scene: light: expected no light that casts shadows, found one\n");
-    const Ended twice = run_strata(folder, {"cost", "teapot", "teapot", "-o", "out"});
+    const CommandResult twice = run_strata(folder, {"cost", "teapot", "teapot", "-o", "out"});
     CHECK(twice.status == 2);
     CHECK(twice.err == "strata: SCENE: 'teapot' is the name of two scenes\n");
-    const Ended none = run_strata(folder, {"cost", "teapot"});
+    const CommandResult none = run_strata(folder, {"cost", "teapot"});
     CHECK(none.status == 2);
     CHECK(none.err == "strata: -o is missing: the folder for the results\n");
 }

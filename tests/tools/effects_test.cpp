@@ -13,7 +13,7 @@ namespace {
 ordered_json plans(const Folder& folder, std::vector<std::string> words) {
     words.insert(words.begin(), "effects");
     words.insert(words.end(), {"--size", "64x48", "--repeat", "1", "--json"});
-    const Ended ended = run_strata(folder, words);
+    const CommandResult ended = run_strata(folder, words);
     INFO(ended.err);
     REQUIRE(ended.status == 0);
     return ordered_json::parse(ended.out);
@@ -125,8 +125,8 @@ TEST_CASE("every effect that can be timed has a time whether it is simulated or 
 
 TEST_CASE("with fewer than four runs no time of an effect and no ratio is significant") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {"bench", "volume-beam:slices=2", "--per-effect", "--size", "32x24",
-                                            "--repeat", "3", "--execution", "replay"});
+    const CommandResult ended = run_strata(folder, {"bench", "volume-beam:slices=2", "--per-effect", "--size", "32x24",
+                                                    "--repeat", "3", "--execution", "replay"});
     CHECK(ended.status == 0);
     CHECK(ended.out.find(" times as fast") == std::string::npos);
     CHECK(ended.out.find("no difference beyond the noise (3 runs of each") != std::string::npos);

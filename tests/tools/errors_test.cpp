@@ -164,7 +164,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
          "(did you mean 'ideal'?)"},
     }));
     const Folder folder;
-    const Ended ended = run_strata(folder, wrong.words);
+    const CommandResult ended = run_strata(folder, wrong.words);
     INFO("wanted " << wrong.sentence << "\nfound  " << ended.err);
     CHECK(ended.status == 2);
     CHECK(says(ended.err, wrong.sentence));
@@ -185,7 +185,7 @@ TEST_CASE(
         words.push_back(deep);
         return run_strata(folder, words);
     };
-    const Ended same = with("linked/x.exr");
+    const CommandResult same = with("linked/x.exr");
     CHECK(same.status == 2);
     CHECK(same.err == "strata: --deep: 'linked/x.exr' is the file of -o already\n");
     CHECK(std::filesystem::is_empty(folder / "real"));
@@ -198,12 +198,12 @@ TEST_CASE(
 TEST_CASE(
     "a single algorithm that the profile cannot run gives exit status 2 and one among others a row of the table") {
     const Folder folder;
-    const Ended alone =
+    const CommandResult alone =
         run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual_independent", "-o", "out.png"});
     CHECK(alone.status == 2);
     CHECK(alone.err.find("ARB_draw_buffers_blend") != std::string::npos);
     CHECK(folder.files().empty());
-    const Ended among = run_strata(
+    const CommandResult among = run_strata(
         folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual,dual_independent", "-o", "out.png"});
     CHECK(among.status == 0);
     CHECK(among.out.find("refused") != std::string::npos);
@@ -216,7 +216,7 @@ TEST_CASE("a write error gives exit status 3 and leaves no file") {
     const Folder folder;
     std::vector<std::string> all{"render", "random:seed=3,triangles=300", "--size", "256x256", "--algorithm", "dual"};
     all.insert(all.end(), words.begin(), words.end());
-    const Ended ended = run_strata(folder, all, {.out = "/dev/null", .max_file_bytes = 600});
+    const CommandResult ended = run_strata(folder, all, {.out = "/dev/null", .max_file_bytes = 600});
     INFO(ended.err);
     CHECK(ended.status == 3);
     CHECK(lines_of(ended.err).size() == 1);
@@ -226,15 +226,15 @@ TEST_CASE("a write error gives exit status 3 and leaves no file") {
 TEST_CASE("standard output on a full disk gives exit status 3") {
     const auto verb = GENERATE(as<std::string>{}, "algorithms", "profiles", "scenes");
     const Folder folder;
-    const Ended ended = run_strata(folder, {verb, "--json"}, {.out = "/dev/full"});
+    const CommandResult ended = run_strata(folder, {verb, "--json"}, {.out = "/dev/full"});
     CHECK(ended.status == 3);
     CHECK(ended.err.starts_with("strata: standard output: "));
 }
 
 TEST_CASE("a viewport that the profile lacks is rejected by the depth pass of bench as by render") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {"bench", "teapot", "--size", "16384x8", "--profile", "geforce8",
-                                            "--algorithm", "depth", "--repeat", "1", "--warm-up", "0"});
+    const CommandResult ended = run_strata(folder, {"bench", "teapot", "--size", "16384x8", "--profile", "geforce8",
+                                                    "--algorithm", "depth", "--repeat", "1", "--warm-up", "0"});
     CHECK(ended.status == 2);
     CHECK(ended.out.find("refused: depth: profile geforce8 has no viewport of 16384 x 8 pixels") != std::string::npos);
 }
@@ -242,7 +242,7 @@ TEST_CASE("a viewport that the profile lacks is rejected by the depth pass of be
 TEST_CASE("a camera file that is a link to itself is rejected as bad input") {
     const Folder folder;
     std::filesystem::create_symlink("loop", folder / "loop");
-    const Ended ended = run_strata(folder, {"render", "teapot", "--camera", "loop"});
+    const CommandResult ended = run_strata(folder, {"render", "teapot", "--camera", "loop"});
     CHECK(ended.status == 2);
     CHECK(ended.err == "strata: --camera: expected a .json file (the scene has no camera), found 'loop'\n");
 }

@@ -14,11 +14,11 @@ TEST_CASE("a pack passes its check and replaces a scene and its options in every
                                 "dual,front_to_back", "--depth-format", "d24", "--background", "0.2,0.4,0.6",
                                 "--color-space", "linear", "-o", "pack"})
                 .status == 0);
-    const Ended check = run_strata(folder, {"golden", "--check", "pack"});
+    const CommandResult check = run_strata(folder, {"golden", "--check", "pack"});
     CHECK(check.status == 0);
     CHECK(check.out == "pack: all files match\n");
     for (const std::string simd : {"scalar", "avx2", "avx512"}) {
-        const Ended again = run_strata(folder, {"golden", "--check", "pack", "--simd", simd});
+        const CommandResult again = run_strata(folder, {"golden", "--check", "pack", "--simd", simd});
         const bool is_missing = again.err.find("what this processor has") != std::string::npos;
         CHECK((is_missing || again.status == 0));
         if (simd == "scalar") CHECK_FALSE(is_missing);
@@ -61,7 +61,7 @@ TEST_CASE("a pack passes its check and replaces a scene and its options in every
 TEST_CASE("golden reports what it cannot do and which byte of a pack has changed") {
     const Folder folder;
     const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
-        const Ended ended = run_strata(folder, words);
+        const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 2);
         CHECK_THAT(ended.err, Contains(sentence));
     };
@@ -76,11 +76,11 @@ TEST_CASE("golden reports what it cannot do and which byte of a pack has changed
     fails({"golden", "planes:count=1,cells=1", "-o", "p"},
           "p: is not empty; it has to be a new folder or an empty one");
     REQUIRE(shell(folder, "printf '\\007' | dd of=p/expected/dual/picture.npy bs=1 seek=200 conv=notrunc").status == 0);
-    const Ended check = run_strata(folder, {"golden", "--check", "p"});
+    const CommandResult check = run_strata(folder, {"golden", "--check", "p"});
     CHECK(check.status == 1);
     CHECK_THAT(check.out, Contains("expected/dual/picture.npy: byte 200, row 2, column 2, channel 0: expected ") &&
                               Contains(", found 7"));
-    const Ended compare = run_strata(folder, {"compare", "p", "p/scene"});
+    const CommandResult compare = run_strata(folder, {"compare", "p", "p/scene"});
     CHECK(compare.status == 2);
     CHECK_THAT(compare.err, Contains("p/scene: folder: expected ALGORITHM/picture.npy"));
 }
@@ -106,15 +106,16 @@ TEST_CASE("reversed depth and clip space from 0 to 1 are options of every pictur
 
 TEST_CASE("golden and probe end with a summary of what they wrote unless -q is given") {
     const Folder folder;
-    const Ended pack = shell(folder, "strata golden planes:count=2 --size 8x8 --algorithm dual,unsorted -o pack");
+    const CommandResult pack =
+        shell(folder, "strata golden planes:count=2 --size 8x8 --algorithm dual,unsorted -o pack");
     CHECK(pack.status == 0);
     const std::string files = lines_of(shell(folder, "find pack -type f | wc -l").out).at(0);
     CHECK(pack.out.starts_with("pack: " + files + " files, "));
     CHECK(pack.out.find(" of 2 algorithms") != std::string::npos);
     CHECK(shell(folder, "strata golden planes:count=2 --size 8x8 --algorithm dual -q -o quiet").out.empty());
-    const Ended kit = shell(folder, "strata probe -o kit");
+    const CommandResult kit = shell(folder, "strata probe -o kit");
     CHECK(kit.status == 0);
     CHECK(kit.out.starts_with("kit: kit.json and probe.html, "));
-    const Ended answers = shell(folder, "strata probe --profile geforce8 --unseen 1 -o answers");
+    const CommandResult answers = shell(folder, "strata probe --profile geforce8 --unseen 1 -o answers");
     CHECK(answers.out.starts_with("answers: the answers of geforce8 to "));
 }

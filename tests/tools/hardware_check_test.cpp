@@ -33,7 +33,7 @@ TEST_CASE("an equal capture is accepted and a differing one gives status 1 with 
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     CHECK(run_strata(folder, {"hardware-check", "captures"}).status == 0);
     write_capture(folder, "captures/Clear", "C01010101_Depth_n", 3, 0x7d);
-    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--json"});
+    const CommandResult ended = run_strata(folder, {"hardware-check", "captures", "--json"});
     CHECK(ended.status == 1);
     const auto pictures = ordered_json::parse(ended.out).at("pictures");
     REQUIRE(pictures.size() == 2);
@@ -50,7 +50,7 @@ TEST_CASE("unknown suites and names and those not modelled are listed and not co
     write_capture(folder, "captures/Fog", "FogExp");
     write_capture(folder, "captures/Clear", "Nonsense");
     write_capture(folder, "captures/Shade_model", "ProgLM_Quad_Smooth_First");
-    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--json"});
+    const CommandResult ended = run_strata(folder, {"hardware-check", "captures", "--json"});
     CHECK(ended.status == 0);
     std::vector<std::string> outcomes;
     const auto document = ordered_json::parse(ended.out);
@@ -94,7 +94,7 @@ TEST_CASE(
 TEST_CASE("hardware-check rejects wrong input with one error message") {
     const Folder folder;
     const auto sentence = [&](const std::vector<std::string>& words) {
-        const Ended ended = run_strata(folder, words);
+        const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 2);
         CHECK(lines_of(ended.err).size() == 1);
         return ended.err;
@@ -119,7 +119,7 @@ TEST_CASE("of several broken captures the first by name is reported in whatever 
     std::ofstream(file("C00000000_Depth_y")) << "";
     std::filesystem::create_symlink("nowhere.png", file("C00010000_Depth_y"));
     for (int i = 0; i < 3; ++i) {
-        const Ended ended = run_strata(folder, {"hardware-check", "broken"});
+        const CommandResult ended = run_strata(folder, {"hardware-check", "broken"});
         CHECK(ended.status == 2);
         CHECK(lines_of(ended.err).size() == 1);
         CHECK(ended.err.find("C00000000_Depth_y.png") != std::string::npos);
@@ -133,7 +133,7 @@ TEST_CASE("folders named like pictures and names with control characters are at 
     write_capture(folder, "captures/Clear", "two\nlines");
     std::filesystem::create_directories(folder / "captures/Clear/C01010101_Depth_y.png");
     std::filesystem::create_symlink("captures", folder / "captures/loop");
-    const Ended ended = run_strata(folder, {"hardware-check", "captures"});
+    const CommandResult ended = run_strata(folder, {"hardware-check", "captures"});
     CHECK(ended.status == 0);
     CHECK(ended.out.find("two?lines") != std::string::npos);
 }
@@ -141,7 +141,7 @@ TEST_CASE("folders named like pictures and names with control characters are at 
 TEST_CASE("every unknown constant has a score on the captures that it can change") {
     const Folder folder;
     write_capture(folder, "captures/Alpha_func", "AlphaFuncNever_Enabled");
-    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--hypotheses"});
+    const CommandResult ended = run_strata(folder, {"hardware-check", "captures", "--hypotheses"});
     CHECK(ended.status == 0);
     CHECK(ended.out.find("depths that are written: 0 captures can tell") != std::string::npos);
     CHECK(ended.out.find("vertex colours: 1 captures can tell") != std::string::npos);
@@ -153,7 +153,7 @@ TEST_CASE("pictures that the profile rejects are listed and the others are compa
     const Folder folder;
     write_capture(folder, "captures/Clear", "C00000000_Depth_y");
     write_capture(folder, "captures/Front_face", "FrontFace_CW_CF_FaB");
-    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--profile", "geforce8", "--json"});
+    const CommandResult ended = run_strata(folder, {"hardware-check", "captures", "--profile", "geforce8", "--json"});
     const auto document = ordered_json::parse(ended.out);
     CHECK(document.at("pictures").at(0).at("outcome") == "not modelled");  // needs a 16-bit depth buffer
     CHECK(document.at("pictures").at(1).at("outcome") != "not modelled");
@@ -167,7 +167,7 @@ TEST_CASE("the hardware captures are within their bounds except four if they are
         return;
     }
     const Folder folder;
-    const Ended ended = run_strata(folder, {"hardware-check", captures, "--json"});
+    const CommandResult ended = run_strata(folder, {"hardware-check", captures, "--json"});
     INFO(ended.err);
     CHECK(ended.status == 1);  // some pictures exceed their bounds, see tools/hardware_check/RESULTS.md
     int equal = 0;

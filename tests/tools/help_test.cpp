@@ -27,13 +27,13 @@ TEST_CASE("every example of every --help runs as printed", "[long]") {
     const std::string verb = GENERATE(from_range(commands()));
     if (verb == "hardware-check") return;  // its examples need hardware captures
     const Folder folder;
-    const Ended help = run_strata(folder, {verb, "--help"});
+    const CommandResult help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);
     const auto examples = examples_of(help.out);
     CHECK(examples.size() >= 2);
     CHECK(examples.size() <= 3);
     for (const std::string& example : examples) {
-        const Ended ended = shell(folder, example);
+        const CommandResult ended = shell(folder, example);
         INFO(example << "\n" << ended.err);
         CHECK(ended.status == 0);
     }
@@ -41,7 +41,7 @@ TEST_CASE("every example of every --help runs as printed", "[long]") {
 
 TEST_CASE("strata without arguments lists its commands and an example that runs and where to find more") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {});
+    const CommandResult ended = run_strata(folder, {});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
     // One line per command, one per group, and a few others.
@@ -63,7 +63,7 @@ TEST_CASE("strata without arguments lists its commands and an example that runs 
 TEST_CASE("the options --help and --version succeed and write to standard output only") {
     const auto word = GENERATE(as<std::string>{}, "--help", "--version");
     const Folder folder;
-    const Ended ended = run_strata(folder, {word});
+    const CommandResult ended = run_strata(folder, {word});
     CHECK(ended.status == 0);
     CHECK(ended.out.find("strata") != std::string::npos);
     CHECK(ended.err.empty());

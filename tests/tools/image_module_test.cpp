@@ -27,7 +27,7 @@ TEST_CASE("the image module is found in the program's folder and in STRATA_IMAGE
     const auto module_folder = GENERATE(as<std::string>{}, "bin", "bin/" STRATA_IMAGE_FOLDER);
     const Folder folder;
     install(folder, module_folder);
-    const Ended ended = shell(folder, std::string{"bin/strata"} + render + " && bin/strata digest out.png");
+    const CommandResult ended = shell(folder, std::string{"bin/strata"} + render + " && bin/strata digest out.png");
     INFO(ended.err);
     CHECK(ended.status == 0);
     CHECK(ended.out.find("rgba8") != std::string::npos);
@@ -37,7 +37,7 @@ TEST_CASE("without the image module reading a PNG fails with a one-line error an
     const Folder folder;
     install(folder, "");
     REQUIRE(shell(folder, std::string{"bin/strata"} + render).status == 0);
-    const Ended ended = shell(folder, std::string{"bin/strata"} + digest);
+    const CommandResult ended = shell(folder, std::string{"bin/strata"} + digest);
     CHECK(ended.status == 3);
     CHECK(ended.out.empty());
     CHECK(ended.err.starts_with("strata: strata_images.so: cannot load the image module: expected in "));
@@ -49,7 +49,7 @@ TEST_CASE("a module file that cannot be loaded gives a one-line error") {
     install(folder, "");
     std::ofstream(folder / "bin/strata_images.so") << "not a library";
     REQUIRE(shell(folder, std::string{"bin/strata"} + render).status == 0);
-    const Ended ended = shell(folder, std::string{"bin/strata"} + digest);
+    const CommandResult ended = shell(folder, std::string{"bin/strata"} + digest);
     CHECK(ended.status == 3);
     CHECK(ended.err.find("bin/strata_images.so: cannot load the image module: ") != std::string::npos);
     CHECK(lines_of(ended.err).size() == 1);

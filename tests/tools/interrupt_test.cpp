@@ -10,7 +10,7 @@ TEST_CASE("an interrupt at any moment gives exit status 130 and leaves no partia
     std::string wrong;
     for (int delay = 5; delay <= 640; delay += delay) {
         const Folder folder;
-        const Ended ended = run_strata(
+        const CommandResult ended = run_strata(
             folder, {"render", "random:seed=3,triangles=20000", "--size", "1024x1024", "--no-audit", "-o", "out.exr"},
             {.interrupt_after_ms = delay});
         const auto files = folder.files();

@@ -20,7 +20,7 @@ constexpr const char* plan = R"({
 
 void write(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
-Ended sweep(const Folder& folder, const std::string& to, std::vector<std::string> more = {}) {
+CommandResult sweep(const Folder& folder, const std::string& to, std::vector<std::string> more = {}) {
     write(folder / "plan.json", plan);
     const std::vector<std::string> words{"invariance", "--plan", "plan.json", "-o", to, "--threads", "1"};
     more.insert(more.begin(), words.begin(), words.end());
@@ -41,7 +41,7 @@ Results results_in(const Folder& folder, const std::string& name) {
 TEST_CASE(
     "a sweep writes the same bytes with any number of threads and in shards and resumed wherever it was interrupted") {
     const Folder folder;
-    const Ended whole = sweep(folder, "whole");
+    const CommandResult whole = sweep(folder, "whole");
     CHECK(whole.status == 0);
     CHECK(whole.err.empty());
     const auto told = lines_of(whole.out);
@@ -70,7 +70,7 @@ TEST_CASE(
         INFO("cut at byte " << bytes);
         std::filesystem::create_directories(folder / "torn");
         write(folder / "torn/results.jsonl", expected.lines.substr(0, bytes));
-        const Ended again = sweep(folder, "torn");
+        const CommandResult again = sweep(folder, "torn");
         CHECK(again.status == 0);
         const bool is_torn = expected.lines[bytes - 1] != '\n';
         CHECK((again.err.find("the last line was torn") != std::string::npos) == is_torn);
@@ -99,10 +99,10 @@ TEST_CASE("results.csv has the documented columns and a row per cell including r
 TEST_CASE("a folder with results of another plan is rejected and so is an incomplete shard") {
     const Folder folder;
     REQUIRE(sweep(folder, "out", {"--shard", "1/2", "--no-images"}).status == 0);
-    const Ended missing = sweep(folder, "out", {"--merge", "2"});
+    const CommandResult missing = sweep(folder, "out", {"--merge", "2"});
     CHECK(missing.status == 2);
     CHECK(missing.err == "strata: out/results.2of2.jsonl: lines: expected 6, one a cell of the shard, found 0\n");
-    const Ended other = run_strata(
+    const CommandResult other = run_strata(
         folder, {"invariance", "teapot", "--size", "8x8", "--profile", "ideal", "--shard", "1/2", "-o", "out"});
     CHECK(other.status == 2);
     CHECK(other.err.find("out/results.1of2.jsonl: line 1: scene: expected \"teapot\", as the plan has it") !=
@@ -119,7 +119,7 @@ TEST_CASE("lines that were changed or emptied or removed are measured again and 
         std::string text;
         for (const std::string& line : left) text += line + "\n";
         write(folder / "whole/results.jsonl", text);
-        const Ended ended = sweep(folder, "whole", {"--no-images"});
+        const CommandResult ended = sweep(folder, "whole", {"--no-images"});
         CHECK(ended.status == 0);
         CHECK(results_in(folder, "whole") == expected);
         return ended.err;
@@ -158,12 +158,12 @@ TEST_CASE("a scene whose name is not UTF-8 is measured and the sweep resumed") {
         "invariance", name,  "--algorithm", "front_to_back", "--pair",    "float32:exact",
         "--size",     "8x8", "--profile",   "ideal",         "--threads", "1",
         "-o",         "out"};
-    const Ended first = run_strata(folder, words), second = run_strata(folder, words);
+    const CommandResult first = run_strata(folder, words), second = run_strata(folder, words);
     CHECK(first.status == 0);
     CHECK(second.status == 0);
     CHECK(first.out == second.out);
-    const Ended bench = run_strata(folder, {"bench", name, "--size", "8x8", "--algorithm", "dual", "--repeat", "1",
-                                            "--warm-up", "0", "--threads", "1", "--json", "-"});
+    const CommandResult bench = run_strata(folder, {"bench", name, "--size", "8x8", "--algorithm", "dual", "--repeat",
+                                                    "1", "--warm-up", "0", "--threads", "1", "--json", "-"});
     CHECK(bench.status == 0);
     CHECK(ordered_json::parse(bench.out).at("jobs").size() == 1);
     CHECK(ordered_json::parse(run_strata(folder, {"scene", name, "--json"}).out).at("name") == "b\xef\xbf\xbd.gltf");

@@ -11,7 +11,7 @@ namespace {
 const std::filesystem::path built = std::filesystem::path{STRATA_PROGRAM}.parent_path();
 
 // Runs a copy of strata in a folder without strata-lab.
-Ended run_alone(const Folder& folder, const std::string& words) {
+CommandResult run_alone(const Folder& folder, const std::string& words) {
     std::filesystem::copy_file(STRATA_PROGRAM, folder / "strata", std::filesystem::copy_options::overwrite_existing);
     return shell(folder, "./strata " + words);
 }
@@ -26,8 +26,8 @@ TEST_CASE("strata runs an experiment as strata-lab does with the same output and
     const auto words = GENERATE(as<std::string>{}, "hard-cases --list", "--color never hard-cases --list", "cost",
                                 "bench nothing", "help probe", "help bench all", "man infer", "completions fish",
                                 "effects", "bench --help all", "-q bench --algoritm dual");
-    const Ended here = shell(folder, "strata " + words);
-    const Ended there = shell(folder, (built / "strata-lab").string() + " " + words);
+    const CommandResult here = shell(folder, "strata " + words);
+    const CommandResult there = shell(folder, (built / "strata-lab").string() + " " + words);
     INFO(words << "\n" << here.err);
     CHECK(here.out == there.out);
     CHECK(here.err == there.err);
@@ -38,8 +38,8 @@ TEST_CASE("a command gives the same result in strata and in strata-lab") {
     const Folder folder;
     const auto words =
         GENERATE(as<std::string>{}, "", "--help", "help", "man", "help render", "list profiles", "nothing");
-    const Ended here = shell(folder, "strata " + words);
-    const Ended there = shell(folder, (built / "strata-lab").string() + " " + words);
+    const CommandResult here = shell(folder, "strata " + words);
+    const CommandResult there = shell(folder, (built / "strata-lab").string() + " " + words);
     CHECK(here.out == there.out);
     CHECK(here.err == there.err);
     CHECK(here.status == there.status);
@@ -49,7 +49,7 @@ TEST_CASE("without strata-lab an experiment fails with the command that builds i
     const Folder folder;
     for (const std::string& name : experiments) {
         for (const std::string& words : {name + " --help", "help " + name, "man " + name}) {
-            const Ended ended = run_alone(folder, words);
+            const CommandResult ended = run_alone(folder, words);
             INFO(words);
             CHECK(ended.status == 3);
             CHECK(ended.out.empty());
@@ -60,7 +60,7 @@ TEST_CASE("without strata-lab an experiment fails with the command that builds i
     }
     CHECK(run_alone(folder, "").out == run_strata(folder, {}).out);
     CHECK(run_alone(folder, "man").out == run_strata(folder, {"man"}).out);
-    const Ended bash = run_alone(folder, "completions bash");
+    const CommandResult bash = run_alone(folder, "completions bash");
     CHECK(bash.status == 0);
     for (const std::string& name : commands()) CHECK(bash.out.find(name) != std::string::npos);
     CHECK(run_alone(folder, "list profiles").status == 0);
@@ -69,7 +69,7 @@ TEST_CASE("without strata-lab an experiment fails with the command that builds i
 TEST_CASE("a strata-lab that cannot be executed is reported with the system's reason") {
     const Folder folder;
     CHECK(shell(folder, "echo x > strata-lab && chmod +x strata-lab").status == 0);
-    const Ended ended = run_alone(folder, "cost teapot");
+    const CommandResult ended = run_alone(folder, "cost teapot");
     CHECK(ended.status == 3);
     CHECK(ended.err.find("strata-lab: cannot run the experiments: Exec format error") != std::string::npos);
 }

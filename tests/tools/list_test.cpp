@@ -88,7 +88,7 @@ TEST_CASE("a texture without a name is listed as unnamed") {
         << std::filesystem::file_size(folder / "image.png") << R"(}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"},{"byteLength":)"
         << std::filesystem::file_size(folder / "image.png") << R"(,"uri":"image.png"}]})";
-    const Ended ended = run_strata(folder, {"scene", "a.gltf"});
+    const CommandResult ended = run_strata(folder, {"scene", "a.gltf"});
     INFO(ended.err);
     CHECK(ended.out.find("unnamed 4x2") != std::string::npos);
 }

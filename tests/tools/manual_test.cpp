@@ -29,7 +29,8 @@ bool is_there(const std::string& program) {
 
 TEST_CASE("help of a command is its --help and all adds the rare options") {
     const Folder folder;
-    const Ended usual = run_strata(folder, {"help", "render"}), all = run_strata(folder, {"help", "render", "all"});
+    const CommandResult usual = run_strata(folder, {"help", "render"}),
+                        all = run_strata(folder, {"help", "render", "all"});
     CHECK(usual.status == 0);
     CHECK(usual.out == run_strata(folder, {"render", "--help"}).out);
     CHECK(all.out == run_strata(folder, {"render", "--help", "all"}).out);
@@ -60,7 +61,7 @@ TEST_CASE("the manual page of every command names each of its options and man fi
         for (const std::string& option : listed_options(folder, verb))
             CHECK(page.find(in_troff(option)) != std::string::npos);
         if (!is_there("groff")) continue;
-        const Ended formatted = shell(folder, "groff -man -Tutf8 -P-cbou -ww man1/strata-" + verb + ".1");
+        const CommandResult formatted = shell(folder, "groff -man -Tutf8 -P-cbou -ww man1/strata-" + verb + ".1");
         CHECK(formatted.err.empty());
         CHECK(formatted.out.find("EXAMPLES") != std::string::npos);
     }
@@ -88,7 +89,7 @@ TEST_CASE("completions of every shell have every command and every option") {
 TEST_CASE("bash completes commands and their options and values") {
     const Folder folder;
     const auto completed = [&](const std::string& line) {
-        const Ended ended =
+        const CommandResult ended =
             shell(folder, "LC_ALL=C bash -c 'source <(strata completions bash); COMP_WORDS=(" + line +
                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _strata; echo \"${COMPREPLY[@]}\"'");
         INFO(ended.err);
@@ -108,7 +109,7 @@ TEST_CASE("a picture stores the command that made it and that command makes the 
     const std::string file = "a." + ending, copy = "b." + ending;
     REQUIRE(run_strata(folder, {"render", "planes:count=3", "--size", "24x16", "--alpha", "0.25", "-o", file}).status ==
             0);
-    const Ended told = run_strata(folder, {"info", file});
+    const CommandResult told = run_strata(folder, {"info", file});
     CHECK(told.status == 0);
     CHECK(lines_of(told.out).at(0).starts_with("strata render planes:count=3 "));
     CHECK(lines_of(told.out).at(0).find("--alpha 0.25") != std::string::npos);
@@ -128,12 +129,12 @@ TEST_CASE("a picture of another program has no stored command") {
                                  0x9c, 0x63, 0x60, 0x60, 0x60, 0,   0,   0,   4,   0,    1,    0xf6, 0x17, 0x38,
                                  0x55, 0,    0,    0,    0,    'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     std::ofstream(folder / "other.png", std::ios::binary).write(reinterpret_cast<const char*>(png), sizeof png);
-    const Ended ended = run_strata(folder, {"info", "other.png"});
+    const CommandResult ended = run_strata(folder, {"info", "other.png"});
     CHECK(ended.status == 0);
     REQUIRE(lines_of(ended.out).size() == 3);
     CHECK(lines_of(ended.out)[0] == "no command of strata in it");
     CHECK(lines_of(ended.out)[2].find("1x1") != std::string::npos);
-    const Ended from = run_strata(folder, {"render", "--from", "other.png", "-o", "copy.png"});
+    const CommandResult from = run_strata(folder, {"render", "--from", "other.png", "-o", "copy.png"});
     CHECK(from.status == 2);
     CHECK(from.err.find("other.png: strata:command: expected a picture that strata wrote") != std::string::npos);
 }
@@ -144,7 +145,7 @@ TEST_CASE("an expected digest that no file has gives status 1") {
     const std::string digest = lines_of(run_strata(folder, {"digest", "a.png"}).out).at(1).substr(0, 32);
     CHECK(run_strata(folder, {"digest", "--expect", digest, "a.png"}).status == 0);
     const std::string other = (digest[0] == '0' ? "1" : "0") + digest.substr(1);
-    const Ended ended = run_strata(folder, {"digest", "--expect", other, "a.png"});
+    const CommandResult ended = run_strata(folder, {"digest", "--expect", other, "a.png"});
     CHECK(ended.status == 1);
     CHECK(ended.err == "strata: --expect: no target has the digest " + other + "\n");
     CHECK(run_strata(folder, {"digest", "--expect", "zz", "a.png"}).status == 2);
@@ -187,8 +188,8 @@ TEST_CASE("a scene may be read from standard input") {
 "bufferViews":[{"buffer":0,"byteLength":36}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
     const std::string rest = " --size 16x16 --alpha 0.5 --no-audit --stats - 2>&1 | grep -A2 digest";
-    const Ended file = shell(folder, "strata render scene.gltf" + rest);
-    const Ended piped = shell(folder, "strata render - < scene.gltf" + rest);
+    const CommandResult file = shell(folder, "strata render scene.gltf" + rest);
+    const CommandResult piped = shell(folder, "strata render - < scene.gltf" + rest);
     CHECK(file.out.find("color") != std::string::npos);
     CHECK(piped.out == file.out);
     CHECK(shell(folder, "strata render - < /dev/null").status == 2);
@@ -203,7 +204,7 @@ TEST_CASE("an unsupported extension that a file requires is rejected with a work
           {"KHR_materials_transmission", "alphaMode BLEND"}}) {
         std::ofstream(folder / "x.gltf") << R"({"asset":{"version":"2.0"},"extensionsUsed":[")" << extension
                                          << R"("],"extensionsRequired":[")" << extension << R"("]})";
-        const Ended ended = run_strata(folder, {"scene", "x.gltf"});
+        const CommandResult ended = run_strata(folder, {"scene", "x.gltf"});
         INFO(ended.err);
         CHECK(ended.status == 2);
         CHECK(ended.err.find(way) != std::string::npos);

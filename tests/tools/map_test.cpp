@@ -12,8 +12,8 @@ namespace {
 
 strata::pipeline::Image map_image(const Folder& folder, const std::string& scene, const std::string& map,
                                   const std::string& algorithm) {
-    const Ended ended = run_strata(folder, {"render", scene, "--size", "32x24", "--algorithm", algorithm, "--map", map,
-                                            "-o", "map.png", "--no-audit"});
+    const CommandResult ended = run_strata(folder, {"render", scene, "--size", "32x24", "--algorithm", algorithm,
+                                                    "--map", map, "-o", "map.png", "--no-audit"});
     INFO(ended.err);
     REQUIRE(ended.status == 0);
     return strata::scenes::read_images(folder / "map.png").at(0).image;
@@ -66,7 +66,8 @@ TEST_CASE("a map of ties with opaque surfaces counts the fragments at exactly th
     const auto image = map_image(folder, "coplanar.gltf", "opaque-ties", "dual");
     CHECK(color_at(image, 16, 12) == 0xffffff);
     CHECK(color_at(image, 0, 0) == 0);
-    const Ended told = run_strata(folder, {"render", "coplanar.gltf", "--size", "32x24", "--algorithm", "dual"});
+    const CommandResult told =
+        run_strata(folder, {"render", "coplanar.gltf", "--size", "32x24", "--algorithm", "dual"});
     CHECK_THAT(told.out + told.err, Catch::Contains("LESS hides them, LEQUAL would show them"));
 }
 

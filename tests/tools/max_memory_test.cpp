@@ -18,7 +18,7 @@ constexpr double bytes_of_a_mebibyte = 1 << 20;
 // The number of bytes in the message that rejects the run.
 double predicted(const Folder& folder, std::vector<std::string> words) {
     words.insert(words.end(), {"--max-memory", "1M"});
-    const Ended ended = run_strata(folder, words);
+    const CommandResult ended = run_strata(folder, words);
     CHECK(ended.status == 2);
     std::smatch found;
     REQUIRE(std::regex_search(ended.err, found, std::regex("needs about ([0-9]+) MB, the limit is 1 MB")));
@@ -67,8 +67,8 @@ TEST_CASE("the predicted memory of a picture is within a quarter of the measured
 
 TEST_CASE("a picture that would exceed --max-memory is rejected before anything is written") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {"render", "teapot", "--size", "2048x2048", "--execution", "literal",
-                                            "--max-memory", "64M", "-o", "a.exr"});
+    const CommandResult ended = run_strata(folder, {"render", "teapot", "--size", "2048x2048", "--execution", "literal",
+                                                    "--max-memory", "64M", "-o", "a.exr"});
     CHECK(ended.status == 2);
     CHECK(std::regex_match(
         ended.err, std::regex(R"(strata: --max-memory: dual at 2048x2048 needs about [0-9]+ MB, the limit is 64 MB; )"

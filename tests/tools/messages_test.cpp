@@ -17,8 +17,8 @@ constexpr const char* escape = "\x1b";
 
 // Output of the command on a terminal, both streams; "" if script(1) is not installed.
 std::string on_terminal(const Folder& folder, const std::string& command, const std::string& no_color = "") {
-    const Ended ended = shell(folder, "script -qec '" + command + "' /dev/null < /dev/null",
-                              {.environment = {{"TERM", "xterm"}, {"NO_COLOR", no_color}}});
+    const CommandResult ended = shell(folder, "script -qec '" + command + "' /dev/null < /dev/null",
+                                      {.environment = {{"TERM", "xterm"}, {"NO_COLOR", no_color}}});
     return ended.status == 127 ? "" : ended.out;
 }
 
@@ -34,20 +34,20 @@ TEST_CASE("quiet omits only warnings and notes and the table next to a picture")
     const std::string scene = warned_scene(folder);
     CHECK(run_strata(folder, {"render", scene, "--size", "8x8", "-o", "a.png"}).err.find("warning") !=
           std::string::npos);
-    const Ended quiet = run_strata(folder, {"render", scene, "--size", "8x8", "-q", "-o", "b.png"});
+    const CommandResult quiet = run_strata(folder, {"render", scene, "--size", "8x8", "-q", "-o", "b.png"});
     CHECK(quiet.status == 0);
     CHECK(quiet.err.empty());
     CHECK(quiet.out.empty());
     CHECK(content_of(folder / "a.png") == content_of(folder / "b.png"));
     CHECK(run_strata(folder, {"digest", "-q", "b.png"}).out == run_strata(folder, {"digest", "b.png"}).out);
-    const Ended wrong = run_strata(folder, {"-q", "render", "none.glb"});
+    const CommandResult wrong = run_strata(folder, {"-q", "render", "none.glb"});
     CHECK(wrong.status == 2);
     CHECK(wrong.err.starts_with("strata: none.glb: "));
 }
 
 TEST_CASE("a scene without triangles is reported with a suggestion") {
     const Folder folder;
-    const Ended one = run_strata(folder, {"scene", warned_scene(folder)});
+    const CommandResult one = run_strata(folder, {"scene", warned_scene(folder)});
     CHECK(one.status == 0);
     CHECK(one.err ==
           "strata: warning: empty.gltf: nothing would be drawn, for the scene has no triangles; export its meshes as "
@@ -108,7 +108,7 @@ TEST_CASE("a picture on standard output has the bytes of the file and is appende
     CHECK(shell(folder, render + "-o - --format exr | cmp - a.exr").status == 0);
     CHECK(shell(folder, "(echo x; " + render + "-o -) > b && tail -c +3 b | cmp - a.png").status == 0);
     CHECK(shell(folder, render + "-o /dev/stdout > c && cmp c a.png").status == 0);
-    const Ended piped = shell(folder, render + "-o - > d");
+    const CommandResult piped = shell(folder, render + "-o - > d");
     CHECK(lines_of(piped.err).size() == 2);  // the table
     CHECK(shell(folder, render + "-q -o - > d").err.empty());
     CHECK(shell(folder,
@@ -139,7 +139,7 @@ TEST_CASE("no control character of a name or of a file reaches either stream and
                                                {"render", evil},
                                                {evil},
                                                {"render", "planes", "--camera", evil}}) {
-        const Ended ended = run_strata(folder, words);
+        const CommandResult ended = run_strata(folder, words);
         const std::string both = ended.out + ended.err;
         INFO(words[0] << " " << both);
         for (const std::string raw : {"\x1b", "\x07", "\x7f", "\xc2\x9b"}) CHECK(both.find(raw) == std::string::npos);
@@ -156,7 +156,7 @@ TEST_CASE("every fault of a glTF file is reported on its own line") {
     std::ofstream(folder / "bad.gltf")
         << R"({"asset":{"version":"3.0"},"extensionsRequired":["A_b"],"materials":[{"alphaMode":"X"},{"alphaCutoff":-1}],)"
         << R"("nodes":[{"mesh":3},{"children":[9]}],"cameras":[{"type":"none"}]})";
-    const Ended ended = run_strata(folder, {"scene", "bad.gltf"});
+    const CommandResult ended = run_strata(folder, {"scene", "bad.gltf"});
     CHECK(ended.status == 2);
     const auto lines = lines_of(ended.err);
     REQUIRE(lines.size() == 7);
@@ -182,10 +182,10 @@ TEST_CASE("an interrupt reports which files are missing") {
     std::string wrong;
     for (int delay = 20; delay <= 2560 && told == 0; delay += delay) {
         const Folder folder;
-        const Ended render = run_strata(folder,
-                                        {"render", "random:seed=3,triangles=100000", "--size", "2048x2048",
-                                         "--algorithm", "dual,painter", "--no-audit", "-o", "a.png"},
-                                        {.interrupt_after_ms = delay});
+        const CommandResult render = run_strata(folder,
+                                                {"render", "random:seed=3,triangles=100000", "--size", "2048x2048",
+                                                 "--algorithm", "dual,painter", "--no-audit", "-o", "a.png"},
+                                                {.interrupt_after_ms = delay});
         told += render.err == missing ? 1 : 0;
         // Before main() installs its handlers, the system ends the process without a message.
         if (render.status == 130 && render.err != missing && !render.err.empty() &&

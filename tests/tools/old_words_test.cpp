@@ -10,7 +10,7 @@ namespace {
 
 // Checks that both print the same, apart from the warning.
 void same(const Folder& folder, const std::string& old, const std::string& now, const std::string& warning = "") {
-    const Ended before = shell(folder, "strata " + old), after = shell(folder, "strata " + now);
+    const CommandResult before = shell(folder, "strata " + old), after = shell(folder, "strata " + now);
     INFO(old << ": " << before.err << "; " << now << ": " << after.err);
     CHECK(before.status == 0);
     CHECK(after.status == 0);
@@ -65,12 +65,12 @@ TEST_CASE("a command that became part of another one works under its old name wi
 TEST_CASE("bench accepts a file after --json") {
     const Folder folder;
     const std::string bench = "bench planes:count=2 --size 8x8 --algorithm unsorted --repeat 1 --warm-up 0 --json ";
-    const Ended file = shell(folder, "strata " + bench + "old.json");
+    const CommandResult file = shell(folder, "strata " + bench + "old.json");
     CHECK(file.status == 0);
     CHECK(file.err ==
           "strata: warning: --json old.json is an old spelling, which goes with version 0.3: -o old.json\n");
     CHECK(nlohmann::json::parse(content_of(folder / "old.json")).contains("jobs"));
-    const Ended standard = shell(folder, "strata " + bench + "-");
+    const CommandResult standard = shell(folder, "strata " + bench + "-");
     CHECK(standard.err == "strata: warning: --json - is an old spelling, which goes with version 0.3: --json\n");
     CHECK(nlohmann::json::parse(standard.out).contains("jobs"));
     CHECK(shell(folder, "strata " + bench).err.empty());

@@ -23,7 +23,7 @@ TEST_CASE("a scene in which nothing is transparent is reported with the option t
     const auto mode = GENERATE(as<std::string>{}, "OPAQUE", "MASK", "BLEND");
     const Folder folder;
     write_triangle(folder / "a.gltf", mode);
-    const Ended plain = run_strata(folder, {"render", "a.gltf", "--size", "16x16"});
+    const CommandResult plain = run_strata(folder, {"render", "a.gltf", "--size", "16x16"});
     CHECK(plain.status == 0);
     CHECK(plain.err == (mode == "BLEND"
                             ? ""
@@ -34,7 +34,7 @@ TEST_CASE("a scene in which nothing is transparent is reported with the option t
 
 TEST_CASE("a scene file without triangles is reported with the options to use") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {"render", "random:triangles=0", "--size", "16x16"});
+    const CommandResult ended = run_strata(folder, {"render", "random:triangles=0", "--size", "16x16"});
     CHECK(ended.status == 0);
     CHECK(ended.err ==
           "strata: warning: random:triangles=0: nothing is drawn, for the scene has no triangles; strata scene shows "

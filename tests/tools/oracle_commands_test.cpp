@@ -10,9 +10,9 @@ using namespace strata::test;
 
 TEST_CASE("passes writes a file per pass and a list of them and the last file has the picture's digest") {
     const Folder folder;
-    const Ended render = run_strata(folder, {"render", "teapot", "--size", "40x30", "--stats", "-"});
+    const CommandResult render = run_strata(folder, {"render", "teapot", "--size", "40x30", "--stats", "-"});
     const nlohmann::json stats = nlohmann::json::parse(render.out)[0];
-    const Ended ended = run_strata(folder, {"passes", "teapot", "--size", "40x30", "-o", "out"});
+    const CommandResult ended = run_strata(folder, {"passes", "teapot", "--size", "40x30", "-o", "out"});
     REQUIRE(ended.status == 0);
     const nlohmann::json document = nlohmann::json::parse(content_of(folder / "out/passes.json"));
     const nlohmann::json& passes = document["passes"];
@@ -24,15 +24,15 @@ TEST_CASE("passes writes a file per pass and a list of them and the last file ha
     CHECK(geometry == stats["geometry_passes"].get<int>());
     CHECK(passes.back()["targets"][0]["digest"] == stats["digest"]["color"]);
     CHECK(std::filesystem::is_regular_file(folder / "out/contact.png"));
-    const Ended digest = shell(folder, "strata digest --json out/" + passes.back()["file"].get<std::string>());
+    const CommandResult digest = shell(folder, "strata digest --json out/" + passes.back()["file"].get<std::string>());
     CHECK(nlohmann::json::parse(digest.out)[0]["digest"] == stats["digest"]["color"]);
     CHECK(lines_of(ended.out).size() == passes.size() + 1);
 }
 
 TEST_CASE("passes of a rejected algorithm are reported as rejected and the others are written") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {"passes", "teapot", "--size", "16x12", "--profile", "geforce3",
-                                            "--algorithm", "depth_units,dual", "-o", "out"});
+    const CommandResult ended = run_strata(folder, {"passes", "teapot", "--size", "16x12", "--profile", "geforce3",
+                                                    "--algorithm", "depth_units,dual", "-o", "out"});
     CHECK(ended.status == 0);
     CHECK(ended.err.find("strata: dual: profile geforce3 has no ") != std::string::npos);
     CHECK(std::filesystem::is_regular_file(folder / "out/depth_units.passes.json"));
@@ -63,12 +63,12 @@ TEST_CASE(
 
 TEST_CASE("explain describes a pixel in text and as JSON and reports the valid pixels") {
     const Folder folder;
-    const Ended text = run_strata(
+    const CommandResult text = run_strata(
         folder, {"explain", "teapot", "--size", "40x30", "--pixel", "20,15", "--algorithm", "dual,front_to_back"});
     CHECK(text.status == 0);
     CHECK(text.out.starts_with("pixel 20,15 by dual on geforce8: "));
     CHECK(text.out.find("pixel 20,15 by front_to_back on geforce8: ") != std::string::npos);
-    const Ended ended = run_strata(
+    const CommandResult ended = run_strata(
         folder, {"explain", "teapot", "--size", "40x30", "--pixel", "20,15", "--json", "--svg", "column.svg"});
     const nlohmann::json document = nlohmann::json::parse(ended.out);
     CHECK(document["histories"][0]["pixel"] == nlohmann::json({20, 15}));

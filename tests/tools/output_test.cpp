@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::string> small{"volume-beam:slices=4", "--size", "40x24"};
 
-Ended render(const Folder& folder, std::vector<std::string> more, const Setting& setting = {}) {
+CommandResult render(const Folder& folder, std::vector<std::string> more, const Setting& setting = {}) {
     more.insert(more.begin(), small.begin(), small.end());
     more.insert(more.begin(), "render");
     return run_strata(folder, more, setting);
@@ -29,7 +29,7 @@ TEST_CASE("strata digest of an image prints the digest that its statistics conta
     const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
     if (ending == ".png" && format != "rgba8") return;  // PNG files hold 8-bit codes
     const Folder folder;
-    const Ended ended = render(folder, {"--color-format", format, "--stats", "-", "-o", "out" + ending});
+    const CommandResult ended = render(folder, {"--color-format", format, "--stats", "-", "-o", "out" + ending});
     REQUIRE(ended.status == 0);
     const auto row = ordered_json::parse(ended.out)[0];
     INFO(digest_line(folder, "out" + ending));
@@ -43,12 +43,12 @@ TEST_CASE("strata digest prints files that it can read and reports those it cann
     CHECK(render(folder, {"-o", "a.exr"}).status == 0);
     CHECK(render(folder, {"-o", "b.png"}).status == 0);
     const std::string both = digest_line(folder, "a.exr") + digest_line(folder, "b.png");
-    const Ended ended = run_strata(folder, {"digest", "a.exr", "none.exr", "b.png"});
+    const CommandResult ended = run_strata(folder, {"digest", "a.exr", "none.exr", "b.png"});
     CHECK(ended.status == 2);
     CHECK(ended.err == "strata: none.exr: no such file\n");
     REQUIRE(lines_of(ended.out).size() == 4);
     for (const std::string& line : lines_of(ended.out)) CHECK(both.find(line.substr(0, 32)) != std::string::npos);
-    const Ended json = run_strata(folder, {"digest", "--json", "none.exr", "b.png"});
+    const CommandResult json = run_strata(folder, {"digest", "--json", "none.exr", "b.png"});
     CHECK(json.status == 2);
     CHECK(ordered_json::parse(json.out).size() == 1);
 }
@@ -58,7 +58,7 @@ TEST_CASE("strata digest of a deep EXR depends on each of its fragments") {
     const auto deep = [&](const std::string& file, const std::string& alpha) {
         CHECK(run_strata(folder, {"layers", small[0], small[1], small[2], "--alpha", alpha, "--deep", file}).status ==
               0);
-        const Ended ended = run_strata(folder, {"digest", "--json", file});
+        const CommandResult ended = run_strata(folder, {"digest", "--json", file});
         INFO(ended.err);
         REQUIRE(ended.status == 0);
         return ordered_json::parse(ended.out)[0];
@@ -111,20 +111,21 @@ TEST_CASE("layers and deep files have the same bytes in every run") {
 
 TEST_CASE("a hard case rendered with its own frame and depth range has the digest in its list entry") {
     const Folder folder;
-    const Ended cases = run_strata(folder, {"hard-cases", "narrow-range", "--algorithm", "dual", "--profile",
-                                            "geforce8", "--depth-format", "d24", "--json", "-o", "cases"});
+    const CommandResult cases = run_strata(folder, {"hard-cases", "narrow-range", "--algorithm", "dual", "--profile",
+                                                    "geforce8", "--depth-format", "d24", "--json", "-o", "cases"});
     REQUIRE(cases.status == 0);
     const std::string digest = ordered_json::parse(cases.out)[0]["digest"];
     const auto digest_of = [&](const std::string& range) {
-        const Ended ended = run_strata(folder, {"render", "hard:case=narrow-range", "--size", "32x32", "--depth-format",
-                                                "d24", "--depth-range", range, "--stats", "-", "-o", "out.exr"});
+        const CommandResult ended =
+            run_strata(folder, {"render", "hard:case=narrow-range", "--size", "32x32", "--depth-format", "d24",
+                                "--depth-range", range, "--stats", "-", "-o", "out.exr"});
         REQUIRE(ended.status == 0);
         return ordered_json::parse(ended.out)[0]["digest"]["color"].get<std::string>();
     };
     CHECK(digest_of("0.5,0.50006103515625") == digest);  // depth range 1/2 to 1/2 + 2^-14
     // A hundredth of that range is narrower than one code: the layers merge.
     CHECK(digest_of("0.5,0.5000000596") != digest);
-    const Ended reversed = run_strata(folder, {"render", "hard:case=narrow-range", "--depth-range", "1,0"});
+    const CommandResult reversed = run_strata(folder, {"render", "hard:case=narrow-range", "--depth-range", "1,0"});
     CHECK(reversed.status == 2);
     CHECK(reversed.err.find("reversed depth range") != std::string::npos);
 }
@@ -133,7 +134,7 @@ TEST_CASE("a repeated hard case or device or algorithm is rejected and nothing i
     const Folder folder;
     const auto told = [&](std::vector<std::string> words) {
         words.insert(words.begin(), {"hard-cases", "frame-1x1", "-o", "out"});
-        const Ended ended = run_strata(folder, words);
+        const CommandResult ended = run_strata(folder, words);
         return ended.status == 2 ? ended.err : "exit status " + std::to_string(ended.status);
     };
     CHECK(told({"frame-1x1"}) == "strata: NAME: 'frame-1x1' is named twice\n");
@@ -162,7 +163,7 @@ TEST_CASE("pictures of several algorithms have the algorithm's name before the f
 
 TEST_CASE("a table in a pipe has no escape codes and no progress bar") {
     const Folder folder;
-    const Ended ended = render(folder, {"--algorithm", "all"});
+    const CommandResult ended = render(folder, {"--algorithm", "all"});
     CHECK(ended.out.find('\x1b') == std::string::npos);
     CHECK(ended.err.find('\r') == std::string::npos);
     CHECK(lines_of(ended.out).size() >= 10);
@@ -193,14 +194,14 @@ TEST_CASE("a locale with decimal commas changes no byte") {
 
 TEST_CASE("execution tiled is replay without fragment memory and standard error says so") {
     const Folder folder;
-    const Ended tiled = render(folder, {"--execution", "tiled", "--fragment-memory", "1M", "--stats", "-"});
+    const CommandResult tiled = render(folder, {"--execution", "tiled", "--fragment-memory", "1M", "--stats", "-"});
     CHECK(tiled.status == 0);
     CHECK(tiled.err.find("strata: warning: --execution tiled is replay with --fragment-memory 0\n") !=
           std::string::npos);
     const auto row = ordered_json::parse(tiled.out)[0];
     CHECK(row["execution"] == "replay");
     CHECK(row["fragment_memory"] == 0);
-    const Ended replay = render(folder, {"--execution", "replay", "--stats", "-"});
+    const CommandResult replay = render(folder, {"--execution", "replay", "--stats", "-"});
     CHECK(replay.err.find("warning: --execution") == std::string::npos);
     CHECK(ordered_json::parse(replay.out)[0]["digest"] == row["digest"]);
 }

@@ -62,7 +62,7 @@ TEST_CASE("hybrid grows linearly and layer_peel quadratically from 16 to 1024 sl
 TEST_CASE("the order of triangles and the formulation are part of the command stored in a picture") {
     using namespace strata::test;
     const Folder folder;
-    const Ended ended = run_strata(
+    const CommandResult ended = run_strata(
         folder, {"render", "volume-beam:slices=2", "--size", "16x16", "--algorithm", "hybrid", "--formulation",
                  "published", "--sorted", "planes", "--sort", "shuffle:0.5,7", "-o", "out.exr"});
     CHECK(ended.status == 0);

@@ -119,7 +119,7 @@ TEST_CASE("every command with --report writes one page that refers to no other f
         "strata hard-cases coincident --algorithm dual --profile ideal --depth-format d32f --no-moves -o h --report "
         "p.html"};
     for (const std::string& line : lines) {
-        const Ended ended = shell(folder, line + " && ls p.html");
+        const CommandResult ended = shell(folder, line + " && ls p.html");
         INFO(line << "\n" << ended.out << ended.err);
         CHECK(ended.status <= 1);
         const std::string page = content_of(folder / "p.html");

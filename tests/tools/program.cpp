@@ -73,7 +73,7 @@ pid_t start(const Folder& folder, const std::vector<std::string>& words, const S
     return child;
 }
 
-Ended run(const Folder& folder, const std::vector<std::string>& words, const Setting& setting) {
+CommandResult run(const Folder& folder, const std::vector<std::string>& words, const Setting& setting) {
     const Folder captured;
     const pid_t child = start(folder, words, setting, captured);
     if (setting.interrupt_after_ms) {
@@ -107,7 +107,7 @@ std::vector<std::string> Folder::files() const {
     return names;
 }
 
-Ended run_strata(const Folder& folder, const std::vector<std::string>& words, const Setting& setting) {
+CommandResult run_strata(const Folder& folder, const std::vector<std::string>& words, const Setting& setting) {
     std::vector<std::string> all{STRATA_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
     return run(folder, all, setting);
@@ -118,11 +118,11 @@ Ended run_strata(const Folder& folder, const std::vector<std::string>& words, co
 std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words) {
     std::vector<std::string> all{PEAK_OF, STRATA_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
-    const Ended ended = run(folder, all, {});
+    const CommandResult ended = run(folder, all, {});
     return ended.status == 0 ? std::stoull(lines_of(ended.err).back()) * 1024 : 0;
 }
 
-Ended shell(const Folder& folder, const std::string& line, const Setting& setting) {
+CommandResult shell(const Folder& folder, const std::string& line, const Setting& setting) {
     const std::string bin = std::filesystem::path(STRATA_PROGRAM).parent_path().string();
     const char* path = std::getenv("PATH");
     Setting with_path = setting;

@@ -35,24 +35,24 @@ class Folder {
     std::filesystem::path path_;
 };
 
-struct Ended {
+struct CommandResult {
     int status = -1;  // the exit status, or 128 + the signal's number
     std::string out, err;
 };
 
 struct Setting {
     std::vector<std::pair<std::string, std::string>> environment{};
-    std::string out{};                        // file for standard output; empty: stored in Ended
+    std::string out{};                        // file for standard output; empty: stored in CommandResult
     std::optional<int> interrupt_after_ms{};  // SIGINT
     std::optional<int> max_file_bytes{};      // writes beyond this size fail, as on a full disk
 };
 
 // Both run in `folder`. The first overload runs strata, the second a shell line with strata in its PATH.
-[[nodiscard]] Ended run_strata(const Folder& folder, const std::vector<std::string>& words,
-                               const Setting& setting = {});
+[[nodiscard]] CommandResult run_strata(const Folder& folder, const std::vector<std::string>& words,
+                                       const Setting& setting = {});
 // The peak of strata's resident set in bytes; 0 if its exit status is not 0.
 [[nodiscard]] std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words);
-[[nodiscard]] Ended shell(const Folder& folder, const std::string& line, const Setting& setting = {});
+[[nodiscard]] CommandResult shell(const Folder& folder, const std::string& line, const Setting& setting = {});
 
 [[nodiscard]] std::string content_of(const std::string& path);
 [[nodiscard]] std::vector<std::string> lines_of(const std::string& text);

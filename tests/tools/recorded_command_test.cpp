@@ -82,7 +82,7 @@ TEST_CASE("a picture's command writes nothing and only its options that choose w
             INFO(verb << " " << words);
             write_picture(folder / ("a." + ending), "strata " + verb + " " + scene + " " + words);
             const auto before = contents_of(folder);
-            const Ended ended = run_strata(folder, {verb, "--from", "a." + ending, "--no-audit"});
+            const CommandResult ended = run_strata(folder, {verb, "--from", "a." + ending, "--no-audit"});
             CHECK(ended.status == 2);
             CHECK(lines_of(ended.err).size() == 1);
             CHECK(ended.out.empty());
@@ -107,7 +107,7 @@ TEST_CASE("a picture's command names files in its own folder or in that of --fil
         write_picture(folder / "own/a.png", "strata render " + words + " --size 8x8");
         std::vector<std::string> all{"render", "--from", "own/a.png", "--no-audit", "-o", "new.png"};
         all.insert(all.end(), further.begin(), further.end());
-        const Ended ended = run_strata(folder, all);
+        const CommandResult ended = run_strata(folder, all);
         CHECK(std::filesystem::exists(folder / "new.png") == (ended.status == 0));
         std::filesystem::remove(folder / "new.png");
         return ended;
@@ -121,7 +121,7 @@ TEST_CASE("a picture's command names files in its own folder or in that of --fil
           "teapot --camera " + pwd + "/camera.json", std::string{"teapot --camera up/camera.json"},
           std::string{"--size"}}) {
         INFO(words);
-        const Ended ended = run(words);
+        const CommandResult ended = run(words);
         CHECK(ended.status == 2);
         CHECK(lines_of(ended.err).size() == 1);
     }
@@ -146,7 +146,7 @@ TEST_CASE("a picture is redrawn whatever the name of its scene and from a pack w
                   "END\n"
                   "strata render \"it's \\$(touch pwned) --stats x.json\" --alpha 0.5 --size 16x16 -o a.png")
                 .status == 0);
-    const Ended again = run_strata(folder, {"render", "--from", "a.png", "-o", "b.png"});
+    const CommandResult again = run_strata(folder, {"render", "--from", "a.png", "-o", "b.png"});
     INFO(again.err);
     CHECK(again.status == 0);
     CHECK(content_of(folder / "a.png") == content_of(folder / "b.png"));

@@ -31,8 +31,8 @@ TEST_CASE("reduce passes a pack of any name to the command in any quotes") {
             const std::string command = "strata render " + quote + "{pack}" + quote +
                                         " --algorithm front_to_back --mistake one_pass_too_few -o {picture}";
             const std::string path = std::filesystem::exists(folder / "pwned") ? "" : "./" + name;
-            const Ended ended = shell(folder, "strata reduce \"$PACK\" \"$COMMAND\" -o " + small,
-                                      {.environment = {{"PACK", path}, {"COMMAND", command}}});
+            const CommandResult ended = shell(folder, "strata reduce \"$PACK\" \"$COMMAND\" -o " + small,
+                                              {.environment = {{"PACK", path}, {"COMMAND", command}}});
             INFO(ended.err);
             CHECK(ended.status == 0);
             CHECK_FALSE(std::filesystem::exists(folder / "pwned"));
@@ -54,8 +54,8 @@ TEST_CASE("reduce passes a pack of any name to the command in any quotes") {
 TEST_CASE("every command of a list that reduce runs is silent and has empty input") {
     const Folder folder;
     make_pack(folder);
-    const Ended ended = shell(folder, "echo loud | strata reduce pack 'echo loud; echo loud >&2; cat; " + wrong +
-                                          "; echo loud >&2' -o small");
+    const CommandResult ended = shell(folder, "echo loud | strata reduce pack 'echo loud; echo loud >&2; cat; " +
+                                                  wrong + "; echo loud >&2' -o small");
     CHECK(ended.status == 0);
     CHECK((ended.out + ended.err).find("loud") == std::string::npos);
 }
@@ -64,7 +64,7 @@ TEST_CASE("a signal ends reduce and the command with its child processes and del
     const Folder folder;
     make_pack(folder);
     // A grandchild also holds the pipe open, and would write "late" if it survived.
-    const Ended ended =
+    const CommandResult ended =
         shell(folder,
               "mkdir tmp; mkfifo pipe; for signal in INT TERM HUP; do\n"
               "TMPDIR=$PWD/tmp env --default-signal=INT strata reduce pack 'exec 3>pipe; trap \"\" INT TERM HUP; echo "
@@ -80,13 +80,13 @@ TEST_CASE("a signal ends reduce and the command with its child processes and del
 TEST_CASE("a command that hangs is killed after --timeout together with processes that it leaves behind") {
     const Folder folder;
     make_pack(folder);
-    const Ended late = shell(
+    const CommandResult late = shell(
         folder,
         "mkdir tmp; mkfifo pipe; cat pipe > seen & TMPDIR=$PWD/tmp strata reduce pack 'exec 3>pipe; sh -c \"sleep 20; "
         "echo late >&3\"; : {pack} {picture}' --timeout 0.2 -o small; echo $?; wait; cat seen; ls tmp");
     CHECK(late.out == "2\n");
     CHECK(late.err.ends_with(": end: expected exit status 0 and a picture, found no end within 0.2 s (--timeout)\n"));
-    const Ended behind = shell(
+    const CommandResult behind = shell(
         folder, "cat pipe > seen & TMPDIR=$PWD/tmp strata reduce pack '(exec 3>pipe; sleep 20; echo late >&3) & " +
                     wrong + "' -o small > /dev/null; echo $?; wait; cat seen; ls tmp");
     CHECK(behind.out == "0\n");

@@ -33,7 +33,7 @@ std::string between(const std::string& text, const std::string& begin, const std
 }
 
 UnpackedReport report_of(const Folder& folder, const std::string& options) {
-    const Ended ended = shell(folder, "strata report " + options + " -o out");
+    const CommandResult ended = shell(folder, "strata report " + options + " -o out");
     INFO(ended.err);
     REQUIRE(ended.status == 0);
     UnpackedReport report{{}, {}, content_of(folder / "out/report.html")};
@@ -169,7 +169,8 @@ TEST_CASE("a region's report has the same values as that of the whole frame at i
     CHECK(next == depths.second.size());
     CHECK(next > 50);
     CHECK(part.page.size() < whole.page.size());
-    const Ended beyond = run_strata(folder, {"report", "teapot", "--size", "16x16", "--region", "8,8,9,8", "-o", "x"});
+    const CommandResult beyond =
+        run_strata(folder, {"report", "teapot", "--size", "16x16", "--region", "8,8,9,8", "-o", "x"});
     CHECK(beyond.err ==
           "strata: --region: expected pixels within the frame of 16x16, found columns 8 to 16 and rows 8 to 15\n");
     CHECK(run_strata(folder, {"report", "teapot", "--region", "8,8,0,8", "-o", "x"}).status == 2);
@@ -281,7 +282,7 @@ TEST_CASE("report requires a folder and writes nothing and says so where every a
         report_of(folder, "teapot --size 16x12 --profile geforce3 --algorithm dual,depth_units");
     CHECK(some.document["algorithms"][0]["refusal"].get<std::string>().find("geforce3 has no ") != std::string::npos);
     CHECK(some.document["algorithms"][1]["refusal"].is_null());
-    const Ended none = run_strata(
+    const CommandResult none = run_strata(
         folder, {"report", "teapot", "--size", "16x12", "--profile", "geforce3", "--algorithm", "dual", "-o", "none"});
     CHECK(none.status == 2);
     CHECK(none.err.find("strata: dual: profile geforce3 has no ") == 0);
@@ -291,7 +292,8 @@ TEST_CASE("report requires a folder and writes nothing and says so where every a
 TEST_CASE("report -o FILE.html writes the page in a new folder and any other name is a folder for report.html") {
     const Folder folder;
     const std::string report = "strata report planes:count=2 --size 16x12 --algorithm dual ";
-    const Ended file = shell(folder, report + "-o new/page.html"), in_folder = shell(folder, report + "--output out");
+    const CommandResult file = shell(folder, report + "-o new/page.html"),
+                        in_folder = shell(folder, report + "--output out");
     CHECK(file.status == 0);
     CHECK(file.out.starts_with("new/page.html: "));
     CHECK(in_folder.out.starts_with("out/report.html: "));

@@ -20,7 +20,7 @@ std::vector<std::string> linked(const std::string& page) {
 }
 
 std::string reproduced(const Folder& folder, const std::string& paper) {
-    const Ended ended = run_strata(folder, {"reproduce", paper, "-o", "page", "--size", "48"});
+    const CommandResult ended = run_strata(folder, {"reproduce", paper, "-o", "page", "--size", "48"});
     CHECK(ended.status == 0);
     CHECK(ended.out == "page/index.html\n");
     return content_of(folder / "page/index.html");

@@ -35,7 +35,7 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
          "--samples needs --sample here: a number from 0 to 1"},
     }));
     const Folder folder;
-    const Ended ended = run_strata(folder, wrong.words);
+    const CommandResult ended = run_strata(folder, wrong.words);
     CHECK(ended.status == 2);
     const std::vector<std::string> lines = lines_of(ended.err);
     CHECK((!lines.empty() && lines.back().starts_with("strata: " + wrong.sentence.substr(0, 20))));

@@ -23,7 +23,7 @@ TEST_CASE("a run that reads no PNG or JPEG takes less than 30 MB") {
 
 TEST_CASE("the program itself is not linked with OpenImageIO") {
     const Folder folder;
-    const Ended ended = run_strata(folder, {}, {.environment = {{"LD_TRACE_LOADED_OBJECTS", "1"}}});
+    const CommandResult ended = run_strata(folder, {}, {.environment = {{"LD_TRACE_LOADED_OBJECTS", "1"}}});
     CHECK(ended.out.find("libstdc++") != std::string::npos);
     CHECK(ended.out.find("OpenImageIO") == std::string::npos);
     CHECK(lines_of(ended.out).size() < 25);

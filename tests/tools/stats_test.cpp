@@ -102,7 +102,7 @@ TEST_CASE("every row of the statistics has every key with its type and a rejecte
 
 TEST_CASE("the output of --stats - is exactly one JSON document without escape codes and standard error is empty") {
     const Folder folder;
-    const Ended ended =
+    const CommandResult ended =
         run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual,weighted_sum", "--stats", "-"});
     CHECK(ended.status == 0);
     CHECK(ordered_json::accept(ended.out));
@@ -164,7 +164,7 @@ TEST_CASE("a list prints one JSON document with --json") {
     const auto verb = GENERATE(as<std::string>{}, "algorithms", "profiles", "scenes", "scene teapot",
                                "profiles geforce3", "profiles ideal");
     const Folder folder;
-    const Ended ended = shell(folder, "strata " + verb + " --json");
+    const CommandResult ended = shell(folder, "strata " + verb + " --json");
     CHECK(ended.status == 0);
     CHECK(ordered_json::accept(ended.out));
 }

@@ -42,13 +42,13 @@ TEST_CASE("golden --suite writes the packs of the listed commands and the mistak
         ++(is_first ? shown : hidden);
         INFO(name);
         REQUIRE(shell(folder, command + " --mistake " + name + " -o wrong.exr").status == 0);
-        const Ended said = run_strata(folder, {"diagnose", "set/" + scene, "wrong.exr"});
+        const CommandResult said = run_strata(folder, {"diagnose", "set/" + scene, "wrong.exr"});
         CHECK(said.status == (is_first ? 1 : 0));
         CHECK_THAT(said.out, Catch::StartsWith("100 % of the pixels are those of: ") &&
                                  Contains(is_first ? "(" + name + ")\n" : "a correct implementation\n"));
     }
     CHECK(shown + hidden == 2);
-    const Ended check = run_strata(folder, {"golden", "--check", "set", "--simd", "scalar"});
+    const CommandResult check = run_strata(folder, {"golden", "--check", "set", "--simd", "scalar"});
     CHECK(check.status == 0);
     CHECK(check.out == "set: all files match\n");
 
@@ -56,7 +56,7 @@ TEST_CASE("golden --suite writes the packs of the listed commands and the mistak
                               "/expected/front_to_back/picture.npy bs=1 seek=200 conv=notrunc && "
                               "sed -i 's/eight planes/nine planes/' set/suite.json")
                 .status == 0);
-    const Ended spoiled = run_strata(folder, {"golden", "--check", "set/suite.json"});
+    const CommandResult spoiled = run_strata(folder, {"golden", "--check", "set/suite.json"});
     CHECK(spoiled.status == 1);
     CHECK_THAT(
         spoiled.out,
@@ -67,7 +67,7 @@ TEST_CASE("golden --suite writes the packs of the listed commands and the mistak
 TEST_CASE("golden --suite rejects options of single packs and unknown scene names") {
     const Folder folder;
     const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
-        const Ended ended = run_strata(folder, words);
+        const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 2);
         CHECK(ended.err == "strata: " + sentence + "\n");
     };

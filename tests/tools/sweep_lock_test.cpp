@@ -30,7 +30,7 @@ TEST_CASE("a second run on a folder reports who writes to it and changes nothing
     std::filesystem::create_directory(folder / "out");
     {
         const Lock held(folder / "out/results.jsonl");
-        const Ended second = run_strata(folder, two_cells("out"));
+        const CommandResult second = run_strata(folder, two_cells("out"));
         CHECK(second.status == 2);
         CHECK(second.err.starts_with(
             "strata: out/results.jsonl: lock: expected a journal that no other run writes to, found "

@@ -25,14 +25,14 @@ Files files_under(const Folder& folder) {
     return files;
 }
 
-Ended run_failing(const Folder& folder, const std::vector<std::string>& words, const std::string& fault) {
+CommandResult run_failing(const Folder& folder, const std::vector<std::string>& words, const std::string& fault) {
     return run_strata(folder, words, {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_FAIL", fault}}});
 }
 
 // The counted system calls of a command that does not fail, in order.
 std::vector<std::string> calls_of(const Folder& folder, const std::vector<std::string>& words) {
     const Folder log;
-    const Ended ended = run_strata(
+    const CommandResult ended = run_strata(
         folder, words, {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_CALLS", log / "calls"}}});
     REQUIRE(ended.status == 0);
     return lines_of(content_of(log / "calls"));
@@ -127,7 +127,7 @@ void fail_calls_of(const Writing& writing, Calls which) {
             const Folder folder;
             prepare(folder, writing, read);
             const std::string fault = call + ":" + std::to_string(n) + further + ":" + std::to_string(error);
-            const Ended ended = run_failing(folder, words, fault);
+            const CommandResult ended = run_failing(folder, words, fault);
             const Files found = comparable(folder, writing);
             const bool says_it = ended.status == 3 && lines_of(ended.err).size() == 1;
             told += says_it ? 1 : 0;
@@ -163,7 +163,7 @@ void fail_calls_of_a_sweep(const Sweep& sweep, Calls which) {
     for (const std::string call : {"open", "write", "fsync", "rename"})
         for (const std::ptrdiff_t n : numbers_of(calls, call, which)) {
             const Folder folder;
-            const Ended ended = run_failing(folder, sweep.words, fault_of(call, n, ENOSPC));
+            const CommandResult ended = run_failing(folder, sweep.words, fault_of(call, n, ENOSPC));
             ++points;
             const bool is_wrong = ended.status != 3 || run_strata(folder, sweep.words).status != 0;
             if (is_wrong || comparable_files(folder) != whole)
@@ -219,17 +219,17 @@ TEST_CASE("data is on the disk before its name and the name before the command e
 TEST_CASE("threads that the system denies reduce the number of threads with a warning and the same picture") {
     const std::vector<std::string> words{
         "render", "random:triangles=300", "--size", "200x150", "--no-audit", "--threads", "4", "--stats", "-"};
-    const auto digest_in = [](const Ended& ended) {
+    const auto digest_in = [](const CommandResult& ended) {
         const auto begin = ended.out.find("\"digest\"");
         return begin == std::string::npos ? "none" : ended.out.substr(begin, ended.out.find('}', begin) - begin);
     };
     const Folder folder;
-    const Ended plain = run_strata(folder, words);
+    const CommandResult plain = run_strata(folder, words);
     REQUIRE(plain.status == 0);
     REQUIRE(plain.err == "");
     REQUIRE(digest_in(plain).size() > 64);
     for (int most = 0; most <= 3; ++most) {
-        const Ended ended = run_strata(
+        const CommandResult ended = run_strata(
             folder, words,
             {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
         INFO(most << " threads beside the first: " << ended.err);
@@ -254,7 +254,7 @@ TEST_CASE("a picture is written completely with however few threads") {
     const int most_of_all = 8 + static_cast<int>(std::thread::hardware_concurrency());
     for (int most = 0; most <= most_of_all; ++most) {
         const Folder folder;
-        const Ended ended = run_strata(
+        const CommandResult ended = run_strata(
             folder, asked,
             {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
         INFO(most << " threads beside the first: " << ended.status << " " << ended.err);

@@ -23,12 +23,12 @@ std::vector<std::string> names_of_all(const std::vector<const oracle::Mistake*>&
 std::string Diagnosed::verdict() const { return std::string{oracle::name(diagnosis.verdict)}; }
 
 std::vector<std::string> Diagnosed::mistakes() const {
-    if (diagnosis.verdict == oracle::Verdict::none_of_mine) return {};
+    if (diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
     return names_of_all(diagnosis.findings.at(0).mistakes);
 }
 
 std::vector<std::string> Diagnosed::alike() const {
-    if (diagnosis.verdict == oracle::Verdict::none_of_mine) return {};
+    if (diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
     return names_of_all(diagnosis.findings.at(0).alike);
 }
 

@@ -144,7 +144,7 @@ ordered_json of_history(const History& history) {
 std::string to_json(const History& history) { return of_history(history).dump(); }
 
 std::string to_json(std::span<const History> histories) {
-    ordered_json document{{"histories", ordered_json::array()}, {"partings", partings(histories)}};
+    ordered_json document{{"histories", ordered_json::array()}, {"first_differences", first_differences(histories)}};
     for (const History& history : histories) document["histories"].push_back(of_history(history));
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

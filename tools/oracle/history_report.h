@@ -18,6 +18,6 @@ namespace strata::oracle {
 
 // For each further algorithm, the first place where it composites other fragments than the first algorithm, as text;
 // and whether the images differ.
-[[nodiscard]] std::vector<std::string> partings(std::span<const History> histories);
+[[nodiscard]] std::vector<std::string> first_differences(std::span<const History> histories);
 
 }  // namespace strata::oracle

@@ -90,7 +90,7 @@ std::string to_text(const History& history) {
     return text;
 }
 
-std::vector<std::string> partings(std::span<const History> histories) {
+std::vector<std::string> first_differences(std::span<const History> histories) {
     std::vector<std::string> sentences;
     const auto picture = [](const History& history) {
         return history.lines.empty() ? std::vector<std::uint32_t>{} : history.lines.back().held.at(0).before;

@@ -115,11 +115,11 @@ def find_scenes(bench, draw, names, algorithm):
 
 
 def judged(kind, names, said):
-    """first: named first. beside: another one that leaves the same output in all scenes is named first. none of mine: the right answer for those that the catalogue has
+    """first: named first. beside: another one that leaves the same output in all scenes is named first. no known mistake: the right answer for those that the catalogue has
     not. same output: who is named leaves all of this output to the last code."""
-    best, unknown = said["findings"][0], said["verdict"] == "none_of_mine"
+    best, unknown = said["findings"][0], said["verdict"] == "unknown_mistake"
     if kind == "outside":
-        return "none of mine" if unknown else "same output"
+        return "no known mistake" if unknown else "same output"
     known = [mistaken.NAMES[name] for name in names]
     def holds(found):
         return len(found) == len(names) and all(any(answer in found for answer in answers) for answers in known)
@@ -142,10 +142,10 @@ def page(seed, driver, renderer, rows, right, drawn):
              "The question: how often does `strata diagnose` name a mistake of a port if neither the mistakes nor the scenes are chosen by hand? A seed",
              f"draws the mistakes and {SCENES} scenes for each ([blind.py](blind.py) says how); the diagnosis has the packs and what the port wrote, with its",
              f"passes and layers. Seed {seed} on {renderer}:", "",
-             "| | answered rightly | named first, or as none of mine | beside another that leaves the same output | another is named, which leaves the same output |",
+             "| | answered rightly | named first, or as no known mistake | beside another that leaves the same output | another is named, which leaves the same output |",
              "|---|---|---|---|---|"]
     for kind, words in (("single", "one mistake that the catalogue has"), ("outside", "one mistake that it has not"), ("pair", "two mistakes")):
-        lines.append(f"| {words} | {count(kind, 'first', 'beside', 'none of mine')} | {count(kind, 'first', 'none of mine')} | {count(kind, 'beside')} | {count(kind, 'same output')} |")
+        lines.append(f"| {words} | {count(kind, 'first', 'beside', 'no known mistake')} | {count(kind, 'first', 'no known mistake')} | {count(kind, 'beside')} | {count(kind, 'same output')} |")
     hidden = [row[1] for row in rows if row[-1] == "not shown"]
     lines += ["", f"The right port is called right on {right} sets of scenes; {drawn} scenes were drawn. No row was left out or drawn again, but a mistake that {DRAWS}",
               f"scenes do not show {SCENES} times is replaced: {'; '.join(f'`{names}`' for names in hidden) or 'none'}.", "",

@@ -98,7 +98,7 @@ def judged(names, said):
     leaves it to the last pixel; nearest, if the right one is ranked first and leaves some pixels; does not show, if the picture is right and
     called so; or no."""
     best = said["findings"][0] if said["findings"] else {"mistakes": [], "alike": [], "explained": 0}
-    found, unknown = best["mistakes"] + best["alike"], said["verdict"] == "none_of_mine"
+    found, unknown = best["mistakes"] + best["alike"], said["verdict"] == "unknown_mistake"
     if said["differing"] == 0:
         return "no" if said["verdict"] != "right" else "does not show" if names else "yes"
     known = [NAMES.get(name) for name in names.split(",")]

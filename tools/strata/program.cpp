@@ -1,7 +1,8 @@
 // tools/strata/program.cpp - which subcommand runs, and what every failure looks like from outside.
 //
 // Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
-//          interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+//          interrupted.
+// Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
 #include "tools/strata/program.h"
 
 #include <fmt/format.h>
@@ -267,7 +268,7 @@ int run(const std::vector<std::string>& given, const std::vector<NamedCommand>& 
 int run_program(int count, char** words, const std::vector<NamedCommand>& experiments) {
     const Clock::time_point start = Clock::now();
     scenes::remove_unfinished_files_when_interrupted();
-    scenes::tell_written_files([](const std::string& path) { say_detail("wrote " + path); });
+    scenes::report_written_files([](const std::string& path) { say_detail("wrote " + path); });
     try {
         const int status = run({words + std::min(count, 1), words + count}, experiments);
         warn_of_threads();

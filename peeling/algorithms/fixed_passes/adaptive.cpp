@@ -4,9 +4,9 @@
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), float targets that blend.
 // Passes     2. Exact where no pixel has more than k visible fragments and no two of one depth: equal depths do not
-// hide one another. Invariant  a pixel's nodes are sorted by depth; transmittance of node e = what everything up to its
-// depth lets through, or less where
-//            nodes were removed. The last one's is exact.
+//            hide one another.
+// Invariant  a pixel's nodes are sorted by depth; transmittance of node e = what everything up to its depth lets
+//            through, or less where nodes were removed. The last one's is exact.
 #include <array>
 
 #include "peeling/algorithms/entry.h"

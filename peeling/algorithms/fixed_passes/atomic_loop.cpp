@@ -5,7 +5,7 @@
 // Needs      unordered access with atomics; float targets that blend for a tail of sums.
 // Passes     2. Exact where no pixel has more than k visible fragments. EqualCodes depths: one entry, the last
 // arrival's colour (atomic_loop); an
-//            entry each, the first arrival in front (hybrid_transparency).
+//            entry each, the first submitted in front (hybrid_transparency).
 // Invariant  after pass 1 a pixel's entries are its k least codes in order; after pass 2 each has the colour of a
 // fragment of its code.
 #include "peeling/algorithms/entry.h"

@@ -3,7 +3,8 @@
 //
 // Needs      float MAX blending, eight render targets, separate alpha blending. Made for a GeForce8.
 // Passes     6: the bounds of depth, the buckets, four of colours. Equal depths: merged. A bucket's fragments between
-// its ends are lost, and told. Invariant  before colour pass p `accumulated` = buckets 0 ... 4 p - 1, composited.
+//            its ends are lost, and told.
+// Invariant  before colour pass p `accumulated` = buckets 0 ... 4 p - 1, composited.
 #include <array>
 
 #include "peeling/algorithms/entry.h"

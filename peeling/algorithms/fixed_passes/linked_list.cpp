@@ -3,7 +3,7 @@
 // algorithms.md 20.
 //
 // Needs      unordered access with atomics.
-// Passes     1. Equal depths: the first arrival in front. Exact unless nodes run out, which is reported.
+// Passes     1. Equal depths: the first submitted in front. Exact unless nodes run out, which is reported.
 // Invariant  a pixel's list holds its fragments in submission order. A device's order is that of its threads [A].
 // Lists are looked up range by range where a region's do not fit into the memory: the pass is counted once.
 #include <algorithm>

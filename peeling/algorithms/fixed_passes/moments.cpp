@@ -4,8 +4,8 @@
 //
 // Needs      binary32 additive blending, up to three render targets.
 // Passes     2. An approximation: what lets through in all is exact but for rounding, where it lies is a bound of the
-// moments. Invariant  with A = -log(1 - a) and z = 2 d - 1: after pass 1 total = sum of A, moments = sums of A z, A z^2
-// ...
+//            moments.
+// Invariant  with A = -log(1 - a) and z = 2 d - 1: after pass 1 total = sum of A, moments = sums of A z, A z^2 ...
 #include <array>
 
 #include "peeling/algorithms/entry.h"

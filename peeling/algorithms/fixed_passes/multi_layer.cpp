@@ -3,8 +3,9 @@
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), a float target for depths.
 // Passes     1. Exact where no pixel has more than k visible fragments, or arrives front to back. Equal depths: the
-// last arrival in front. Invariant  a pixel's nodes are sorted by depth; under one another they are what has arrived,
-// but for the order of what was merged.
+//            last submitted in front.
+// Invariant  a pixel's nodes are sorted by depth; under one another they are what has arrived, but for the order of
+//            what was merged.
 #include <array>
 
 #include "peeling/algorithms/entry.h"

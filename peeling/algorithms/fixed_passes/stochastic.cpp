@@ -4,9 +4,10 @@
 //
 // Needs      float MAX blending, then targets of unequal blends.
 // Passes     2. An approximation: unbiased before the correction; exact where no pixel has more than one visible
-// fragment. Invariant  after pass 1 sample s = the nearest depth among the fragments whose mask has s; through =
-// product of (1 - a) is exact. The samples are channels of float targets under MAX, which leave what multisampled depth
-// with LESS and a mask would [A].
+//            fragment.
+// Invariant  after pass 1 sample s = the nearest depth among the fragments whose mask has s; through = product of (1 -
+//            a) is exact. The samples are channels of float targets under MAX, which leave what multisampled depth with
+//            LESS and a mask would [A].
 #include <array>
 
 #include "peeling/algorithms/entry.h"

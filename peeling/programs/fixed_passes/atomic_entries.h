@@ -1,9 +1,9 @@
 // peeling/programs/fixed_passes/atomic_entries.h - buffers of k entries a pixel that programs fill by atomic minimum:
 // codes, then their colours.
 //
-// Rule     Each pixel's entries are the k least codes in ascending order, whatever the order of arrival. Equal codes
+// Rule     Each pixel's entries are the k least codes in ascending order, whatever the submission order. Equal codes
 // share an entry, in which the
-//          last colour stays, or have one each, filled in order of arrival.
+//          last colour stays, or have one each, filled in submission order.
 // Source   algorithms.md 21.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once

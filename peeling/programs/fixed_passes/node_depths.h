@@ -2,7 +2,8 @@
 // nodes a pixel read and write in order.
 //
 // Rule     Node e stands in channel e mod 4 of target e / 4, as depth_float.h has it; no_node, behind every depth,
-// where it is empty. Tests    tests/peeling/algorithms/multi_layer_test.cpp
+//          where it is empty.
+// Tests    tests/peeling/algorithms/multi_layer_test.cpp
 #pragma once
 #include <array>
 #include <string>

@@ -2,12 +2,12 @@
 // mask of as many samples as alpha says.
 //
 // Rule     hash: three rounds of v ^= v >> 16; v *= 7feb352d; v ^= v >> 15; v *= 846ca68b; v ^= v >> 16 over x + 2^16
-// y, the triangle and the
-//          seed, each round's input added to the last one's result. Of S samples a fragment covers n = trunc(a S +
-//          (hash / 2^8) 2^-24), in binary32, at most S; which ones, the hash's hashes choose one after the other
-//          without preference.
+//          y, the triangle and the seed, each round's input added to the last one's result. Of S samples a fragment
+//          covers n = trunc(a S + (hash / 2^8) 2^-24), in binary32, at most S; which ones, the hash's hashes choose one
+//          after the other without preference.
 // Source   Enderton et al. 2010, 3.1 (stratified alpha); the mixing function is Wellons's lowbias32 (2018), a bijection
-// of 32 bits [A]. Tests    tests/peeling/algorithms/stochastic_test.cpp
+//          of 32 bits [A].
+// Tests    tests/peeling/algorithms/stochastic_test.cpp
 #pragma once
 #include <algorithm>
 #include <cstdint>

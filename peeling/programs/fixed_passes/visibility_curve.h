@@ -2,8 +2,9 @@
 // of few steps.
 //
 // Rule     Steps are sorted by depth; one more than fits removes the step whose area is least. Binary32, each operation
-// rounded. Source   algorithms.md 19.2; Salvi et al. 2011. Tests
-// tests/peeling/algorithms/multi_layer_test.cpp
+//          rounded.
+// Source   algorithms.md 19.2; Salvi et al. 2011.
+// Tests    tests/peeling/algorithms/multi_layer_test.cpp
 #pragma once
 #include <array>
 

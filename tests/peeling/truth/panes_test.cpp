@@ -239,7 +239,7 @@ TEST_CASE("an exact lookup decodes sRGB in colours and not in alpha and counts a
         const double c = code / 255;
         return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
     };
-    const auto texel = real_sample(texture, 0.25, 0.5);
+    const auto texel = unquantized_sample(texture, 0.25, 0.5);
     CHECK(texel[0] == Approx(decoded(188)).epsilon(1e-6));
     CHECK(texel[1] == Approx(decoded(10)).epsilon(1e-6));
     CHECK(texel[2] == Approx(1).epsilon(1e-6));
@@ -247,9 +247,9 @@ TEST_CASE("an exact lookup decodes sRGB in colours and not in alpha and counts a
     texture.decode_srgb = false;
     texture.target = TextureTarget::rectangle;
     texture.filter = TextureFilter::linear;
-    CHECK(real_sample(texture, 0.5, 0.5)[3] == 188 / 255.0);
-    CHECK(real_sample(texture, 1.0, 0.5)[3] == Approx((188 + 51) / 510.0));
-    CHECK(real_sample(texture, 9.0, 0.5)[3] == 51 / 255.0);  // clamped, though the wrap mode is repeat
+    CHECK(unquantized_sample(texture, 0.5, 0.5)[3] == 188 / 255.0);
+    CHECK(unquantized_sample(texture, 1.0, 0.5)[3] == Approx((188 + 51) / 510.0));
+    CHECK(unquantized_sample(texture, 9.0, 0.5)[3] == 51 / 255.0);  // clamped, though the wrap mode is repeat
 }
 
 TEST_CASE("a square of two triangles on a grid covers every centre once including those on its left and upper sides") {

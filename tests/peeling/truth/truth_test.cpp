@@ -179,13 +179,13 @@ TEST_CASE("an exact bilinear lookup weights four texels by untruncated fractions
     texture.wrap_s = TextureWrap::clamp_to_edge;
     texture.texels = {0, 0, 0, 255, 255, 51, 0, 255};
     const double third = 1.0 / 3;
-    CHECK(real_sample(texture, 0.25 + third / 2, 0.5)[0] == Approx(third).epsilon(1e-14));
-    CHECK(real_sample(texture, 0.25 + third / 2, 0.5)[1] == Approx(third / 5).epsilon(1e-14));
-    CHECK(real_sample(texture, -3, 0.5)[0] == 0);
-    CHECK(real_sample(texture, 7, 0.5)[0] == 1);
+    CHECK(unquantized_sample(texture, 0.25 + third / 2, 0.5)[0] == Approx(third).epsilon(1e-14));
+    CHECK(unquantized_sample(texture, 0.25 + third / 2, 0.5)[1] == Approx(third / 5).epsilon(1e-14));
+    CHECK(unquantized_sample(texture, -3, 0.5)[0] == 0);
+    CHECK(unquantized_sample(texture, 7, 0.5)[0] == 1);
     texture.wrap_s = TextureWrap::repeat;
-    CHECK(real_sample(texture, 0, 0.5)[0] == Approx(0.5));
+    CHECK(unquantized_sample(texture, 0, 0.5)[0] == Approx(0.5));
     texture.filter = TextureFilter::nearest;
-    CHECK(real_sample(texture, 0.5, 0.5)[0] == 1);
-    CHECK(real_sample(texture, std::nextafter(0.5, 0.0), 0.5)[0] == 0);
+    CHECK(unquantized_sample(texture, 0.5, 0.5)[0] == 1);
+    CHECK(unquantized_sample(texture, std::nextafter(0.5, 0.0), 0.5)[0] == 0);
 }

@@ -37,7 +37,7 @@ struct FragmentModel {
         // In these tests no product is half way between codes, so adding 1/2 and truncating gives the nearest code.
         return static_cast<std::uint32_t>(v * 255.0f + 0.5f);
     }
-    void put_back(int column, int row) {
+    void write_back(int column, int row) {
         for (auto it = held.begin(); it != held.end();) {
             const int x = it->first % width, y = it->first / width;
             if (x / 64 != column || y / 64 != row) {
@@ -52,7 +52,7 @@ struct FragmentModel {
         const int column = pixel % width / 64, row = pixel / width / 64, at = (column + 5 * row) % 50;
         const auto found = place.find(at);
         if (found != place.end() && found->second != std::pair{column, row}) {
-            put_back(found->second.first, found->second.second);
+            write_back(found->second.first, found->second.second);
             ++thrown_out;
         }
         place[at] = {column, row};

@@ -114,8 +114,8 @@ TEST_CASE("all fragments are read once in submission order and no batch of them 
         Lanes<std::uint32_t> memory;
         std::uint32_t next = 0;
         std::uint64_t wrong = 0;
-        for (auto places = given.record.next_places(reading, memory); !places.empty();
-             places = given.record.next_places(reading, memory)) {
+        for (auto places = given.record.next_indices(reading, memory); !places.empty();
+             places = given.record.next_indices(reading, memory)) {
             std::set<std::uint32_t> seen;
             for (const std::uint32_t place : places) {
                 wrong += place == next++ ? 0 : 1;

@@ -36,7 +36,7 @@ struct Room {
         return std::min(16 * all, (rect.area() + 15) / 16 * 16 * deepest);
     }
     [[nodiscard]] bool fits(const Replay& replay, const Rect& rect) const {
-        return all * replay.bytes_a_fragment + 8 * words(rect) <= replay.bytes;
+        return all * replay.bytes_per_fragment + 8 * words(rect) <= replay.bytes;
     }
 };
 
@@ -53,7 +53,7 @@ TEST_CASE("tiles are divided into parts that fit or are single pixels and no par
     for (int round = 0; round < 40; ++round) {
         const FragmentScene scene = uneven_scene(random);
         TestFrame test{scene, "ideal", 16};
-        test.frame.replay = {.bytes = 512 << 10, .bytes_a_fragment = std::uint64_t{1} << random_int(random, 3, 16)};
+        test.frame.replay = {.bytes = 512 << 10, .bytes_per_fragment = std::uint64_t{1} << random_int(random, 3, 16)};
         const auto parts = tile_parts(test.frame, 1 + round % 3);
         std::vector<int> covered(scene.pixels.size());
         bool is_right = true;
@@ -87,10 +87,10 @@ TEST_CASE("tiles are not divided without fragment statistics or with less than 5
         return tile_parts(test.frame, 1).size();
     };
     constexpr std::uint64_t least = 512 << 10;
-    CHECK(parts_with({.bytes = least, .bytes_a_fragment = 100'000}) > 2);
-    CHECK(parts_with({.bytes = least - 1, .bytes_a_fragment = 100'000}) == 2);
+    CHECK(parts_with({.bytes = least, .bytes_per_fragment = 100'000}) > 2);
+    CHECK(parts_with({.bytes = least - 1, .bytes_per_fragment = 100'000}) == 2);
     CHECK(parts_with({.bytes = least}) == 2);
-    CHECK(parts_with({.bytes = 0, .bytes_a_fragment = 1}) == 2);
+    CHECK(parts_with({.bytes = 0, .bytes_per_fragment = 1}) == 2);
 }
 
 TEST_CASE("a part is halved along its longer side and both halves make up the whole") {

@@ -73,10 +73,10 @@ TEST_CASE("a loop on system threads visits every index once and its first except
 }
 
 TEST_CASE("the available threads are as many as requested if the system has them and otherwise fewer") {
-    CHECK(strata::threads_to_be_had(0, 1 << 20) == 0);
-    CHECK(strata::threads_to_be_had(3, 1 << 20) == 3);
+    CHECK(strata::available_threads(0, 1 << 20) == 0);
+    CHECK(strata::available_threads(3, 1 << 20) == 3);
     // No address space has room for a stack of 2^62 bytes.
-    CHECK(strata::threads_to_be_had(3, std::size_t{1} << 62) == 0);
+    CHECK(strata::available_threads(3, std::size_t{1} << 62) == 0);
 }
 
 TEST_CASE("an input error is one message with file and place and what was expected and found") {

@@ -109,19 +109,19 @@ TEST_CASE("a cutoff above 1 stays above 1 so that nothing passes and is at most 
 }
 
 TEST_CASE("a material is reported as invisible only if its factor alone keeps it from being drawn") {
-    const auto is_told = [](const char* mode, double alpha, double cutoff) {
+    const auto is_reported = [](const char* mode, double alpha, double cutoff) {
         GltfFile file = everything();
         file.json["materials"][0]["alphaMode"] = mode;
         file.json["materials"][0]["alphaCutoff"] = cutoff;
         file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, alpha};
         return !file.load().warnings.empty();
     };
-    CHECK_FALSE(is_told("MASK", 0.5, 0.5));  // the test is >=
-    CHECK(is_told("MASK", 0.4999, 0.5));
-    CHECK_FALSE(is_told("MASK", 0, 0));
-    CHECK(is_told("BLEND", 0, 0));
-    CHECK_FALSE(is_told("BLEND", 1e-45, 0.5));
-    CHECK_FALSE(is_told("OPAQUE", 0, 0.5));
+    CHECK_FALSE(is_reported("MASK", 0.5, 0.5));  // the test is >=
+    CHECK(is_reported("MASK", 0.4999, 0.5));
+    CHECK_FALSE(is_reported("MASK", 0, 0));
+    CHECK(is_reported("BLEND", 0, 0));
+    CHECK_FALSE(is_reported("BLEND", 1e-45, 0.5));
+    CHECK_FALSE(is_reported("OPAQUE", 0, 0.5));
 }
 
 TEST_CASE("materials of equal coverage share a texture and an opaque one has its own because its alpha is 1") {

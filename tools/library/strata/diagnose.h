@@ -22,7 +22,7 @@ struct Diagnosed {
     Comparison comparison{};  // with the right picture
 
     [[nodiscard]] bool is_right() const noexcept { return diagnosis.verdict == oracle::Verdict::right; }
-    // "right", "one_mistake", "two_mistakes", "none_of_mine"
+    // "right", "one_mistake", "two_mistakes", "unknown_mistake"
     [[nodiscard]] std::string verdict() const;
     // What is named: "culls_front"; of two, both. Empty for a right picture and for none that is known.
     [[nodiscard]] std::vector<std::string> mistakes() const;

@@ -172,7 +172,7 @@ void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
 
 Verdict verdict_of(const Diagnosis& d) {
     const Finding& best = d.findings.front();
-    if (best.agreeing != d.pixels && !d.is_nearly) return Verdict::none_of_mine;
+    if (best.agreeing != d.pixels && !d.is_nearly) return Verdict::unknown_mistake;
     if (best.mistakes.empty()) return Verdict::right;
     if (is_allowed(best)) return Verdict::other_options;
     return best.mistakes.size() == 1 ? Verdict::one_mistake : Verdict::two_mistakes;
@@ -241,12 +241,12 @@ void Lineup::weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosi
         return;
     }
     d.is_nearly = false;
-    d.verdict = Verdict::none_of_mine;
+    d.verdict = Verdict::unknown_mistake;
 }
 
 void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& d) const {
     d.right_passes = laboratory_.compare_passes({}, passes);
-    if (!d.right_passes || d.right_passes->targets == 0 || d.verdict == Verdict::none_of_mine || d.is_nearly) return;
+    if (!d.right_passes || d.right_passes->targets == 0 || d.verdict == Verdict::unknown_mistake || d.is_nearly) return;
     if (d.verdict == Verdict::right && d.right_passes->is_whole()) return;
     // Each single mistake with the candidate's image; for the correct image, mistakes that do not change it.
     const auto with_alike = [&](const Mistake* mistake) {
@@ -304,7 +304,7 @@ void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPictur
             ranked.push_back(std::move(weighed[i]));
     std::ranges::move(rest, std::back_inserter(ranked));
     d.findings = std::move(ranked);
-    d.verdict = d.passes_contradict ? Verdict::none_of_mine : verdict_of(d);
+    d.verdict = d.passes_contradict ? Verdict::unknown_mistake : verdict_of(d);
 }
 
 namespace {

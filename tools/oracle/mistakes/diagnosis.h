@@ -38,7 +38,7 @@ enum class Verdict : std::uint8_t {
     one_mistake,
     two_mistakes,
     right_structure,  // no image equals the candidate's, but its layers are correct except for rounding
-    none_of_mine      // the best finding leaves pixels unexplained
+    unknown_mistake   // the best finding leaves pixels unexplained
 };
 
 struct SuiteScene;  // tools/oracle/mistakes/suite.h

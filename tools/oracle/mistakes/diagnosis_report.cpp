@@ -30,10 +30,10 @@ std::string first_line(const Diagnosis& d) {
         return fmt::format(
             "none that is known: the picture is that of: {}; but no known machine that leaves it has these passes\n",
             sentence_of(best.mistakes));
-    if (d.verdict == Verdict::none_of_mine && d.is_blank)
+    if (d.verdict == Verdict::unknown_mistake && d.is_blank)
         return "none that is known: the picture has one colour everywhere: nothing was drawn, or the picture was never "
                "written, and it does not show why\n";
-    if (d.verdict == Verdict::none_of_mine)
+    if (d.verdict == Verdict::unknown_mistake)
         return fmt::format(
             "none that is known: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
             "explains them all\n",
@@ -93,7 +93,7 @@ std::string_view name(Verdict verdict) noexcept {
         case Verdict::one_mistake: return "one_mistake";
         case Verdict::two_mistakes: return "two_mistakes";
         case Verdict::right_structure: return "right_structure";
-        case Verdict::none_of_mine: return "none_of_mine";
+        case Verdict::unknown_mistake: return "unknown_mistake";
     }
     return "";  // unreachable: the enum is closed
 }
@@ -107,7 +107,7 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
                             mistake->sentence, mistake->name);
-    const bool is_none = d.verdict == Verdict::none_of_mine || d.verdict == Verdict::right_structure;
+    const bool is_none = d.verdict == Verdict::unknown_mistake || d.verdict == Verdict::right_structure;
     if (d.telling != nullptr)
         text += fmt::format("  the suite's scene {} tells {} apart: {}\n", d.telling->name,
                             is_none ? "the best of them" : "them", command_of(*d.telling));
@@ -134,10 +134,10 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"passes_contradict", d.passes_contradict},
                           {"right_passes", as_json(d.right_passes)},
                           {"structure", nullptr},
-                          {"telling_scene", nullptr},
+                          {"distinguishing_scene", nullptr},
                           {"findings", ordered_json::array()}};
     if (!d.structure_json.empty()) document["structure"] = ordered_json::parse(d.structure_json);
-    if (d.telling != nullptr) document["telling_scene"] = d.telling->name;
+    if (d.telling != nullptr) document["distinguishing_scene"] = d.telling->name;
     for (const Finding& f : d.findings) {
         ordered_json sentences = ordered_json::array();
         for (const Mistake* mistake : f.mistakes) sentences.push_back(mistake->sentence);

@@ -86,7 +86,7 @@ ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes, const 
     const bool fits_all = std::ranges::find(best.fits, false) == best.fits.end();
     // Within one code is not sufficient for most pixels.
     const bool is_explained = fits_all && 2 * best.explained >= result.differing;
-    result.verdict = !is_explained               ? Verdict::none_of_mine
+    result.verdict = !is_explained               ? Verdict::unknown_mistake
                      : best.mistakes.empty()     ? Verdict::right
                      : best.mistakes.size() == 1 ? Verdict::one_mistake
                                                  : Verdict::two_mistakes;

@@ -32,7 +32,7 @@ struct ScenesFinding {
 };
 
 struct ScenesDiagnosis {
-    Verdict verdict{};  // none_of_mine: no finding fits every scene
+    Verdict verdict{};  // unknown_mistake: no finding fits every scene
     std::uint64_t pixels = 0, differing = 0;
     std::vector<Diagnosis> scenes{};
     std::vector<ScenesFinding> findings{};  // the best first; never empty

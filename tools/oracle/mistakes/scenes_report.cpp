@@ -21,7 +21,7 @@ std::ptrdiff_t fitting(const ScenesFinding& f) { return std::ranges::count(f.fit
 std::string verdict_line(const ScenesDiagnosis& d) {
     const ScenesFinding& best = d.findings.front();
     const std::size_t scenes = d.scenes.size();
-    if (d.verdict != Verdict::none_of_mine)
+    if (d.verdict != Verdict::unknown_mistake)
         return fmt::format("all {} scenes are those of: {}\n", scenes, sentence_of(best.mistakes));
     return fmt::format(
         "none that is known: {} of {} pixels differ from the right pictures, and no known mistake, nor two of them, "
@@ -39,7 +39,7 @@ std::string kinds_of(const Comparison& comparison) {
 }
 
 std::string line_of_scene(const Diagnosis& d, const SceneReport& report, bool fits) {
-    const bool is_none = d.verdict == Verdict::none_of_mine;
+    const bool is_none = d.verdict == Verdict::unknown_mistake;
     return fmt::format("  {}: {} of {} pixels differ{}; by itself {}{}\n", report.name, d.differing, d.pixels,
                        kinds_of(report.comparison),
                        is_none ? "none that is known" : sentence_of(d.findings.front().mistakes),
@@ -63,7 +63,7 @@ ordered_json kinds_in(const Comparison& comparison) {
 
 std::string to_text(const ScenesDiagnosis& d, const std::vector<SceneReport>& reports) {
     const ScenesFinding& best = d.findings.front();
-    const bool is_none = d.verdict == Verdict::none_of_mine;
+    const bool is_none = d.verdict == Verdict::unknown_mistake;
     std::string text = verdict_line(d);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same in all of them: {} ({})\n", mistake->sentence, mistake->name);

@@ -27,7 +27,7 @@ bool tells_apart(const SuiteScene& scene, std::span<const Mistake* const> mistak
 
 }  // namespace
 
-const SuiteScene* telling_scene(std::span<const Mistake* const> mistakes) {
+const SuiteScene* distinguishing_scene(std::span<const Mistake* const> mistakes) {
     if (mistakes.size() < 2) return nullptr;
     for (const SuiteScene& scene : suite())
         if (tells_apart(scene, mistakes)) return &scene;

@@ -11,6 +11,6 @@
 namespace strata::oracle {
 
 // The first scene in which each of them gives a different image; null if there is none.
-[[nodiscard]] const SuiteScene* telling_scene(std::span<const Mistake* const> mistakes);
+[[nodiscard]] const SuiteScene* distinguishing_scene(std::span<const Mistake* const> mistakes);
 
 }  // namespace strata::oracle

@@ -41,7 +41,7 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
         leads[i].contradicted = static_cast<std::uint64_t>(std::ranges::count(are_right, false));
         if (are_right.size() != right.size()) explained[i].clear();
     });
-    std::vector<bool> is_told(wrong.size());
+    std::vector<bool> is_reported(wrong.size());
     std::vector<Lead> best;
     while (best.size() < most_leads) {
         std::ptrdiff_t most = 0;
@@ -49,13 +49,13 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
         for (std::size_t i = 0; i < all.size(); ++i) {
             // A port may do it at some pixels alone, by what no rule knows.
             std::ptrdiff_t gain = -static_cast<std::ptrdiff_t>(leads[i].contradicted / 4);
-            for (std::size_t p = 0; p < explained[i].size(); ++p) gain += explained[i][p] && !is_told[p] ? 1 : 0;
+            for (std::size_t p = 0; p < explained[i].size(); ++p) gain += explained[i][p] && !is_reported[p] ? 1 : 0;
             if (gain <= most) continue;
             most = gain;
             next = i;
         }
         if (next == all.size()) break;
-        for (std::size_t p = 0; p < wrong.size(); ++p) is_told[p] = is_told[p] || explained[next][p];
+        for (std::size_t p = 0; p < wrong.size(); ++p) is_reported[p] = is_reported[p] || explained[next][p];
         best.push_back(leads[next]);
     }
     return best;

@@ -4,5 +4,5 @@
 
 int main(int count, char** words) {
     if (count != 2) return 2;
-    strata::scenes::write_image(words[1], {.color = wanted_panes().color()});
+    strata::scenes::write_image(words[1], {.color = reference_panes().color()});
 }

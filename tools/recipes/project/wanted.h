@@ -5,7 +5,7 @@
 
 #include "panes.h"
 
-inline strata::Rendering wanted_panes() {
+inline strata::Rendering reference_panes() {
     strata::Scene scene;
     for (const Pane& pane : panes) scene.add({.positions = {pane.corners, 3}, .color = std::to_array(pane.color)});
     return strata::render(scene, strata::algorithm("painter"), strata::profile("geforce8"),

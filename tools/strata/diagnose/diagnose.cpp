@@ -190,7 +190,7 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     found.structure = to_text(layers, list) + profile;
     found.structure_json = to_json(layers, list);
     found.is_nearly = false;
-    found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::none_of_mine;
+    found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::unknown_mistake;
 }
 
 // Which scene of the suite would tell more: of mistakes that leave one picture, or of the best leads.
@@ -201,11 +201,11 @@ void find_telling_scene(oracle::Diagnosis& found) {
     if (found.verdict == oracle::Verdict::one_mistake) {
         mistakes = best.mistakes;
         mistakes.insert(mistakes.end(), best.alike.begin(), best.alike.end());
-    } else if (found.verdict == oracle::Verdict::none_of_mine && found.structure.empty()) {
+    } else if (found.verdict == oracle::Verdict::unknown_mistake && found.structure.empty()) {
         for (const oracle::Finding& f : found.findings)
             if (f.mistakes.size() == 1 && f.explained > 0 && mistakes.size() < most) mistakes.push_back(f.mistakes[0]);
     }
-    found.telling = oracle::telling_scene(mistakes);
+    found.telling = oracle::distinguishing_scene(mistakes);
 }
 
 int diagnose_one(const DiagnoseOptions& options) {

@@ -87,7 +87,7 @@ TEST_CASE(
     const std::uint64_t pixels = spoiled.targets[0].pixels();
     for (std::size_t i = 0; i < pixels; i += 97) spoiled.targets[0].codes[4 * i] ^= 0x55;
     const Diagnosis found = lineup.diagnose(spoiled);
-    CHECK(found.verdict == Verdict::none_of_mine);
+    CHECK(found.verdict == Verdict::unknown_mistake);
     const Finding& best = found.findings.front();
     const auto names = names_of(best);
     CHECK(std::ranges::find(names, "flipped_rows") != names.end());
@@ -97,7 +97,7 @@ TEST_CASE(
     CHECK_THAT(text, Catch::StartsWith("none that is known"));
     CHECK_THAT(text, Catch::Contains("compare: different"));
     const auto document = nlohmann::json::parse(to_json(found, compare(bench.laboratory.right(), spoiled)));
-    CHECK(document["verdict"] == "none_of_mine");
+    CHECK(document["verdict"] == "unknown_mistake");
     CHECK(document["findings"].size() == found.findings.size());
     CHECK(document["comparison"]["equal"] == false);
 }
@@ -109,7 +109,7 @@ TEST_CASE("a picture in which nothing is drawn is not evidence of two mistakes")
     auto& codes = blank.targets[0].codes;
     for (std::size_t i = 4; i < codes.size(); ++i) codes[i] = codes[i % 4];
     const Diagnosis found = lineup.diagnose(blank);
-    CHECK(found.verdict == Verdict::none_of_mine);
+    CHECK(found.verdict == Verdict::unknown_mistake);
     CHECK(found.pairs_tried == 0);
     CHECK(found.is_blank);
     const std::string text = to_text(found, compare(bench.laboratory.right(), blank));
@@ -117,7 +117,7 @@ TEST_CASE("a picture in which nothing is drawn is not evidence of two mistakes")
     // Zero in every channel, as a target that was never written: two mistakes would explain it, and so would many
     // others.
     std::ranges::fill(codes, 0);
-    CHECK(lineup.diagnose(blank).verdict == Verdict::none_of_mine);
+    CHECK(lineup.diagnose(blank).verdict == Verdict::unknown_mistake);
     codes[codes.size() / 2] ^= 1;
     CHECK(lineup.diagnose(blank).pairs_tried > 0);
     CHECK_FALSE(lineup.diagnose(blank).is_blank);
@@ -128,7 +128,7 @@ TEST_CASE("colours within the tolerance count as equal and the default tolerance
     const Lineup lineup{bench.laboratory};
     Picture rounded = bench.with("red_for_blue");
     for (std::uint32_t& code : rounded.targets[0].codes) code = code < 255 ? code + 1 : code;
-    CHECK(lineup.diagnose(rounded).verdict == Verdict::none_of_mine);
+    CHECK(lineup.diagnose(rounded).verdict == Verdict::unknown_mistake);
     const Diagnosis found = lineup.diagnose(rounded, {.color_codes = 1});
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(names_of(found.findings.front())[0] == "red_for_blue");

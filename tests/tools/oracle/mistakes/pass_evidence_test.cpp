@@ -111,7 +111,7 @@ TEST_CASE("a mistake that explains the picture but whose passes differ as early 
         for (Target& target : pass.targets.targets)
             if (target.meaning == Meaning::color) target.codes[0] ^= 0xff;
     const Diagnosis found = diagnosed(lineup, bench.with("red_for_blue"), passes);
-    CHECK(found.verdict == Verdict::none_of_mine);
+    CHECK(found.verdict == Verdict::unknown_mistake);
     CHECK(found.passes_contradict);
     CHECK(first_of(found).agreeing == found.pixels);
 }
@@ -147,6 +147,6 @@ TEST_CASE("a mistake that explains half of the pixels exactly and all within one
     for (std::size_t i = 0; i < off.targets[0].codes.size(); i += 40)
         off.targets[0].codes[i] = off.targets[0].codes[i] < 255 ? off.targets[0].codes[i] + 1 : 254;
     const Diagnosis none = lineup.diagnose(off);
-    CHECK(none.verdict == Verdict::none_of_mine);
+    CHECK(none.verdict == Verdict::unknown_mistake);
     CHECK_FALSE(none.is_nearly);
 }

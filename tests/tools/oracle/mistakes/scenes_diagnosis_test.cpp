@@ -90,18 +90,18 @@ TEST_CASE("a scene whose colours are all one code off gets the mistake that expl
         return picture;
     };
     const Picture planes = off_by_one(planes_peel().bench.with("red_for_blue"));
-    CHECK(planes_peel().lineup.diagnose(planes).verdict == Verdict::none_of_mine);
+    CHECK(planes_peel().lineup.diagnose(planes).verdict == Verdict::unknown_mistake);
     const ScenesDiagnosis found = diagnosed(random_peel(), peeled, planes_peel(), planes);
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(first_names(found) == FirstNames{"red_for_blue"});
     // If both scenes are one code off, no mistake explains most pixels exactly.
-    CHECK(diagnosed(random_peel(), off_by_one(peeled), planes_peel(), planes).verdict == Verdict::none_of_mine);
+    CHECK(diagnosed(random_peel(), off_by_one(peeled), planes_peel(), planes).verdict == Verdict::unknown_mistake);
 }
 
 TEST_CASE("a port with a different mistake in each scene has no known mistake") {
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("not_premultiplied"), planes_peel(),
                                             planes_peel().bench.with("upside_down"));
-    CHECK(found.verdict == Verdict::none_of_mine);
+    CHECK(found.verdict == Verdict::unknown_mistake);
     CHECK(std::ranges::count(found.findings.front().fits, true) == 1);
     const std::vector<SceneReport> reports{
         {"first", compare(random_peel().bench.laboratory.right(), random_peel().bench.with("not_premultiplied"))},
@@ -111,7 +111,7 @@ TEST_CASE("a port with a different mistake in each scene has no known mistake") 
     CHECK_THAT(text, Catch::Contains("  first: ") && Catch::Contains("(not_premultiplied)") &&
                          Catch::Contains("(upside_down)"));
     const auto document = nlohmann::json::parse(to_json(found, reports));
-    CHECK(document["verdict"] == "none_of_mine");
+    CHECK(document["verdict"] == "unknown_mistake");
     CHECK(document["scenes"][1]["mistakes"][0] == "upside_down");
     CHECK(document["scenes"][0]["kinds"][0]["pixels"].get<int>() > 0);
 }

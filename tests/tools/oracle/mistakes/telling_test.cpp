@@ -11,7 +11,7 @@ using namespace strata::oracle;
 TEST_CASE("the scene that distinguishes mistakes has a different picture for each") {
     const Mistake* const both[] = {find_mistake("red_for_blue"), find_mistake("depth_24")};
     REQUIRE((both[0] != nullptr && both[1] != nullptr));
-    const SuiteScene* scene = telling_scene(both);
+    const SuiteScene* scene = distinguishing_scene(both);
     REQUIRE(scene != nullptr);
     const OpenScene opened = open(*scene);
     const Laboratory laboratory{opened.input(), *opened.algorithm};
@@ -24,7 +24,7 @@ TEST_CASE("the scene that distinguishes mistakes has a different picture for eac
 
 TEST_CASE("one mistake needs no scene and a repeated mistake has none") {
     const Mistake* const one[] = {find_mistake("red_for_blue")};
-    CHECK(telling_scene(one) == nullptr);
+    CHECK(distinguishing_scene(one) == nullptr);
     const Mistake* const twice[] = {one[0], one[0]};
-    CHECK(telling_scene(twice) == nullptr);
+    CHECK(distinguishing_scene(twice) == nullptr);
 }
