@@ -5,7 +5,7 @@
 //          order, so comparing entries orders them by key, then by submission. Fragments that the request's alpha test
 //          kills have no entry.
 // Layout   Blocks of sixteen adjacent pixels. Level k of a block is the k-th entry of each of them, ~0 past a pixel's
-// last.
+//          last.
 // Numbers  8 bytes per entry, the same number of levels for each pixel of a block as its longest list, and 12 bytes per
 //          pixel. Lists are sorted only if no key is a NaN and no stored code of a float buffer is negative.
 // Source   execution.md 7.1.

@@ -5,8 +5,8 @@
 //          have none. Their values are in arrays by index. A record that would exceed its limit is discarded, and its
 //          region rasterizes every pass.
 // Layout   One array per value; the channels of a colour are stored together, because passes fetch fragments at
-// scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the number of
-// depths per pixel.
+//          scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the
+//          number of depths per pixel.
 // Source   execution.md 5.3 and 7.1.
 // Tests    tests/pipeline/fragments/tile_fragments_test.cpp; tests/peeling/execution_test.cpp
 #pragma once

@@ -4,8 +4,7 @@
 //          planes (PlaneOrigin::unsnapped) start at the unsnapped corners: the binary64 value below is the weight
 //          itself.
 // Numbers  e_i = (x sx + y sy) + c; if |c| + 2^16 (|sx| + |sy|) <= 2^53, every step is an integer that binary64
-// represents
-//          exactly. Otherwise e_i is taken from the 64-bit edge functions and rounded once.
+//          represents exactly. Otherwise e_i is taken from the 64-bit edge functions and rounded once.
 // Tests    tests/rasterizer/values/plane_test.cpp, fragment_values_test.cpp
 #pragma once
 #include "rasterizer/coverage/coverage.h"

@@ -2,11 +2,9 @@
 // message, or satisfy the rule below.
 //
 // Rule     profile, camera: what is read and written is unchanged when read again. plan: all of its cells exist,
-// without
-//          duplicates. pack: a manifest with the arrays of a small scene; if it is read, it can be drawn. exr: its
-//          targets
-//          have the digests that are computed without reading them completely. calls: each call of a sequence on one
-//          renderer returns what it returns on a new renderer.
+//          without duplicates. pack: a manifest with the arrays of a small scene; if it is read, it can be drawn. exr:
+//          its targets have the digests that are computed without reading them completely. calls: each call of a
+//          sequence on one renderer returns what it returns on a new renderer.
 // Tests    tests/fuzz/corpus has archives of inputs that reach different code; tests/fuzz/replay_inputs.cpp runs each.
 #pragma once
 #include <cstdint>

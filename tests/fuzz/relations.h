@@ -1,12 +1,10 @@
 // tests/fuzz/relations.h - changes of a frame that must not change its picture.
 //
 // Rule     Splitting meshes in two, giving triangles separate corners, adding unreferenced materials, meshes and
-// textures,
-//          moving the viewport by whole tiles, and adding state without effect (a white texel, an offset of 0, a
-//          scissor
-//          as large as the viewport, all effects) change no result. Triangles without an area change only counters and
-//          diagnostics. Where no two fragments of a pixel have equal depths, the order of triangles does not change the
-//          pictures of algorithms that sort by depth.
+//          textures, moving the viewport by whole tiles, and adding state without effect (a white texel, an offset of
+//          0, a scissor as large as the viewport, all effects) change no result. Triangles without an area change only
+//          counters and diagnostics. Where no two fragments of a pixel have equal depths, the order of triangles does
+//          not change the pictures of algorithms that sort by depth.
 #pragma once
 #include <cstdint>
 #include <iosfwd>

@@ -4,10 +4,9 @@
 //
 // Needs      unordered access with atomics; float targets that blend for a tail of sums.
 // Passes     2. Exact where no pixel has more than k visible fragments. EqualCodes depths: one entry, the last
-// arrival's colour (atomic_loop); an
-//            entry each, the first submitted in front (hybrid_transparency).
+//            arrival's colour (atomic_loop); an entry each, the first submitted in front (hybrid_transparency).
 // Invariant  after pass 1 a pixel's entries are its k least codes in order; after pass 2 each has the colour of a
-// fragment of its code.
+//            fragment of its code.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/fixed_passes/atomic_entries.h"

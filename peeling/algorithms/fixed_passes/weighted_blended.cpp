@@ -4,7 +4,7 @@
 // Needs      fp16 additive blending, two render targets: of unequal blends, or of one blend that treats alpha apart.
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour, whatever their alphas.
 // Invariant  sums = sum of (c a, a) w(z, a), revealage = product of (1 - a), in submission order and in the targets'
-// precision.
+//            precision.
 #include <limits>
 
 #include "peeling/algorithms/entry.h"

@@ -2,8 +2,7 @@
 // codes, then their colours.
 //
 // Rule     Each pixel's entries are the k least codes in ascending order, whatever the submission order. Equal codes
-// share an entry, in which the
-//          last colour stays, or have one each, filled in submission order.
+//          share an entry, in which the last colour stays, or have one each, filled in submission order.
 // Source   algorithms.md 21.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once

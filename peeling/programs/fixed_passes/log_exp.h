@@ -2,11 +2,9 @@
 // machine.
 //
 // Rule     Computed in binary64 by series whose rest is below 2^-62, each operation rounded, and rounded once to
-// binary32: within 0.5 + 2^-20
-//          units in the last place of the real value.
+//          binary32: within 0.5 + 2^-20 units in the last place of the real value.
 // Numbers  log: x = m 2^e, m in (sqrt(1/2), sqrt(2)]; 2 atanh(s) with s = (m - 1) / (m + 1), |s| < 0.1716, to s^27.
-// exp: x = r - k log 2, |r| <
-//          0.35, Taylor to r^14; 0 where x > 105.
+//          exp: x = r - k log 2, |r| < 0.35, Taylor to r^14; 0 where x > 105.
 // Tests    tests/peeling/algorithms/moments_test.cpp
 #pragma once
 #include <bit>

@@ -2,12 +2,11 @@
 // moments are known.
 //
 // Rule     Of all distributions with these moments the canonical one with z in its support: n + 1 points z = x0, x1 ...
-// xn for 2 n moments. Its
-//          mass below z, and `overestimation` of that at z. In binary64, each operation rounded; a pivot of the
-//          factorization that is not positive counts as 2^-40, and the share is clamped to [0, 1].
-// Source   Muenstermann et al. 2018 and its supplement; Peters and Klein 2015, Algorithm 1. The roots are found
-// by Newton's method
-//          from above and deflation, in place of closed forms with trigonometric functions [A].
+//          xn for 2 n moments. Its mass below z, and `overestimation` of that at z. In binary64, each operation
+//          rounded; a pivot of the factorization that is not positive counts as 2^-40, and the share is clamped to [0,
+//          1].
+// Source   Muenstermann et al. 2018 and its supplement; Peters and Klein 2015, Algorithm 1. The roots are found by
+//          Newton's method from above and deflation, in place of closed forms with trigonometric functions [A].
 // Tests    tests/peeling/algorithms/moments_test.cpp
 #pragma once
 #include <algorithm>

@@ -1,8 +1,8 @@
 // peeling/programs/fixed_passes/tail.h - what is shown of the fragments behind those that are composited in order.
 //
 // Rule     none: nothing. blend: OVER onto what lies behind, as they come. average: as weighted_average. weighted: as
-// weighted_blended.
-//          Targets are halves, or binary32 where the frame's colour is; the blend is in the frame's colour format.
+//          weighted_blended. Targets are halves, or binary32 where the frame's colour is; the blend is in the frame's
+//          colour format.
 // Source   algorithms.md 21.3.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once

@@ -2,8 +2,7 @@
 // weighted colours make.
 //
 // Rule     Equations 7 to 10, each operation rounded to binary32; pixel = (sums / weights) (1 - t) + background t, t
-// the product of
-//          (1 - a). The background where the sum of weights is not above 0.
+//          the product of (1 - a). The background where the sum of weights is not above 0.
 // Source   algorithms.md 18. The guard is ours, in place of the paper's least divisor.
 // Tests    tests/peeling/algorithms/weighted_blended_test.cpp
 #pragma once

@@ -2,9 +2,8 @@
 // machine.
 //
 // Rule     A sequential part of a search counts its own steps and hands them over when it ends. Whether the work is
-// spent is asked between parts alone, or
-//          between batches of a fixed size, where the sum does not depend on threads. Within a batch each rule stops at
-//          its share.
+//          spent is asked between parts alone, or between batches of a fixed size, where the sum does not depend on
+//          threads. Within a batch each rule stops at its share.
 // Tests    tests/tools/oracle/verdict/work_test.cpp
 #pragma once
 #include <algorithm>
