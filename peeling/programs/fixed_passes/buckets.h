@@ -1,6 +1,6 @@
 // peeling/programs/fixed_passes/buckets.h - which of 16 buckets of a pixel's depths a fragment belongs to.
 //
-// Rule     trunc((d - near) / (far - near) 16), at most 15; 0 where all depths are one. Under reversed depth of 1 - d.
+// Rule     trunc((d - near) / (far - near) 16), from 0 to 15; 0 where all depths are equal. 1 - d under reversed depth.
 // Source   algorithms.md 24; Liu et al. 2009.
 // Tests    tests/peeling/algorithms/bucket_peel_test.cpp
 #pragma once
@@ -18,6 +18,7 @@ inline namespace strict {
     const float width = depth_behind_near(reversed, far) - near;
     if (width == 0.0f) return 0;
     const float number = (depth_behind_near(reversed, key) - near) / width * static_cast<float>(buckets);
+    if (!(number > 0.0f)) return 0;  // nearer than the first pass found, or NaN of infinite depths
     return number < static_cast<float>(buckets) ? static_cast<std::size_t>(number) : buckets - 1;
 }
 

@@ -1,7 +1,9 @@
 // bucket_peel against sorted buckets in real numbers. algorithms.md 24.
 #include <catch2/catch.hpp>
+#include <limits>
 #include <map>
 
+#include "peeling/programs/fixed_passes/buckets.h"
 #include "tests/peeling/eighths.h"
 #include "tests/peeling/expectations.h"
 
@@ -52,6 +54,19 @@ Bucketed bucketed(const GivenPixel& pixel) {
 }
 
 }  // namespace
+
+TEST_CASE("a bucket is from 0 to 15 for depths outside the bounds and for NaN too") {
+    using strata::peeling::bucket_of;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float minus_near = -0.5f, far = 0.75f;
+    CHECK(bucket_of(false, 0.5f, minus_near, far) == 0);
+    CHECK(bucket_of(false, 0.625f, minus_near, far) == 8);
+    CHECK(bucket_of(false, 0.75f, minus_near, far) == 15);
+    CHECK(bucket_of(false, 0.25f, minus_near, far) == 0);
+    CHECK(bucket_of(false, 2.0f, minus_near, far) == 15);
+    CHECK(bucket_of(false, 0.25f, -0.5f, 0.5f) == 0);
+    CHECK(bucket_of(false, infinity, minus_near, infinity) == 0);
+}
 
 TEST_CASE(
     "bucket_peel composites the ends of 16 buckets, merges ties and tells what it loses, in every way of running") {
