@@ -37,15 +37,15 @@ void find_colors(Region& region, AtomicEntries& entries, const TailTargets& tail
     state.reads[0] = region.opaque_depth();
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_before(in, own.depth(0), out);
-        tail.write(in, out);
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            if (own.depth(0)[i] <= in.code[i]) continue;
+            if (out.alive[i] == 0) continue;
             const Rgba color{in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]};
             if (entries.add_color(in.pixel[i], in.code[i], color))
                 out.discard(static_cast<int>(i));
             else
                 overflow.add(in.pixel[i]);
         }
+        tail.write(in, out);
     }));
     overflow.report(region, Fault::buffer_overflow, "more fragments than entries: the rest is the tail");
 }

@@ -83,7 +83,7 @@ void find_colors(Region& region, Target bounds, std::size_t first, const std::ar
                 const bool is_near = 0.0f - depth == both[channel][i], is_far = depth == both[channel + 1][i];
                 if (is_near || is_far)
                     place = 2 * bucket + (is_near ? 0 : 1);
-                else
+                else if (out.alive[i] != 0)
                     lost.add(in.pixel[i]);
             }
             for (std::size_t t = 0; t < targets; ++t) {
