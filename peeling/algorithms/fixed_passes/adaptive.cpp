@@ -115,7 +115,7 @@ std::vector<Algorithm> entries() {
         .name = "adaptive",
         .listed = 191,
         .paper = "Salvi et al. 2011",
-        .section = "3",
+        .section = "Adaptive Transparency",
         .summary = "a pixel's visibility as a step function of k nodes, then colours by what they are seen through",
         .pass_formula = "2",
         .ties = TiePolicy::none,

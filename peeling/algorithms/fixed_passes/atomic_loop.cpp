@@ -96,7 +96,7 @@ std::vector<Algorithm> entries() {
         Algorithm{.name = "hybrid_transparency",
                   .listed = 211,
                   .paper = "Maule et al. 2013",
-                  .section = "4",
+                  .section = "Hybrid Transparency",
                   .summary = "the k nearest fragments composited in order, over the average of the rest",
                   .pass_formula = "2",
                   .ties = TiePolicy::none,

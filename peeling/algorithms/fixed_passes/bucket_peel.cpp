@@ -137,7 +137,7 @@ std::vector<Algorithm> entries() {
     return {Algorithm{.name = "bucket_peel",
                       .listed = 240,
                       .paper = "Liu et al. 2009",
-                      .section = "3 and 4",
+                      .section = "Efficient Depth Peeling via Bucket Sort",
                       .summary = "a pixel's depths in 16 equal buckets, of each the nearest and the farthest fragment",
                       .pass_formula = "6",
                       .ties = TiePolicy::none,

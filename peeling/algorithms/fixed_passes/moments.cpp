@@ -157,7 +157,7 @@ std::vector<Algorithm> entries() {
         .name = "moments",
         .listed = 220,
         .paper = "Muenstermann et al. 2018",
-        .section = "3 and 4",
+        .section = "Moment-Based Order-Independent Transparency",
         .summary = "absorbance as 4, 6 or 8 power moments of depth, then colours by what they are seen through",
         .pass_formula = "2",
         .ties = TiePolicy::none,

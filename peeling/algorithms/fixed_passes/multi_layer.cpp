@@ -120,7 +120,7 @@ std::vector<Algorithm> entries() {
         Algorithm{.name = "multi_layer",
                   .listed = 190,
                   .paper = "Salvi and Vaidyanathan 2014",
-                  .section = "3",
+                  .section = "Multi-Layer Alpha Blending",
                   .summary = "the k nearest fragments so far, sorted as they come; one more merges the two farthest",
                   .pass_formula = "1",
                   .ties = TiePolicy::none,

@@ -118,7 +118,7 @@ std::vector<Algorithm> entries() {
         Algorithm{.name = "stochastic",
                   .listed = 230,
                   .paper = "Enderton et al. 2010",
-                  .section = "3 and 4",
+                  .section = "Stochastic Transparency",
                   .summary = "every fragment covers some of a pixel's samples by chance; colours by how many see them",
                   .pass_formula = "2",
                   .ties = TiePolicy::none,
