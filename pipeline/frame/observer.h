@@ -1,8 +1,8 @@
 // pipeline/frame/observer.h - reports the steps and stages of a run to a caller that explains them.
 //
-// Rule     A run with an observer is literal: one region, one thread, every step in order. Steps are reported after
-//          they end, stages of a batch after its lanes have passed them. The emulator's own work (opaque priming) is
-//          reported as uncounted.
+// Rule     A run with an observer is literal: it uses one region and one thread and executes every step in order. Steps
+//          are reported after they end, stages of a batch after its lanes have passed them. The emulator's own work
+//          (opaque priming) is reported as uncounted.
 // Tests    tests/tools/oracle/passes_test.cpp, explain_test.cpp
 #pragma once
 #include <functional>

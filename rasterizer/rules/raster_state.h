@@ -60,7 +60,7 @@ struct SamplePoint {
 };
 
 struct RasterState {
-    // The target rectangle of the view volume and at the same time the surface: there are no fragments outside.
+    // The viewport rectangle, which is also the extent of the surface: fragments outside it do not exist.
     Rect viewport;
     // glDepthRange, clamped to [0,1] where it is used; near > far is a reversed range.
     float depth_near = 0.0f, depth_far = 1.0f;

@@ -34,9 +34,9 @@ constexpr std::string_view raster_prefix = "raster.";
 // In bytes. Names are printed in tables and error messages, descriptions in the list of profiles.
 constexpr std::size_t longest_name = 64, longest_description = 1000;
 
-// Fields that were added after the first packs were written. In a file without such a field and without a base, it has
-// the default value of DeviceProfile, which describes the earlier behaviour. All other fields are required there, so
-// that no default of the program enters a user's profile.
+// Fields that were added after the first profile files were written. If a file has no `base`, the profile that it
+// inherits from, and omits such a field, the field gets DeviceProfile's default, which describes the earlier behaviour.
+// All other fields are required there, so that no default of the program enters a user's profile.
 constexpr std::string_view later_fields[] = {"blend_storage",
                                              "depth24",
                                              "has_d24f",

@@ -1,5 +1,5 @@
-// tests/fuzz/input_calls.cpp - makes a sequence of calls on one renderer from any bytes; each must return what it
-// returns on a new renderer.
+// tests/fuzz/input_calls.cpp - decodes bytes into a sequence of renderer calls; each call on a reused renderer must
+// return what it returns on a new one.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,3 +1,4 @@
+// tools/lab/sweep/leftovers.cpp - deletes the temporary files that an interrupted run of this shard left behind.
 #include "tools/lab/sweep/leftovers.h"
 
 #include <filesystem>
@@ -11,7 +12,7 @@ namespace {
 
 template <class IsOurs>
 void remove_temporaries(const std::filesystem::path& folder, IsOurs is_ours) {
-    std::error_code error;  // a missing folder has none
+    std::error_code error;  // ignored: a missing folder contains no temporary files
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         const std::string target = scenes::target_of_temporary(entry.path().filename().string());
         if (!target.empty() && is_ours(target)) std::filesystem::remove(entry.path(), error);
