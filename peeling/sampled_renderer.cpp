@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "peeling/audit/pixel_audit.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/vertices/draw_list.h"
@@ -14,26 +15,6 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
-
-void add_first(const PixelCount& one, PixelCount& sum) {
-    const bool is_earlier =
-        sum.first_y < 0 || std::pair{one.first_y, one.first_x} < std::pair{sum.first_y, sum.first_x};
-    if (one.first_y >= 0 && is_earlier) sum.first_x = one.first_x, sum.first_y = one.first_y;
-    sum.pixels += one.pixels;
-}
-
-void add_sample(const AuditResult& one, AuditResult& sum) {
-    sum.layers_max = std::max(sum.layers_max, one.layers_max);
-    sum.fragments_max = std::max(sum.fragments_max, one.fragments_max);
-    if (one.order_errors) sum.order_errors = sum.order_errors.value_or(0) + *one.order_errors;
-    sum.lost_by_ties += one.lost_by_ties;
-    add_first(one.ties, sum.ties);
-    add_first(one.misordered, sum.misordered);
-    add_first(one.opaque_ties, sum.opaque_ties);
-    sum.hidden_by_opaque_ties += one.hidden_by_opaque_ties;
-    sum.max_difference = std::max(sum.max_difference, one.max_difference);
-    sum.max_difference_without_ties = std::max(sum.max_difference_without_ties, one.max_difference_without_ties);
-}
 
 void add_sample(const Seconds& one, Seconds& sum) {
     sum.geometry += one.geometry;
@@ -72,7 +53,7 @@ class SampleSum {
         if (one.frame.counters) frame.counters = frame.counters.value_or(Counters{}) + *one.frame.counters;
         is_first_ ? void(frame.work = one.frame.work) : add_sample(std::move(one.frame.work), frame.work);
         for (const Diagnostic& diagnostic : one.frame.diagnostics) merge(frame.diagnostics, diagnostic);
-        add_sample(one.audit, sum_.audit);
+        merge(sum_.audit, one.audit);
         add_sample(one.seconds, sum_.seconds);
         is_first_ = false;
     }

@@ -3,8 +3,8 @@
 // rest averaged); algorithms.md 21.
 //
 // Needs      unordered access with atomics; float targets that blend for a tail of sums.
-// Passes     2. Exact where no pixel has more than k visible fragments. EqualCodes depths: one entry, the last
-//            arrival's colour (atomic_loop); an entry each, the first submitted in front (hybrid_transparency).
+// Passes     2. Exact where no pixel has more than k visible fragments. Equal depths: one entry with the colour of the
+//            last submitted (atomic_loop); an entry each, the first submitted in front (hybrid_transparency).
 // Invariant  after pass 1 a pixel's entries are its k least codes in order; after pass 2 each has the colour of a
 //            fragment of its code.
 #include "peeling/algorithms/entry.h"
