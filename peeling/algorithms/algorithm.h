@@ -35,7 +35,7 @@ struct Algorithm {
     std::string pass_formula;  // geometry passes for N layers, under --termination exact
     TiePolicy ties = TiePolicy::none;
     pipeline::DepthKey key = pipeline::DepthKey::stored_code;
-    bool exact = false;  // order_errors is always 0
+    bool exact = false;  // order_errors is always 0 where no limit of passes or nodes ends it
     bool makes_layers = false;
     bool takes_both_ends = false;       // a pass takes one layer from the near end and one from the far end
     bool premultiplied_layers = false;  // layer colours are premultiplied by alpha

@@ -51,9 +51,9 @@ class IdealPeel {
     }
 
   private:
-    // As published, finished pixels change while others are peeled (E25). Under a pass limit the last run still has to
-    // be composited.
-    [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
+    // As published, finished pixels change while others are peeled (E25). After the last iteration that a limit allows
+    // there may be one more pass, and a region counts it even if it has nothing left.
+    [[nodiscard]] Idle idle() const { return published_ || region_.limit_reached(2) ? Idle::no : Idle::yes; }
 
     [[nodiscard]] float as_float(std::uint32_t code) const noexcept { return depth_as_float(code, format_); }
 

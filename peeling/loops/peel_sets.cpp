@@ -41,7 +41,7 @@ class Peel {
     // A limit is checked for all passes of the next iteration together, so that an iteration is never left incomplete.
     void run() {
         bool more = true, has_layer = false;
-        while (!region_.limit_reached((has_layer ? 1 : 0) + 1 + (sets_.ordered ? 1 : 0))) {
+        while (!region_.limit_reached(passes(has_layer))) {
             region_.begin_iteration();
             if (has_layer) composite_layer();
             const Drawn found = find_layer();
@@ -55,9 +55,12 @@ class Peel {
     }
 
   private:
-    // As published, finished pixels change while others are peeled. Under a pass limit the last layer still has to be
-    // composited.
-    [[nodiscard]] Idle idle() const { return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::yes; }
+    // Geometry passes of an iteration.
+    [[nodiscard]] int passes(bool has_layer) const { return (has_layer ? 1 : 0) + 1 + (sets_.ordered ? 1 : 0); }
+
+    // As published, finished pixels change while others are peeled. After the last iteration that a limit allows there
+    // may be one more pass, and a region counts it even if it has nothing left.
+    [[nodiscard]] Idle idle() const { return published_ || region_.limit_reached(passes(true)) ? Idle::no : Idle::yes; }
 
     // Finds the nearest unordered fragment strictly behind `peeled` and before the opaque surface.
     Drawn find_layer() {

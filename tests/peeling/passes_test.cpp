@@ -327,3 +327,22 @@ TEST_CASE("the audit is null where an algorithm has no order and the approximati
     CHECK_FALSE(render(scene, {"ideal", "unsorted"}).audit.order_errors);
     CHECK(render(scene, {"ideal", "weighted_sum"}).audit.max_difference > 10);  // sum of alphas 2: darkens the picture
 }
+
+TEST_CASE("a limit that a peel does not reach runs no tile twice and any limit ends tiles where it ends the frame") {
+    const FragmentScene scene = stairs(8);  // tiles of 7 and of 8 layers
+    for (const char* algorithm : {"layer_peel", "hybrid", "coherent_ideal"})
+        for (int limit = 1; limit <= 28; ++limit) {
+            RenderOptions options = options_for(scene);
+            options.tile_size = 8;
+            options.max_passes = limit;
+            const RenderResult tiles = render(scene, {"ideal", algorithm}, options);
+            options.execution = strata::pipeline::Execution::literal;
+            const RenderResult whole = render(scene, {"ideal", algorithm}, options);
+            INFO(algorithm << ", " << limit << " passes at most");
+            CHECK(tiles.frame.color == whole.frame.color);
+            CHECK(tiles.frame.passes.geometry == whole.frame.passes.geometry);
+            CHECK(tiles.frame.passes.full_screen == whole.frame.passes.full_screen);
+            CHECK(tiles.audit.order_errors == whole.audit.order_errors);
+            if (whole.frame.passes.geometry + 3 <= limit) CHECK(tiles.frame.work.reruns == 0);
+        }
+}

@@ -127,6 +127,7 @@ std::vector<Algorithm> entries() {
         .summary = "every fragment in a list of its pixel, sorted at the end; or as many as there are nodes for",
         .pass_formula = "1",
         .ties = TiePolicy::first,
+        .exact = true,
         .shares_nodes = true,
         .compares_own_codes = true,
         .geometry_passes = one_pass,
