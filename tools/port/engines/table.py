@@ -17,6 +17,11 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+try:
+    import numpy  # noqa: F401
+except ImportError:
+    print("SKIPPED: python3-numpy was not found; tools/port/engines/install.sh installs it")
+    sys.exit(77)
 import draw  # noqa: E402
 import fragments  # noqa: E402
 import pack_scene  # noqa: E402
