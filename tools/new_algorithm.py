@@ -28,7 +28,7 @@ using namespace pipeline;
 
 void run(Region& region) {
     const Target color = region.make_color();
-    region.call(color, "color");
+    region.set_name(color, "color");
     region.copy(region.opaque_color(), color);
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};

@@ -41,7 +41,7 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
 
 void run(Region& region) {
     const Target result = region.make(region.frame().picture_format());
-    region.call(result, "result");
+    region.set_name(result, "result");
     region.begin_iteration();
     copy_color(region, region.opaque_color(), result);
     const std::vector<std::uint32_t> coverage = coverage_of(region);

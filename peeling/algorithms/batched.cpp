@@ -104,10 +104,10 @@ Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool
 
 void run(Region& region) {
     LayerTargets t{region.make_color(), region.make_depth(), region.make_depth(), region.make_color()};
-    region.call(t.layer, "layer");
-    region.call(t.peeled, "nearest");
-    region.call(t.nearest, "nearest");
-    region.call(t.accumulated, "accumulated");
+    region.set_name(t.layer, "layer");
+    region.set_name(t.peeled, "nearest");
+    region.set_name(t.nearest, "nearest");
+    region.set_name(t.accumulated, "accumulated");
     region.clear(t.accumulated, {.color = {0, 0, 0, 1}});
     for (const Interval& interval : intervals_of(region.frame())) {
         region.begin_loop();

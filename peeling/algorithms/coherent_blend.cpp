@@ -31,7 +31,7 @@ Drawn find_nearest(CoherentPeel& peel) {
     Region& region = peel.region;
     region.clear(peel.nearest, {.depth = 1.0f});
     if (!peel.shifted.exists()) peel.shifted = region.make(Format::rgba32f);
-    region.call(peel.shifted, "shifted");
+    region.set_name(peel.shifted, "shifted");
     region.clear(peel.shifted, {.color = {1, 1, 1, 1}});
     PassState state = find_state(peel.nearest, CompareFunc::less);
     state.color[0] = peel.shifted;

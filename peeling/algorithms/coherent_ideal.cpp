@@ -27,9 +27,9 @@ class IdealPeel {
   public:
     explicit IdealPeel(Region& region)
         : region_{region}, ties_{region}, published_{region.frame().formulation == Formulation::published} {
-        region_.call(accumulated_, "accumulated");
-        region_.call(registers_, "registers");
-        region_.call(peel_, "peel");
+        region_.set_name(accumulated_, "accumulated");
+        region_.set_name(registers_, "registers");
+        region_.set_name(peel_, "peel");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
         const float start = published_ ? 0.0f : below_every_depth;  // zNear loses depth 0: comparison is strict (E23)
         region_.clear(registers_, {.color = {0, 0, start, 0}});

@@ -46,8 +46,8 @@ void run(Region& region) {
         region.begin_iteration();
         const Target layer = region.make_color();
         const Target nearest = region.make_depth();
-        region.call(layer, "layer");
-        region.call(nearest, "nearest");
+        region.set_name(layer, "layer");
+        region.set_name(nearest, "nearest");
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, peeled, nearest, layer, layers.color.empty());
@@ -61,7 +61,7 @@ void run(Region& region) {
         region.keep_layer(layer, nearest);
     }
     const Target result = region.make_color();
-    region.call(result, "result");
+    region.set_name(result, "result");
     region.copy(region.opaque_color(), result);
     composite_quads(region, layers, result);
     region.publish(result);

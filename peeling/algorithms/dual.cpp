@@ -92,12 +92,12 @@ void run(Region& region) {
                   region.make_color(),
                   region.make(region.frame().behind_format()),
                   region.make(region.frame().behind_format())};
-    region.call(t.min_max, "min_max");
-    region.call(t.next_min_max, "min_max");
-    region.call(t.front, "front");
-    region.call(t.next_front, "front");
-    region.call(t.back_dump, "back_layer");
-    region.call(t.back, "back");
+    region.set_name(t.min_max, "min_max");
+    region.set_name(t.next_min_max, "min_max");
+    region.set_name(t.front, "front");
+    region.set_name(t.next_front, "front");
+    region.set_name(t.back_dump, "back_layer");
+    region.set_name(t.back, "back");
     DualLayers layers{region};
     region.clear(t.front, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_color(), t.back);

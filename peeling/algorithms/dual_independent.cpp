@@ -63,10 +63,10 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
 void run(Region& region) {
     Target min_max = region.make(Format::rg32f), next_min_max = region.make(Format::rg32f);
     const Target front = region.make_color(), back = region.make(region.frame().behind_format());
-    region.call(min_max, "min_max");
-    region.call(next_min_max, "min_max");
-    region.call(front, "front");
-    region.call(back, "back");
+    region.set_name(min_max, "min_max");
+    region.set_name(next_min_max, "min_max");
+    region.set_name(front, "front");
+    region.set_name(back, "back");
     DualLayers layers{region};
     region.clear(front, {.color = {0, 0, 0, 1}});
     region.copy(region.opaque_color(), back);

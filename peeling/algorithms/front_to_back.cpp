@@ -57,10 +57,10 @@ void run(Region& region, const ListingInputs& inputs) {
     const Target layer = region.make_color();
     Target peeled = region.make_depth();
     Target nearest = region.make_depth();
-    region.call(accumulated, "accumulated");
-    region.call(layer, "layer");
-    region.call(peeled, "nearest");
-    region.call(nearest, "nearest");
+    region.set_name(accumulated, "accumulated");
+    region.set_name(layer, "layer");
+    region.set_name(peeled, "nearest");
+    region.set_name(nearest, "nearest");
     region.clear(accumulated, {.color = {0, 0, 0, 1}});
     for (bool first = true; !region.limit_reached(); first = false) {
         region.begin_iteration();

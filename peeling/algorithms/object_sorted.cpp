@@ -66,8 +66,8 @@ std::size_t front_object(Region& region, const Objects& remaining, Target neares
 
 void run(Region& region) {
     const Target accumulated = region.make_color(), nearest = region.make_depth();
-    region.call(accumulated, "accumulated");
-    region.call(nearest, "nearest");
+    region.set_name(accumulated, "accumulated");
+    region.set_name(nearest, "nearest");
     region.clear(accumulated, {.color = {0, 0, 0, 1}});
     Objects remaining;
     for (const DrawPart& part : region.frame().transparent->parts)

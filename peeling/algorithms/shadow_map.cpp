@@ -62,8 +62,8 @@ Drawn peel(Region& region, const Buffers& to) {
 
 void run(Region& region) {
     Buffers buffers{region.make_color(), region.make_depth(), {}};
-    region.call(buffers.color, "color");
-    region.call(buffers.depth, "depth");
+    region.set_name(buffers.color, "color");
+    region.set_name(buffers.depth, "depth");
     SavedLayers layers;
     while (!region.limit_reached()) {
         region.begin_iteration();
@@ -72,9 +72,9 @@ void run(Region& region) {
         const Drawn drawn = peel(region, buffers);
         buffers.map = copied(region, buffers.depth, region.make_depth());
         layers.depth.push_back(buffers.map);
-        region.call(buffers.map, "map");
+        region.set_name(buffers.map, "map");
         layers.color.push_back(copied(region, buffers.color, region.make_color()));
-        region.call(layers.color.back(), "layer");
+        region.set_name(layers.color.back(), "layer");
         if (!region.any(drawn.passed, idle_when_zero(region.frame()))) {
             region.keep_no_layer(layers.color.back(), layers.depth.back());
             break;
@@ -82,7 +82,7 @@ void run(Region& region) {
         region.keep_layer(layers.color.back(), layers.depth.back());
     }
     const Target result = region.make_color();
-    region.call(result, "result");
+    region.set_name(result, "result");
     region.copy(region.opaque_color(), result);
     composite_quads(region, layers, result);
     region.publish(result);

@@ -31,8 +31,8 @@ struct Capture {
 Capture capture(Region& region, Target stencil, int pass) {
     const Capture into{region.make(region.frame().color_format, pass_samples),
                        region.make(target_format(region.frame().key_request().format), pass_samples)};
-    region.call(into.color, "samples_color");
-    region.call(into.depth, "samples_depth");
+    region.set_name(into.color, "samples_color");
+    region.set_name(into.depth, "samples_depth");
     region.clear(into.depth, {.depth = 1.0f});  // the depth of a sample that stays empty: no visible fragment has it
     for (int s = 0; s < pass_samples; ++s)
         region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + pass_samples * pass)},
@@ -84,7 +84,7 @@ std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Cap
 Target resolve(Region& region, const std::vector<Capture>& captures) {
     RegionShortcuts shortcuts{region};
     const Target result = region.make(region.frame().picture_format());
-    region.call(result, "result");
+    region.set_name(result, "result");
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
     SampleLists columns{samples_of(region, captures), empty, region.profile().color_rounding()};
     const Texels background = region.storage(region.opaque_color()).texels(0);
@@ -117,7 +117,7 @@ void report_overflow(Region& region, Target stencil) {
 
 void run(Region& region) {
     const Target stencil = region.make(Format::s8, pass_samples);
-    region.call(stencil, "stencil");
+    region.set_name(stencil, "stencil");
     std::vector<Capture> captures;
     while (static_cast<int>(captures.size()) < most_passes && !region.limit_reached()) {
         region.begin_iteration();

@@ -20,13 +20,13 @@ struct CoherentPeel {
           full_counts{r},
           composited{r},
           ties{r} {
-        region.call(accumulated, "accumulated");
-        region.call(stencil, "stencil");
-        region.call(nearest, "nearest");
-        region.call(previous, "previous");
-        region.call(breaker, "breaker");
-        region.call(reached, "reached");
-        region.call(last_in_order, "last_in_order");
+        region.set_name(accumulated, "accumulated");
+        region.set_name(stencil, "stencil");
+        region.set_name(nearest, "nearest");
+        region.set_name(previous, "previous");
+        region.set_name(breaker, "breaker");
+        region.set_name(reached, "reached");
+        region.set_name(last_in_order, "last_in_order");
         region.clear(accumulated, {.color = {0, 0, 0, 1}});
         region.clear(reached, {.depth = 0.0f});  // as published: strict comparisons lose depth 0 (E23)
         from_the_start = !published;

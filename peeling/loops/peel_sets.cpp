@@ -30,9 +30,9 @@ class Peel {
           sets_{sets},
           ties_{region},
           published_{region.frame().formulation == Formulation::published} {
-        region_.call(accumulated_, "accumulated");
-        region_.call(peeled_, "layer");
-        region_.call(layer_, "layer");
+        region_.set_name(accumulated_, "accumulated");
+        region_.set_name(peeled_, "layer");
+        region_.set_name(layer_, "layer");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
         region_.clear(peeled_, {.depth = 0.0f});  // as published: strict comparisons lose depth 0 (E23)
         from_the_start_ = !published_;

@@ -58,7 +58,7 @@ inline void publish_over(pipeline::Region& region, pipeline::Target front, Front
                          pipeline::Target behind) {
     using namespace pipeline;
     const Target result = region.make(region.frame().picture_format());
-    region.call(result, "result");
+    region.set_name(result, "result");
     PassState state;
     state.color[0] = result;
     state.reads = {front, behind};

@@ -75,7 +75,7 @@ void Region::publish(Target color) {
     const auto format = frame().published_format;
     if (format && storage(color).format() != *format) {
         const Target picture = make(*format);
-        call(picture, "picture");
+        set_name(picture, "picture");
         copy_color(*this, color, picture);
         color = picture;
     }

@@ -48,7 +48,7 @@ class Region {
     [[nodiscard]] Target opaque_depth() const noexcept { return targets_.opaque_depth(); }
     [[nodiscard]] Target opaque_color() const noexcept { return targets_.opaque_color(); }
     // Names a target for observers and alterations.
-    void call(Target target, std::string_view name) const { targets_.call(target, name); }
+    void set_name(Target target, std::string_view name) const { targets_.set_name(target, name); }
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff) {
         targets_.clear(target, value, sample_mask);

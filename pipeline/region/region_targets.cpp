@@ -82,7 +82,7 @@ Targets::Targets(const RegionShared& shared) : shared_{shared} {
     opaque_depth_is_cleared_ = true;
 }
 
-void Targets::call(Target target, std::string_view name) const {
+void Targets::set_name(Target target, std::string_view name) const {
     if (const Alteration* a = shared_.instruments.alteration; a != nullptr && a->named) a->named(target, name);
     if (const Observer* o = shared_.instruments.observer; o != nullptr && o->named) o->named(target, name);
     if (shared_.frame.checks_targets) names_.emplace_back(target.id, name);

@@ -35,7 +35,7 @@ class Targets {
     [[nodiscard]] bool has_ordered_surface() const;
     void note_written(Target target) noexcept { opaque_depth_is_cleared_ &= target != opaque_depth_; }
 
-    void call(Target target, std::string_view name) const;
+    void set_name(Target target, std::string_view name) const;
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
     // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, with

@@ -22,7 +22,7 @@ RenderResult overflowing(const FragmentScene& scene, bool is_named, const Progra
     algorithm.body = [&](Region& region) {
         const Target sum = region.make(Format::rgba16f), far = region.make(Format::rgba32f),
                      result = region.make_color();
-        if (is_named) region.call(sum, "sum");
+        if (is_named) region.set_name(sum, "sum");
         region.clear(sum, {});
         region.clear(far, {.color = {infinity, infinity, infinity, infinity}});
         PassState state;

@@ -93,14 +93,14 @@ void run(Region& region, const ListingInputs& inputs) {
     CurveTargets t{make_node_depths(region, inputs.options.nodes), {}};
     for (std::size_t e = 0; e < t.depths.target_count(); ++e) {
         t.through[e] = region.make(Format::rgba32f);
-        region.call(t.through[e], "transmittances");
+        region.set_name(t.through[e], "transmittances");
         region.clear(t.through[e], {.color = {1, 1, 1, 1}});
     }
     const bool wide = region.frame().color_format == Format::rgba32f;
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Target result = region.make(region.frame().picture_format());
-    region.call(sums, "sums");
-    region.call(result, "result");
+    region.set_name(sums, "sums");
+    region.set_name(result, "result");
     region.begin_iteration();
     build(region, t);
     accumulate(region, t, sums);

@@ -52,7 +52,7 @@ void find_colors(Region& region, AtomicEntries& entries, const TailTargets& tail
 
 void composite(Region& region, const AtomicEntries& entries, Target behind) {
     const Target result = region.make(region.frame().picture_format());
-    region.call(result, "result");
+    region.set_name(result, "result");
     PassState state;
     state.color[0] = result;
     state.reads[0] = behind;

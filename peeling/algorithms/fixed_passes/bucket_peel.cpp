@@ -111,10 +111,10 @@ void composite(Region& region, const std::array<Target, targets>& colors, Target
 void run(Region& region) {
     std::array<Target, targets> ends, colors;
     const Target bounds = region.make(Format::rg32f), accumulated = region.make_color();
-    region.call(bounds, "bounds"), region.call(accumulated, "accumulated");
+    region.set_name(bounds, "bounds"), region.set_name(accumulated, "accumulated");
     for (std::size_t t = 0; t < targets; ++t) {
-        region.call(ends[t] = region.make(Format::rgba32f), "buckets");
-        region.call(colors[t] = region.make_color(), "layer");
+        region.set_name(ends[t] = region.make(Format::rgba32f), "buckets");
+        region.set_name(colors[t] = region.make_color(), "layer");
     }
     region.clear(accumulated, {.color = {0, 0, 0, 1}});
     const DepthFormat format = region.frame().key_request().format;

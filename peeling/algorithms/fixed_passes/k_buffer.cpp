@@ -31,13 +31,13 @@ struct Entry {
 class KBuffer {
   public:
     explicit KBuffer(Region& region) : region_{region}, overflow_{region}, pushed_out_(region.rect().area(), -1.0f) {
-        region_.call(accumulated_, "accumulated");
-        region_.call(depths_, "depths");
+        region_.set_name(accumulated_, "accumulated");
+        region_.set_name(depths_, "depths");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
         region_.clear(depths_, {.color = {no_entry, no_entry, no_entry, no_entry}});
         for (Target& color : colors_) {
             color = region_.make(Format::rgba32f);
-            region_.call(color, "entry");
+            region_.set_name(color, "entry");
         }
     }
 

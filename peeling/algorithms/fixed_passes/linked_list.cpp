@@ -95,7 +95,7 @@ void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const Keye
 
 void run(Region& region, const ListingInputs& inputs) {
     const Target result = region.make(region.frame().picture_format());
-    region.call(result, "result");
+    region.set_name(result, "result");
     region.begin_iteration();
     copy_color(region, region.opaque_color(), result);
     Lists lists{region, inputs.options, coverage_of(region)};

@@ -46,10 +46,10 @@ struct MomentTargets {
 MomentTargets make_targets(Region& region, int count) {
     MomentTargets t{count, region.make(Format::r32f), {region.make(Format::rgba32f)}};
     if (count > 4) t.powers[1] = region.make(count == 6 ? Format::rg32f : Format::rgba32f);
-    region.call(t.total, "total");
+    region.set_name(t.total, "total");
     region.clear(t.total, {});
     for (std::size_t i = 0; i < t.targets(); ++i) {
-        region.call(t.powers[i], "moments");
+        region.set_name(t.powers[i], "moments");
         region.clear(t.powers[i], {});
     }
     return t;
@@ -141,8 +141,8 @@ void run(Region& region, const ListingInputs& inputs) {
     const bool wide = region.frame().color_format == Format::rgba32f;
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Target result = region.make(region.frame().picture_format());
-    region.call(sums, "sums");
-    region.call(result, "result");
+    region.set_name(sums, "sums");
+    region.set_name(result, "result");
     region.begin_iteration();
     add_moments(region, t);
     accumulate(region, t, inputs.options, sums);

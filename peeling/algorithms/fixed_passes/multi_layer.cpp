@@ -34,7 +34,7 @@ NodeTargets make_nodes(Region& region, int nodes) {
     NodeTargets t{make_node_depths(region, nodes), {}};
     for (std::size_t e = 0; e < static_cast<std::size_t>(nodes); ++e) {
         t.layers[e] = region.make_color();
-        region.call(t.layers[e], "layer");
+        region.set_name(t.layers[e], "layer");
         region.clear(t.layers[e], {.color = {0, 0, 0, 1}});
     }
     return t;
@@ -106,7 +106,7 @@ void run(Region& region, const ListingInputs& inputs) {
                       {"targets for more than 6 layers and their depths in one pass", "", "use --nodes 6"});
     const NodeTargets nodes = make_nodes(region, inputs.options.nodes);
     const Target result = region.make(region.frame().picture_format());
-    region.call(result, "result");
+    region.set_name(result, "result");
     region.begin_iteration();
     insert_all(region, nodes);
     composite(region, nodes, result);

@@ -43,7 +43,7 @@ Samples cover(Region& region, const AlgorithmOptions& options) {
     PassState state = visible_state(region);
     for (std::size_t t = 0; t < samples.targets(); ++t) {
         samples.depths[t] = region.make(Format::rgba32f);
-        region.call(samples.depths[t], "samples");
+        region.set_name(samples.depths[t], "samples");
         region.clear(samples.depths[t], {.color = Rgba(no_depth)});
         state.color[t] = samples.depths[t];
         state.blend[t] = blend_mode::max;
@@ -101,9 +101,9 @@ void run(Region& region, const ListingInputs& inputs) {
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Target through = region.make(wide ? Format::r32f : Format::r16f);
     const Target result = region.make(region.frame().picture_format());
-    region.call(sums, "sums");
-    region.call(through, "through");
-    region.call(result, "result");
+    region.set_name(sums, "sums");
+    region.set_name(through, "through");
+    region.set_name(result, "result");
     region.begin_iteration();
     const Samples samples = cover(region, inputs.options);
     accumulate(region, samples, sums, through);

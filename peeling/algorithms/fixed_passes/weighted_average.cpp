@@ -60,9 +60,9 @@ void run(Region& region) {
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Format count_format = wide ? Format::r32f : region.frame().average_count;
     const Target count = region.make(count_format), result = region.make(region.frame().picture_format());
-    region.call(sums, "sums");
-    region.call(count, "count");
-    region.call(result, "result");
+    region.set_name(sums, "sums");
+    region.set_name(count, "count");
+    region.set_name(result, "result");
     accumulate(region, sums, count);
     PassState state;
     state.color[0] = result;

@@ -78,9 +78,9 @@ void run(Region& region, const ListingInputs& inputs) {
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Target other = region.make(wide ? Format::r32f : Format::r16f);
     const Target result = region.make(region.frame().picture_format());
-    region.call(sums, "sums");
-    region.call(other, form == Form::apart ? "revealage" : "weights");
-    region.call(result, "result");
+    region.set_name(sums, "sums");
+    region.set_name(other, form == Form::apart ? "revealage" : "weights");
+    region.set_name(result, "result");
     accumulate(region, inputs, form, sums, other);
     PassState state;
     state.color[0] = result;

@@ -16,8 +16,8 @@ using namespace pipeline;
 void run(Region& region) {
     const Target sums = region.make(region.frame().color_format == Format::rgba32f ? Format::rgba32f : Format::rgba16f);
     const Target result = region.make(region.frame().picture_format());
-    region.call(sums, "sums");
-    region.call(result, "result");
+    region.set_name(sums, "sums");
+    region.set_name(result, "result");
     region.clear(sums, {});
     PassState add;
     add.depth = {.enabled = true, .func = CompareFunc::less, .write = false};

@@ -24,7 +24,7 @@ struct NodeDepths {
     NodeDepths depths{nodes, {}};
     for (std::size_t t = 0; t < depths.target_count(); ++t) {
         depths.targets[t] = region.make(pipeline::Format::rgba32f);
-        region.call(depths.targets[t], "depths");
+        region.set_name(depths.targets[t], "depths");
         region.clear(depths.targets[t], {.color = pipeline::Rgba(no_node)});
     }
     return depths;

@@ -10,14 +10,14 @@ using namespace pipeline;
 
 TailTargets::TailTargets(Region& region, Tail tail, const ListingInputs& inputs)
     : region_{region}, tail_{tail}, inputs_{inputs}, color_{region.make_color()} {
-    region.call(color_, "tail");
+    region.set_name(color_, "tail");
     region.copy(region.opaque_color(), color_);
     if (tail == Tail::none || tail == Tail::blend) return;
     const bool wide = region.frame().color_format == Format::rgba32f;
     sums_ = region.make(wide ? Format::rgba32f : Format::rgba16f);
     other_ = region.make(wide ? Format::r32f : Format::r16f);
-    region.call(sums_, "tail_sums");
-    region.call(other_, tail == Tail::average ? "tail_count" : "tail_revealage");
+    region.set_name(sums_, "tail_sums");
+    region.set_name(other_, tail == Tail::average ? "tail_count" : "tail_revealage");
     region.clear(sums_, {});
     region.clear(other_, {.color = Rgba(tail == Tail::average ? 0.0f : 1.0f)});
 }

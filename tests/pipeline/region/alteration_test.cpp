@@ -33,7 +33,7 @@ struct AlteredMachine {
 std::vector<float> reds_after_pass(const Alteration& alteration, bool by_quad = false) {
     AlteredMachine m{alteration};
     const Target target = m.region.make(Format::rgba32f);
-    m.region.call(target, "target");
+    m.region.set_name(target, "target");
     m.region.clear(target, {.color = {0.25f, 0, 0, 0}});
     PassState state;
     state.color[0] = target;
@@ -146,7 +146,7 @@ TEST_CASE("an alteration answers queries and receives names and sees nothing of 
     AlteredMachine m{stubborn};
     CHECK(clears == 0);  // the opaque targets were cleared before
     const Target target = m.region.make_color();
-    m.region.call(target, "layer");
+    m.region.set_name(target, "layer");
     RegionShortcuts{m.region}.uncounted([&] { m.region.clear(target, {}); });
     CHECK(clears == 0);
     PassState state;

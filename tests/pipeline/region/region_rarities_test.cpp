@@ -95,7 +95,7 @@ TEST_CASE(
     TestFrame test{few_fragments(), "geforce8"};
     const Body body = [](Region& region) {
         const Target depth = region.make_depth(), copy = region.make_color();
-        region.call(depth, "depth");
+        region.set_name(depth, "depth");
         region.copy(region.opaque_color(), copy);
         PassState state;
         state.depth = nearest_stays;

@@ -34,7 +34,7 @@ class DepthWeights {
 strata::Algorithm weighted_by_depth(std::vector<float> weights) {
     return strata::own_algorithm("weighted_by_depth", [program = DepthWeights{std::move(weights)}](Region& region) {
         const Target sum = region.make_color();
-        region.call(sum, "sum");
+        region.set_name(sum, "sum");
         region.copy(region.opaque_color(), sum);
         PassState state;
         state.color[0] = sum;
