@@ -1,3 +1,4 @@
+// peeling/as_shown.cpp - flips rows and converts keys to depths for as_shown.h.
 #include "peeling/as_shown.h"
 
 #include <algorithm>

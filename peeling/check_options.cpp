@@ -1,3 +1,4 @@
+// peeling/check_options.cpp - the checks of check_options.h, field by field.
 #include "peeling/check_options.h"
 
 #include <algorithm>

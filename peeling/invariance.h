@@ -28,9 +28,9 @@ struct Experiment {
     // Size, format, alpha, the remedy, and what later passes draw (second list, vertex path, clamp). The experiment
     // sets depth_path, reference_path, max_passes and audit itself.
     RenderOptions render;
-    Match match = Match::triangle;  // how fragments of later passes are matched with those of the first
-    std::array<int, 2> moved_window{
-        0, 0};  // offset of the viewport of later passes, in pixels; if not 0, codes are compared and no peel is run
+    Match match = Match::triangle;          // how fragments of later passes are matched with those of the first
+    std::array<int, 2> moved_window{0, 0};  // offset of the viewport of later passes, in pixels; if not 0, only codes
+                                            // are compared and there is no peel
     rasterizer::DepthPath write = rasterizer::DepthPath::float32;
     rasterizer::DepthPath compare = rasterizer::DepthPath::float32;
     const Algorithm* algorithm = nullptr;

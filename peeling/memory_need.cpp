@@ -1,3 +1,4 @@
+// peeling/memory_need.cpp - estimates the memory of a frame from a rehearsal at the size of one tile (memory_need.h).
 #include "peeling/memory_need.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // peeling/prepared_lists.h - the draw lists of the frames of one command, each transformed and set up once.
 //
-// Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is
+// Rule     Lists in other submission orders are prepared when an algorithm first requires them. The second list is
 //          drawn by all passes except the first, if another vertex path, another split of the surfaces or another depth
 //          clamp is requested.
 // Tests    tests/peeling/comparison_test.cpp, partial_order_test.cpp, sort_test.cpp

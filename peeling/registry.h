@@ -15,7 +15,8 @@ namespace strata::peeling {
 // The first feature required by the algorithm that the profile lacks.
 [[nodiscard]] pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile);
 
-// What runs on every region: a resolve where the algorithm offers one, its passes elsewhere. `algorithm` outlives it.
+// The function that is executed for every region: the algorithm's resolve if it applies, else its passes. `algorithm`
+// must outlive it.
 [[nodiscard]] std::function<void(pipeline::Region&)> body_of(const Algorithm& algorithm, const ListingInputs& inputs);
 
 }  // namespace strata::peeling

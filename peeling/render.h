@@ -49,7 +49,8 @@ struct RenderResult {
 struct FrameFragments {
     std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
     std::vector<std::uint32_t> opaque;            // per pixel: the opaque surface's depth in the algorithm's key
-    static constexpr std::uint64_t bytes_per_fragment = 64;  // with the copy for a file's writer
+    static constexpr std::uint64_t bytes_per_fragment = 64;  // per fragment, including the copy that the file writer
+                                                             // makes
 };
 
 // Holds the work that is done once for all algorithms of a command: transform, clipping, set-up and binning.

@@ -46,7 +46,7 @@ struct RenderOptions {
         true;  // false: the compared depth is not rounded like the stored one; true: as the profile
     VertexPaths vertex_paths{};
     const pipeline::DrawList* second_list = nullptr;  // for passes after the first: surfaces split differently
-    std::optional<bool> second_depth_clamp{};         // the depth clamp of those passes
+    std::optional<bool> second_depth_clamp{};         // the depth clamp of passes after the first
     std::optional<pipeline::Format> color_format{};   // default: rgba8; rgba32f on a profile with exact depth ("ideal")
     std::optional<pipeline::Format> result_format{};  // of the final image; default: color_format
     std::optional<pipeline::Format> back_format{};    // of dual's back and of its layers; default: color_format
@@ -79,7 +79,8 @@ struct RenderOptions {
     const pipeline::VertexAlteration* vertex_alteration = nullptr;  // must outlive the renderer; may be null
 };
 
-// True if fragments are read once, by the algorithm's resolve, and the memory for them is needed only during a tile.
+// True if the algorithm's resolve reads the fragments once, so that their memory is needed only for the tiles in
+// progress.
 [[nodiscard]] bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 [[nodiscard]] int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 // The tile size of the algorithm's frame in pixels: the requested one, else 64, or 128 for an algorithm of one pass in

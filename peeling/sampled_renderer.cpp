@@ -1,3 +1,5 @@
+// peeling/sampled_renderer.cpp - renders every sample as a frame of its own and resolves the frames
+// (sampled_renderer.h).
 #include "peeling/sampled_renderer.h"
 
 #include <algorithm>
@@ -37,7 +39,7 @@ void add_sample(const PassCount& one, PassCount& most) {
     most.copies = std::max(most.copies, one.copies);
 }
 
-// Puts the frames of the samples together.
+// Combines the frames of the samples: images are resolved; counts are added, or their maximum is taken.
 class SampleSum {
   public:
     SampleSum(int samples, const DeviceProfile& profile, bool greater_is_nearer)
@@ -74,7 +76,7 @@ class SampleSum {
 
     [[nodiscard]] ColorResolve new_resolve() const { return {samples_, profile_.resolve, profile_.color_rounding()}; }
 
-    // Layer k from an end goes to layer k from that end.
+    // Adds layer k of a sample, counted from one end, to layer k of the frame from the same end.
     void add_layers(const std::vector<KeptLayer>& layers) {
         for (const Side side : {Side::none, Side::front, Side::back}) {
             auto next = layers_.begin();
@@ -135,7 +137,7 @@ SampledRenderer::SampledRenderer(const DrawList& list, const View& view, const D
     if (samples != 1 && samples != 2 && samples != 4 && samples != 8)
         Requirements{"render options"}.fail(FieldName{"samples"}, "1, 2, 4 or 8", samples);
     state_->renderers.resize(static_cast<std::size_t>(samples));
-    // Options that no profile could mean are told now.
+    // Throws InputError now for options that are invalid on every profile.
     if (!check_multisampling(profile, samples)) static_cast<void>(state_->renderer(0));
 }
 

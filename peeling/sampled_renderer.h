@@ -1,4 +1,4 @@
-// peeling/sampled_renderer.h - frames of one or several samples per pixel, as one call.
+// peeling/sampled_renderer.h - renders a frame of one or several samples per pixel in one call.
 //
 // Rule     Sample shading: every sample is a frame of its own. Its fragments are evaluated at the sample's position and
 //          composited by the algorithm; then the samples are resolved. Counters, order errors, diagnostics and work are
@@ -19,7 +19,7 @@ namespace strata::peeling {
 
 class SampledRenderer {
   public:
-    // As Renderer; `samples` is 1, 2, 4 or 8, else InputError. `list` must outlive this.
+    // Throws InputError as Renderer does, and if `samples` is not 1, 2, 4 or 8. `list` must outlive this object.
     SampledRenderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
                     const RenderOptions& options, int samples, pipeline::Resolve resolve = pipeline::Resolve::box);
     SampledRenderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
@@ -27,12 +27,13 @@ class SampledRenderer {
                     pipeline::Resolve resolve = pipeline::Resolve::box) = delete;
     ~SampledRenderer();
 
-    // What Renderer::render refuses, numbers of samples and filters that the profile has not, and algorithms that store
-    // fragments in samples. `own_colors`: also gets the picture of each sample.
+    // Renders and resolves. The result has a refusal where Renderer::render has one, if the profile lacks the number of
+    // samples or the filter, and, for several samples, if the algorithm stores fragments in samples. `own_colors`,
+    // unless null, receives the picture of each sample.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       std::vector<pipeline::Image>* own_colors = nullptr);
 
-    // The renderer of one sample, which keeps its lists from frame to frame; of one sample a pixel, 0.
+    // The renderer of sample `number`, from 0 on. It keeps its prepared lists from frame to frame.
     [[nodiscard]] Renderer& sample(std::size_t number);
 
   private:

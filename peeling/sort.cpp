@@ -74,11 +74,11 @@ void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
     if (moved < 2) return;
     Numbers positions(numbers.size());
     std::iota(positions.begin(), positions.end(), 0u);
-    // A partial Fisher-Yates shuffle: the first `moved` positions are drawn without repetition. The bias of the
-    // remainder is below 2^-32.
+    // A partial Fisher-Yates shuffle: the first `moved` positions are chosen at random without repetition. The bias of
+    // the remainder is below 2^-32.
     for (std::size_t i = 0; i < moved; ++i)
         std::swap(positions[i], positions[i + next_random(seed) % (positions.size() - i)]);
-    // One cycle moves every drawn entry; pairwise swaps would leave one of an odd number unmoved.
+    // One cycle moves every chosen entry; pairwise swaps would leave one of an odd number unmoved.
     const std::uint32_t first = numbers[positions[0]];
     for (std::size_t i = 0; i + 1 < moved; ++i) numbers[positions[i]] = numbers[positions[i + 1]];
     numbers[positions[moved - 1]] = first;

@@ -1,3 +1,4 @@
+// scenes/blended_materials.cpp - makes the named materials of a draw list transparent (blended_materials.h).
 #include "scenes/blended_materials.h"
 
 #include "rasterizer/base/input_error.h"

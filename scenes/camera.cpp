@@ -48,9 +48,8 @@ void set_depth_row(pipeline::Matrix& m, double znear, double zfar) noexcept {
     m[2][3] = -1;
 }
 
-// `half_angle` in radians.
-// Right-handed eye space to clip space, GLU 1.3 section 4.2. `aspect` is width / height; the cotangent of half
-// the vertical angle scales y, and x is scaled by it over the aspect.
+// Right-handed eye space to clip space, GLU 1.3 section 4.2. `half_angle` is half the vertical angle in radians, whose
+// cotangent scales y; x is scaled by the cotangent over `aspect`, which is width / height.
 pipeline::Matrix perspective(double half_angle, double aspect, double znear, double zfar) noexcept {
     const double cotangent = cos(half_angle) / sin(half_angle);
     pipeline::Matrix m(0.0);

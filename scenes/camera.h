@@ -1,8 +1,8 @@
 // scenes/camera.h - makes views from an orbit around a scene's bounds, from a camera file or from a camera of a glTF
 // scene.
 //
-// Rule     gluLookAt and gluPerspective in binary64 with our own sin, cos; matrices column-major, clip depth -1 to 1
-//          unless as_seen_under converts it.
+// Rule     gluLookAt and gluPerspective in binary64 with sin and cos of scenes/numbers/elementary.h; matrices
+//          column-major, clip depth -1 to 1 unless as_seen_under converts it.
 // Source   scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
 // Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
 #pragma once

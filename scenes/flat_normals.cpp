@@ -1,3 +1,4 @@
+// scenes/flat_normals.cpp - one vertex per corner, and the normal of each triangle (flat_normals.h).
 #include "scenes/flat_normals.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// scenes/inside_folder.cpp - the two checks of inside_folder.h: by the text of a name, and by its resolved path.
 #include "scenes/inside_folder.h"
 
 #include <algorithm>

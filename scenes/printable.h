@@ -2,8 +2,9 @@
 //
 // Rule     A control character below U+0020 and a byte that is not part of a UTF-8 character become \xNN; U+007F to
 //          U+009F, which JSON does not escape and some terminals interpret, become \u00NN. A file name and a
-//          command-line argument may contain any byte except 0. Source RFC 3629 4. Tests tests/tools/errors_test.cpp,
-//          tests/tools/messages_test.cpp
+//          command-line argument may contain any byte except 0.
+// Source   RFC 3629 4.
+// Tests    tests/tools/errors_test.cpp, tests/tools/messages_test.cpp
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -28,7 +28,8 @@ enum class ListOrder : std::uint8_t {
 
 struct Algorithm {
     std::string name;
-    int listed = 0;            // order in lists: ten times its section in algorithms.md, or between two sections
+    int listed = 0;            // sorts lists of algorithms: ten times the section in algorithms.md, plus 1, 2 ... for
+                               // further names of a section
     std::string paper;         // author and year
     std::string section;       // section of the paper
     std::string summary;       // one sentence
@@ -43,17 +44,20 @@ struct Algorithm {
     bool kills_alpha_zero = false;  // an alpha test discards fragments that store alpha 0, so they are no layers
     bool is_oracle = false;         // not an algorithm of a device: no profile rejects it
     bool whole_frame = false;       // its queries are nested: the frame runs literally, whatever --execution says
-    bool shares_nodes = false;      // tiles share a limit of nodes per frame: runs literally under one
-    bool runs_loops = false;  // its loops run one after another: runs in tiles if each query depends on the tile alone
+    bool shares_nodes = false;      // tiles share the frame's limit of nodes: runs literally if there is a limit
+    bool runs_loops = false;  // its loops follow one another: runs in tiles only if each query depends on its tile
+                              // alone
     bool compares_own_codes = false;  // compares only its stored code: rejected where options choose another depth
     bool has_published_form = false;  // the listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null if layers do not determine it
     void (*run)(pipeline::Region&) = nullptr;
-    void (*run_with)(pipeline::Region&, const ListingInputs&) = nullptr;  // used instead of `run`: reads options
+    void (*run_with)(pipeline::Region&, const ListingInputs&) = nullptr;  // used instead of `run` by an algorithm that
+                                                                          // reads options
     // Used instead of `run` by an algorithm that carries state of its own. Regions run on several threads at once, and
     // some regions run twice.
     std::function<void(pipeline::Region&)> body{};
-    bool (*resolve_loop)(pipeline::Region&) = nullptr;  // the whole loop from the record, or false; may be null
+    bool (*resolve_loop)(pipeline::Region&) = nullptr;  // computes the whole loop from the record, or returns false;
+                                                        // may be null
     std::vector<pipeline::Feature> features{};          // features that the profile must have
     int render_targets = 1;
     int samples = 1;

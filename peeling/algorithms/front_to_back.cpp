@@ -37,7 +37,7 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     });
 }
 
-// What lies behind the last layer that was peeled, in one pass more.
+// One more pass draws the fragments behind the last peeled layer into the tail (fixed_passes/tail.h).
 Target draw_tail(Region& region, const ListingInputs& inputs, Target peeled) {
     TailTargets tail{region, *inputs.options.tail, inputs};
     PassState state = tail.state();

@@ -84,7 +84,7 @@ struct Audit::Impl {
         still.trace = false;
     }
 
-    // A frame that is run again as a whole starts over.
+    // Called when the frame begins, and again if it is repeated as a whole: earlier results are discarded.
     void begin(std::span<const RegionArea> regions) {
         places.assign(regions.begin(), regions.end());
         if (places[0].extent == Extent::frame) places = tile_parts(still, threads);
@@ -132,8 +132,7 @@ struct Audit::Impl {
         return looked;
     }
 
-    // Returns a free list or a new one. Lists are kept, as many as were in use at once, so that memory is seldom
-    // allocated.
+    // Returns a free FragmentLists or a new one. They are kept for reuse, so that memory is seldom allocated.
     [[nodiscard]] FragmentLists take_fragment_lists() {
         const std::scoped_lock lock{free_lists_mutex};
         if (free_fragment_lists.empty()) return {};
@@ -159,7 +158,8 @@ struct Audit::Impl {
         parallel_for(places.size(), threads, look_at_place);
     }
 
-    // A tile that the executor found equal to another one gets that one's results, moved to its position.
+    // A tile whose result the executor copied from tile `like` gets the audit results of that tile, moved to its own
+    // position.
     void copy(std::size_t like, std::size_t number) {
         const RegionArea &from = places[like], &to = places[number];
         const int dx = to.rect.x0 - from.rect.x0, dy = to.rect.y0 - from.rect.y0;

@@ -56,7 +56,9 @@ void look_at(PeelErrors& errors, std::span<const LayerFragment> pixel, std::span
     for (const std::uint32_t key : keys) {
         const auto first =
             std::find_if(pixel.begin(), pixel.end(), [key](const LayerFragment& f) { return f.key == key; });
-        if (first == pixel.end()) continue;  // only another pass's transform gives this pixel the depth
+        if (first == pixel.end())
+            continue;  // no fragment of the truth has this depth here: another pass transformed
+                       // it differently
         ++times[static_cast<std::size_t>(std::lower_bound(layers.begin(), layers.end(), first->layer) -
                                          layers.begin())];
     }

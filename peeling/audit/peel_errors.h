@@ -3,9 +3,9 @@
 //
 // Rule     A pixel's true layers are the distinct codes, before the opaque surface, that the writing path stores
 //          without bias, which the exact A-buffer keeps under the tie policy `unique`. The composited layers are read
-//          from the run's trace: a depth there means the first fragment of that depth, and so its layer. A layer
-//          composited twice or more often is one duplicate, a layer never composited is one loss, so the counts stay
-//          finite for a peel that never ends.
+//          from the run's trace: each depth in it stands for the first fragment of that depth, and so for a layer. A
+//          layer composited twice or more often is one duplicate, a layer never composited is one loss, so the counts
+//          stay finite for a peel that never ends.
 // Source   audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
 // Tests    tests/peeling/audit/peel_errors_test.cpp
 #pragma once

@@ -19,8 +19,8 @@ Watch keep_traces(std::vector<RegionTrace>& traces) {
         for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)
             kept.entries.push_back(RegionShortcuts{region}.trace()[i]);
     };
-    // A tile that the executor found equal to another was not run: it gets the other's entries, whose pixel indices are
-    // relative to the tile.
+    // A tile whose result the executor copied from another tile was not executed: it gets the entries of that tile,
+    // whose pixel indices are relative to the tile.
     const auto copy = [&traces](std::size_t like, std::size_t number) {
         traces[number].entries = traces[like].entries;
     };

@@ -1,5 +1,5 @@
-// peeling/audit/region_trace.h - keeps the traces of a whole frame, for measurements that hold all of its fragments in
-// memory anyway.
+// peeling/audit/region_trace.h - keeps the traces of a whole frame, for measurements that keep all fragments in memory
+// anyway.
 #pragma once
 #include <vector>
 

@@ -12,7 +12,8 @@ namespace strata::peeling {
 
 namespace {
 
-// Per layer the fragment that is found for the most passes: the one with the largest reference, the first of equals.
+// Per layer, the fragment that is found in the most passes: that with the largest reference, the first one if several
+// are equal.
 std::vector<PathPair> layers_of(std::span<const PathPair> pixel, std::uint32_t opaque) {
     std::vector<PathPair> layers;
     for (const PathPair& pair : pixel)

@@ -27,7 +27,7 @@ struct SafeRange {
     // Determines `lowest`: below it this fragment is peeled twice, or, with a bias, is in front of the opaque surface.
     PathPair repeated;
     PathPair front, behind;  // determine `highest`: above it `behind` is lost once `front` is peeled
-    // `highest` is limited by the opaque surface or the far end instead, which `front` would reach.
+    // true: `highest` is limited by the opaque surface or the far end, which `front` would reach, and not by `behind`.
     bool behind_opaque = false;
     [[nodiscard]] bool is_empty() const noexcept { return lowest && highest && *lowest > *highest; }
     [[nodiscard]] bool contains(std::int64_t n) const noexcept {

@@ -1,3 +1,4 @@
+// peeling/loops/coherent.cpp - passes 3 to 6 and the loop of coherent layer peeling (coherent.h).
 #include "peeling/loops/coherent.h"
 
 #include "peeling/programs/region_programs.h"

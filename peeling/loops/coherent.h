@@ -1,11 +1,11 @@
 // peeling/loops/coherent.h - the parts of coherent layer peeling that its two formulations (coherent_stencil,
 // coherent_blend) share. Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
 //
-// Rule     An iteration composites, in submission order, the run of fragments that starts at the nearest one not yet
-//          composited (`nearest`, the paper's D(sn)) and is in order: it ends before the nearest deeper fragment that
-//          was submitted earlier (`previous`), and before the nearest one that interrupts the run later (`breaker`).
-//          The least of these two depths and the opaque depth is `reached`; fragments exactly there are composited
-//          last, and the next iteration starts behind it.
+// Rule     An iteration composites, in submission order, a run: the fragments from the nearest one not yet composited
+//          (`nearest`, the paper's D(sn)) on, as long as they are submitted in depth order. The run ends before the
+//          nearest deeper fragment that was submitted before `nearest` (`previous`), and before the nearest fragment
+//          that is submitted later out of order (`breaker`). The least of these two depths and the opaque depth is
+//          `reached`; fragments exactly there are composited last, and the next iteration starts behind it.
 // Tests    tests/peeling/sequences_test.cpp, coherent_test.cpp, published_test.cpp
 #pragma once
 #include "peeling/programs/depth_range.h"

@@ -1,7 +1,7 @@
 // peeling/loops/dual_resolve.h - the result of dual peeling's loop, computed at once from a tile's recorded fragments.
 //
-// Rule     The result equals that of the passes, ties included: the same codes, queries and trace. Where it does not
-//          apply it returns false without having counted anything, and the passes run.
+// Rule     The result equals that of the passes, ties included: the same codes, queries and trace. If it does not
+//          apply, dual_resolve returns false without having counted anything, and the passes are executed.
 // Source   algorithms.md 0.7.
 // Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: comparison with literal execution
 #pragma once

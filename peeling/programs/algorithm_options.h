@@ -1,5 +1,5 @@
-// peeling/programs/algorithm_options.h - what single algorithms let a caller choose. Each field is read by the
-// algorithms that it names.
+// peeling/programs/algorithm_options.h - the options of single algorithms. The comment of a field names the algorithms
+// that read it.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,24 +10,24 @@ namespace strata::peeling {
 // distance from the eye, equation 10 by the window depth; constant: 1.
 enum class Weight : std::uint8_t { eq7, eq8, eq9, eq10, constant };
 
-// What becomes of the fragments behind those that are composited in order (algorithms.md 21.3).
+// How the fragments behind those that are composited in order are shown (algorithms.md 21.3).
 enum class Tail : std::uint8_t { none, blend, average, weighted };
 
-// What a full list does with one fragment more (algorithms.md 20).
+// What happens to a fragment for which a list has no node left (algorithms.md 20).
 enum class Overflow : std::uint8_t { drop_new, drop_far, blend };
 
 inline constexpr int most_nodes = 8, most_stochastic_samples = 8;
 
 struct AlgorithmOptions {
     Weight weight = Weight::eq10;        // weighted_blended, weighted_blended_shared, tails
-    int nodes = 4;                       // a pixel: multi_layer, adaptive, atomic_loop, hybrid_transparency
+    int nodes = 4;                       // k, nodes per pixel: multi_layer, adaptive, atomic_loop, hybrid_transparency
     std::optional<Tail> tail{};          // atomic_loop (blend), hybrid_transparency (average), front_to_back (none)
-    int pixel_nodes = 0;                 // linked_list: fragments a pixel; 0: no limit
-    int frame_nodes = 0;                 // linked_list: fragments a frame; 0: no limit
+    int pixel_nodes = 0;                 // linked_list: nodes per pixel; 0: no limit
+    int frame_nodes = 0;                 // linked_list: nodes per frame; 0: no limit
     Overflow overflow{};                 // linked_list
     int moments = 4;                     // moments: 4, 6 or 8
-    std::optional<float> moment_bias{};  // moments: the share of the moments of a fixed distribution; by their number
-    float overestimation = 0.25f;        // moments: the share of a fragment's own absorbance that it is seen through
+    std::optional<float> moment_bias{};  // moments: share of a fixed distribution, 0 to 1; default by `moments`
+    float overestimation = 0.25f;        // moments: share of its own absorbance that dims a fragment
     int stochastic_samples = 4;          // stochastic: samples per pixel
     std::uint32_t stochastic_seed = 0;
     friend bool operator==(const AlgorithmOptions&, const AlgorithmOptions&) = default;
@@ -39,7 +39,7 @@ struct EyeDistance {
     float a = 0, b = 0, c = 1, d = 0;
 };
 
-// What an algorithm is given beside its region.
+// The inputs of an algorithm in addition to its region.
 struct ListingInputs {
     AlgorithmOptions options;
     EyeDistance eye;

@@ -12,7 +12,8 @@ namespace strata::peeling {
 
 using CodeLanes = pipeline::Lanes<std::uint32_t>;
 
-// Each keeps the fragments that its name says and discards the others. Codes of one format are ordered like depths.
+// keep_behind, keep_before and so on: each keeps the fragments whose code has the named relation to the bound at their
+// pixel, and discards the others. Codes of one format are ordered like depths.
 inline void keep_behind(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
     discard_peeled(in, bound, out);
 }

@@ -61,7 +61,7 @@ struct FragmentLists {
 void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
                   pipeline::Counting counting, FragmentLists& fragment_lists);
 
-// The pass as statistics count it, where the fragment lists are looked up part by part.
+// Counts the pass once, if its fragment lists are built in several parts.
 void count_list_pass(pipeline::Region& region);
 
 }  // namespace strata::peeling

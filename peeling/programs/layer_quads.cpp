@@ -1,3 +1,4 @@
+// peeling/programs/layer_quads.cpp - the passes of layer_quads.h and layer_target.h.
 #include "peeling/programs/layer_quads.h"
 
 #include "peeling/programs/layer_target.h"

@@ -1,4 +1,4 @@
-// peeling/programs/layer_quads.h - saved layers composited as textured quads, far to near. Everitt 2001, "Putting It
+// peeling/programs/layer_quads.h - composites saved layers as textured quads, far to near. Everitt 2001, "Putting It
 // All Together". Colours are not premultiplied, and alpha is 0 where a pixel has no such layer; blending SRC_ALPHA,
 // ONE_MINUS_SRC_ALPHA. Where a layer has no fragment, its depth is the opaque surface's.
 #pragma once

@@ -1,4 +1,4 @@
-// peeling/programs/layer_target.h - how peels with one layer per pass composite the layer.
+// peeling/programs/layer_target.h - how front_to_back and other peels of one layer per pass composite the layer.
 #pragma once
 #include "peeling/programs/programs.h"
 #include "pipeline/region/region.h"

@@ -17,14 +17,15 @@ namespace strata::peeling {
 
 inline namespace strict {
 
-// What a one-layer peel can guarantee about a region whose count is 0. Such a pass leaves the opaque depth in `peeled`,
-// and a fragment that is stored in front of that depth but compares as behind it would have been found. Only if the
-// first pass draws other vertices and compares nothing may it find nothing where the second finds such a fragment.
+// The promise of a one-layer peel about a region whose count is 0 (Region::any). Such a pass leaves the opaque depth in
+// `peeled`, and a fragment that is stored in front of that depth but compares as behind it would have been found. Only
+// if the first pass draws other vertices and compares nothing may it find nothing where the second finds such a
+// fragment.
 [[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
     return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::yes : pipeline::Idle::no;
 }
 
-// Whether keys of depth are those of reversed depth, where 1 is near.
+// True under reversed depth, where depth 1 is near.
 [[nodiscard]] inline bool is_reversed(const pipeline::Frame& frame) noexcept {
     return frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
 }
@@ -34,8 +35,8 @@ inline namespace strict {
     return is_reversed(frame) ? rasterizer::depth_key(shader_z) : shader_z;
 }
 
-// How far a depth lies behind the near end of the window, whatever the depth order: for what measures depths. From its
-// key.
+// The distance of a depth from the near end of the depth range, 0 near and 1 far under either depth order. `key` is the
+// key of the depth.
 [[nodiscard]] inline float depth_behind_near(bool reversed, float key) noexcept {
     return reversed ? 1.0f - rasterizer::depth_key(key) : key;
 }

@@ -1,3 +1,4 @@
+// peeling/programs/tie_order.cpp - sorts by depth and regroups fragments of equal key by tie policy (tie_order.h).
 #include "peeling/programs/tie_order.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@ namespace strata::peeling {
 
 namespace {
 
-// Calls body(begin, end, group number) for every run of equal keys.
+// Calls body(begin, end, group number) for every group of equal keys.
 template <class Body>
 std::size_t for_each_group(FragmentOrder& sorted, Body&& body) {
     std::size_t group = 0;

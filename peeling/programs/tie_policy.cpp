@@ -1,3 +1,4 @@
+// peeling/programs/tie_policy.cpp - the names of tie policies in reports (tie_policy.h).
 #include "peeling/programs/tie_policy.h"
 
 namespace strata::peeling {

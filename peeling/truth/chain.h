@@ -1,5 +1,5 @@
-// peeling/truth/chain.h - the steps from a scene to a stored pixel, each as the emulated device has it or without
-// rounding.
+// peeling/truth/chain.h - the steps (links) from a scene to a stored pixel, each computed as on the emulated device or
+// without rounding.
 // Rule     The links, each as on the device and exact:
 //          transform   positions by the view's vertex path; exact: matrices and products in binary64
 //          snap        viewport in binary32, positions rounded to the device's grid; exact: unsnapped, in binary64

@@ -1,3 +1,5 @@
+// peeling/truth/chain_list.cpp - generates fragments by the device's kernels or in binary64, depending on which links
+// are exact (chain_list.h).
 #include "peeling/truth/chain_list.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// peeling/truth/real_error.cpp - difference, PSNR and SSIM of two images of binary64 values (real_error.h).
 #include "peeling/truth/real_error.h"
 
 #include <algorithm>

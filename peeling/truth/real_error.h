@@ -5,7 +5,7 @@
 //          the three channels, in windows of 8 by 8 pixels every 4 pixels inside the image (one window over a smaller
 //          image), C1 = 0.01^2, C2 = 0.03^2, averaged over the windows. Sums run in row-major order in binary64.
 // Source   Wang et al. 2004, "Image Quality Assessment: From Error Visibility to Structural Similarity" (the formula;
-//          square windows without weights are ours).
+//          square windows without weights differ from the paper's).
 // Tests    tests/peeling/truth/real_error_test.cpp
 #pragma once
 #include <optional>

@@ -1,3 +1,4 @@
+// peeling/truth/real_geometry.cpp - transforms, clips and projects triangles in binary64 (real_geometry.h).
 #include "peeling/truth/real_geometry.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// peeling/truth/real_texture.cpp - texture lookups in binary64 (real_texture.h).
 #include "peeling/truth/real_texture.h"
 
 #include <algorithm>

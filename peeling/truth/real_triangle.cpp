@@ -1,3 +1,4 @@
+// peeling/truth/real_triangle.cpp - coverage and interpolation of a triangle with binary64 corners (real_triangle.h).
 #include "peeling/truth/real_triangle.h"
 
 #include <algorithm>

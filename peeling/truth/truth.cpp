@@ -1,3 +1,4 @@
+// peeling/truth/truth.cpp - composites a chain's fragments tile by tile (truth.h).
 #include "peeling/truth/truth.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// pipeline/device/check.cpp - one rule per feature, and the checks of check.h that apply them.
 #include "pipeline/device/check.h"
 
 #include <array>
@@ -202,7 +203,7 @@ Verdict check_samples(const DeviceProfile& profile, int samples) {
 }
 
 Verdict check_multisampling(const DeviceProfile& profile, int samples) {
-    // Not for float spans, whose binary32 positions cannot be moved exactly.
+    // Devices with float spans have no sample positions: their binary32 positions cannot be moved exactly.
     const auto has = [samples](const DeviceProfile& p) {
         return samples >= p.min_samples && samples <= p.max_samples &&
                p.raster.coverage == rasterizer::CoverageRule::snapped_edges;

@@ -2,8 +2,8 @@
 // rejected with the feature's name, before the first fragment.
 //
 // Rule     Every feature has one rule in check.cpp: description, extension, and the profiles that have it. A Refusal
-//          names those profiles. State of the era that no algorithm here needs (fog, colour sum, dither, logic op) is
-//          rejected on every profile.
+//          names those profiles. Fixed-function state that no algorithm here needs (fog, colour sum, dither, logic op)
+//          is rejected on every profile.
 // Source   devices.md 5 to 7, 9 and 10.
 // Tests    tests/pipeline/device/check_test.cpp
 #pragma once
@@ -41,7 +41,7 @@ enum class Feature : std::uint8_t {
     unordered_access,
 };
 
-// State of the era that no profile has (fragment-stages.md 12).
+// Fixed-function state that no profile has (fragment-stages.md 12).
 enum class UnsupportedState : std::uint8_t { fog, color_sum, dither, logic_op };
 
 struct Refusal {
@@ -57,7 +57,8 @@ struct Refusal {
     [[nodiscard]] std::string sentence(const DeviceProfile& profile) const;
 };
 
-// Thrown by a pass that its profile cannot run: an outcome of the run, not a crash. what() is the error message.
+// Thrown before a pass that the profile cannot run. Callers expect and report it; it is not a programming error. what()
+// is the message of Refusal::sentence.
 struct Refused : std::runtime_error {
     Refused(const DeviceProfile& profile, Refusal why)
         : std::runtime_error{why.sentence(profile)}, refusal{std::move(why)} {}

@@ -1,3 +1,5 @@
+// pipeline/device/profile_fields.cpp - the table of a profile's fields and their sources (profile_fields.h), and
+// conflicts between fields.
 #include "pipeline/device/profile_fields.h"
 
 #include <utility>

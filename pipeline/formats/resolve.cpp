@@ -1,3 +1,4 @@
+// pipeline/formats/resolve.cpp - computes one image from the images of several samples (resolve.h).
 #include "pipeline/formats/resolve.h"
 
 #include <algorithm>

@@ -12,8 +12,8 @@
 
 namespace strata::pipeline {
 
-// How a picture is made of its samples: the mean of a pixel's own, or NV20's filter of two, which looks at the
-// neighbours', too.
+// How a picture is computed from its samples. box: the mean of a pixel's own samples. quincunx: NV20's filter for two
+// samples per pixel, which also reads samples of the neighbouring pixels.
 enum class Resolve : std::uint8_t { box, quincunx };
 
 class ColorResolve {
@@ -38,10 +38,10 @@ class ColorResolve {
     Image sum_;  // sums of codes, or bits of binary32 sums
 };
 
-// Quincunx, for 8-bit codes of two samples, a corner and the centre: the centre counts a half and each corner of the
-// pixel an eighth, rounded half up. The corners on its right and below are those of the next pixels; beyond the last
-// column and row, of these again. `is_turned`: the picture's next row is the one before in memory
-// (fragment-stages.md 13.4).
+// Quincunx, for 8-bit codes of two samples, a corner and the centre: the centre has the weight 1/2 and each of the
+// pixel's four corners 1/8; the sum is rounded half up. The corners on the right and below are samples of the next
+// pixels; in the last column and row, the pixel's own corner sample takes their place. `is_turned`: the pixel below in
+// the picture is in the previous row of memory (fragment-stages.md 13.4).
 [[nodiscard]] Image quincunx(const Image& corner, const Image& centre, bool is_turned);
 
 // Keeps the nearer of two depths at every pixel; an empty `nearest` becomes `sample`. Under reversed depth greater

@@ -1,3 +1,4 @@
+// pipeline/fragments/find_fragments.cpp - the searches of find_fragments.h in sorted per-pixel lists.
 #include "pipeline/fragments/find_fragments.h"
 
 #include <algorithm>

@@ -72,8 +72,8 @@ struct StoredCodes {
     }
 };
 
-// All of these functions add to `waves`. This one adds the first fragment of every interval, if it is in front of the
-// stored code.
+// All functions below add fragments to `waves`. find_nearest adds the first fragment of every interval, if it is in
+// front of the stored code.
 void find_nearest(SortedLists& sorted, const KeyIntervals& intervals, const StoredCodes& stored, FragmentWaves& waves);
 // Adds the nearest fragment, by stored code, among those of intervals without a near bound whose compared depth is
 // behind `behind`.
@@ -86,7 +86,7 @@ void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, co
 // Adds the fragments with the first and with the last key of each interval, and the nearest and the farthest fragment
 // between. With `one_outside` also one fragment from outside, if the interval contains only the first key or is empty.
 void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);
-// The same for a range of compared depths.
+// find_ends for an interval of compared depths instead of keys.
 void find_ends_compared(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                         const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);
 

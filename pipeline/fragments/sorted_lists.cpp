@@ -1,3 +1,4 @@
+// pipeline/fragments/sorted_lists.cpp - builds and sorts the per-pixel lists of a tile (sorted_lists.h).
 #include "pipeline/fragments/sorted_lists.h"
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace {
     return behind != ranges.begin() && primitive < std::prev(behind)->last;
 }
 
-// Grows to the admitted size at once, as TileFragments does: an array that grows repeatedly leaves memory behind. Its
-// contents are not copied.
+// Reserves the size that the limit admits at once, as TileFragments does, because an array that grows repeatedly leaves
+// its old memory in the allocator. The contents are not copied.
 template <class T>
 void take_room(UninitializedVector<T>& array, std::size_t admitted) {
     constexpr std::size_t most_at_once = std::size_t{1} << 20;

@@ -1,3 +1,4 @@
+// pipeline/fragments/tile_cache.cpp - fetches, blends and writes back the tiles of tile_cache.h.
 #include "pipeline/fragments/tile_cache.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// pipeline/fragments/tile_fragments.cpp - records a tile's fragments and reads them back in batches (tile_fragments.h).
 #include "pipeline/fragments/tile_fragments.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void TileFragments::forget() noexcept {
     colors_ = Colors::unknown;
 }
 
-// A record that grew too large keeps that state until it is discarded, so its region does not try again.
+// A record that exceeded its limit stays invalid until it is discarded, so its region does not try to record again.
 void TileFragments::finish() {
     if (state_ == State::filling) state_ = State::complete;
 }
@@ -105,7 +106,7 @@ bool TileFragments::fits(std::size_t size) {
     return false;
 }
 
-// A record that is too large overwrites the same memory repeatedly.
+// A record that has exceeded its limit returns the same memory again and again: what is written there is not used.
 TileFragments::Space TileFragments::more_space(const Space& from) {
     constexpr std::size_t at_once = 4096;
     close(from.size);

@@ -1,3 +1,4 @@
+// pipeline/fragments/tile_parts.cpp - splits the tiles of a frame until their fragments fit into memory (tile_parts.h).
 #include "pipeline/fragments/tile_parts.h"
 
 #include <algorithm>

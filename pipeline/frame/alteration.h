@@ -33,7 +33,7 @@ struct Alteration {
     std::function<bool(Region& region, Target& target, ClearValue& value)> clear{};
     std::function<bool(Region& region, Target& from, Target& to)> copy{};
     std::function<void(Region& region, PassState& state, PassKind kind)> pass{};
-    // Replaces the program; calls `run` where the program itself should run.
+    // Called in place of the program for each batch; `run` executes the program itself.
     std::function<void(const ProgramCall& call, const std::function<void()>& run)> program{};
     // Called after a pass; `passed` fragments passed its tests.
     std::function<void(PassKind kind, std::uint64_t passed)> drawn{};

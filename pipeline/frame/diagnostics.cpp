@@ -1,3 +1,4 @@
+// pipeline/frame/diagnostics.cpp - merges diagnostics of regions into those of the frame (diagnostics.h).
 #include "pipeline/frame/diagnostics.h"
 
 #include <algorithm>

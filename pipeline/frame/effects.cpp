@@ -1,3 +1,4 @@
+// pipeline/frame/effects.cpp - counts the fragments of tiles and of their deepest pixel (effects.h).
 #include "pipeline/frame/effects.h"
 
 #include <algorithm>

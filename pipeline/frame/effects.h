@@ -4,9 +4,9 @@
 // Rule     `needed` simulates what the program declares and what enabled stages read. The needs of materials are
 //          decided by the tile's own triangles. `all` simulates everything: values that no stage reads, and each
 //          disabled stage with a state that changes nothing (alpha GEQUAL 0, stencil ALWAYS and KEEP, depth ALWAYS
-//          without a write, blending ONE and ZERO); bits and counters are the same. In a tile without opaque triangles
-//          the test against the opaque depth is skipped, and no depth is interpolated for it, if every triangle's bound
-//          (rasterizer/set_up/depth_bound.h) is less than the cleared 1.
+//          without a write, blending ONE and ZERO); bits and counters equal those of `needed`. In a tile without opaque
+//          triangles the test against the opaque depth is skipped, and no depth is interpolated for it, if every
+//          triangle's bound (rasterizer/set_up/depth_bound.h) is less than the cleared 1.
 // Source   execution.md 6.
 // Tests    tests/peeling/execution_test.cpp, tests/pipeline/frame/effects_test.cpp
 #pragma once

@@ -1,3 +1,4 @@
+// pipeline/frame/frame.cpp - Frame::rect, which needs the definition of PreparedDraw (frame.h).
 #include "pipeline/frame/frame.h"
 
 #include "pipeline/vertices/prepare.h"

@@ -18,7 +18,7 @@ struct Replay {
     std::uint64_t bytes = 0;            // per region; 0: every pass rasterizes
     rasterizer::FragmentNeeds needs{};  // union of the needs of the algorithm's passes
     std::uint64_t bytes_per_fragment =
-        0;  // bytes per fragment there: tiles are split until their fragments fit (tile_parts.h); 0: unknown
+        0;  // bytes per fragment of a record: tiles are split until their fragments fit (tile_parts.h); 0: unknown
 };
 
 struct PreparedDraw;
@@ -28,7 +28,7 @@ struct Frame {
     const DeviceProfile* profile = nullptr;
     const PreparedDraw* opaque = nullptr;
     const PreparedDraw* transparent = nullptr;
-    const PreparedDraw* second = nullptr;  // see second_list(), binned like it; null: `transparent`
+    const PreparedDraw* second = nullptr;  // see second_list(); has the same bins as `transparent`; null: `transparent`
     rasterizer::DepthRequest depth;  // the frame's depth buffer (path and format), and the path that programs compare
     CompareEpsilon epsilon;          // added by programs to a stored depth before they compare
     bool quantize_reference = true;  // false: programs compare a depth that is not rounded like the stored one
@@ -41,9 +41,9 @@ struct Frame {
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // limit of geometry passes; 0: none
     Effects effects = Effects::needed;
-    bool alike_where_blank =
-        false;  // a promise: where nothing is drawn, the body's result depends on a tile's size but not on its position
-    bool needs_frame = false;             // texture lookups may reach any pixel: always runs literally
+    bool alike_where_blank = false;  // a promise: in a tile without triangles the body's result depends on the tile's
+                                     // size but not on its position
+    bool needs_frame = false;        // texture lookups may reach any pixel: always runs literally
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;

@@ -29,7 +29,7 @@ struct FrameResult {
     Work work;
     std::vector<Diagnostic> diagnostics;
     Answers answers;     // to the frame's queries: a script for repeating a part of the frame
-    double watched = 0;  // the watch's share of the time spent in regions
+    double watched = 0;  // the share of the time spent in regions that Watch took
     PassLog pass_log;    // if Instruments request it
 };
 

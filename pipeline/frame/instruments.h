@@ -26,7 +26,7 @@ struct Observer;    // pipeline/frame/observer.h
 struct Alteration;  // pipeline/frame/alteration.h
 
 struct Instruments {
-    Effect once_more = Effect::none;  // simulated once more and never replayed, to time its cost
+    Effect once_more = Effect::none;  // simulated in addition to what passes need, without replay, to measure its cost
     bool log_passes = false;          // fill FrameResult::pass_log
     bool check_selections = false;    // also visit every fragment, and throw std::logic_error if a selection is wrong
     bool trust_idle = true;  // false: treat every algorithm as if it promised Idle::no, which finds broken promises

@@ -1,3 +1,5 @@
+// pipeline/geforce3/combiner.cpp - runs the stages of register combiners over a batch, and rejects invalid state
+// (combiner.h).
 #include "pipeline/geforce3/combiner.h"
 
 #include <algorithm>
@@ -153,7 +155,7 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
     }
     const CombinerMix rgb{operand(f.a, false), operand(f.b, false), operand(f.c, false), operand(f.d, false)};
     for (std::size_t c = 0; c < 3; ++c) loops.mix(rgb, c, out[c].data(), count);
-    // Alpha is just G: 0 G + (1 - 0) 0 + G.
+    // Alpha is G, computed by the same loop as 0 G + (1 - 0) 0 + G.
     const CombinerOperand g = operand(f.g, true), zero = operand({.source = Reg::zero}, true);
     loops.mix({zero, g, zero, g}, 3, out[3].data(), count);
 }

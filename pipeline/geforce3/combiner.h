@@ -7,7 +7,7 @@
 //          clamped to [0, 255].
 // Source   NV_register_combiners; combiners.md 1 to 3; chip-fragment.md 9 (bias, scales, inverts, MUX and sums as
 //          measured). Sums of products are exact and rounded once, to nearest: an odd divisor has no ties. That
-//          rounding is our assumption wherever two factors are fractions [A].
+//          rounding is an assumption wherever two factors are fractions.
 // Numbers  |A B + C D| <= 2 * 255^2, three times that for dot products: far below 2^31.
 // Tests    tests/pipeline/geforce3/combiner_test.cpp
 #pragma once

@@ -1,3 +1,5 @@
+// pipeline/geforce3/texture_environment.cpp - translates texture environments to register combiners
+// (texture_environment.h).
 #include "pipeline/geforce3/texture_environment.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// pipeline/geforce3/texture_shader.cpp - runs the four texture shader stages over a batch (texture_shader.h).
 #include "pipeline/geforce3/texture_shader.h"
 
 #include <algorithm>

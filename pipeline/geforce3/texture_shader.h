@@ -2,15 +2,16 @@
 // texture results, a culled fragment, or a replaced depth.
 //
 // Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q
-//          clamped to [0,1]; if the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own
-//          fit, equal at all 65,536 pixels of NV2A's capture Passthru; floor(255 x) differs at 9,656].
-//          CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input,
-//          not divided by q; _TEXTURE_2D, _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot);
-//          _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one division, floored or rounded
-//          like a depth write; outside the depth range, which includes NaN and zero divisors, the fragment dies (with
-//          depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 - LO^2)); as a colour
-//          it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
-// Source   NV_texture_shader 3.8.13; texture-shader.md 1 to 7; chip-geometry.md 4. Binary32 in the written order [A].
+//          clamped to [0,1]; if the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 (fitted to
+//          NV2A's capture Passthru: equal at all 65,536 pixels; floor(255 x) differs at 9,656). CULL_FRAGMENT: see
+//          CullMode. DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input, not divided by q;
+//          _TEXTURE_2D, _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot); _DEPTH_REPLACE: the stage's
+//          depth is dot of the stage before / own dot, one division, floored or rounded like a depth write; outside the
+//          depth range, which includes NaN and zero divisors, the fragment dies (with depth clamp it is clamped). A
+//          HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 - LO^2)); as a colour it is 0. A stage that is not
+//          consistent is NONE: (0, 0, 0, 0).
+// Source   NV_texture_shader 3.8.13; texture-shader.md 1 to 7; chip-geometry.md 4. Binary32 in the written order is
+//          assumed.
 // Tests    tests/pipeline/geforce3/texture_shader_test.cpp
 #pragma once
 #include <array>

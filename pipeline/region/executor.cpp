@@ -183,7 +183,8 @@ class FrameRun {
     }
 
     // The number of further answers known to be "yes": those of a region that had the frame's answers up to decision d,
-    // and whose own counts suffice. A hint that avoids runs: every answer is settled in its own round.
+    // and whose own counts suffice. The number is only a hint that avoids runs: every answer is settled in a round of
+    // its own.
     [[nodiscard]] std::size_t certain_after(std::size_t loop, std::size_t d, bool answer) const {
         std::size_t longest = 0;
         for (const auto& [r, fragments, runs] : regions_) {
@@ -308,8 +309,8 @@ class FrameRun {
         all.queries += log.queries;
     }
 
-    // A region that stopped early uses its last layer, an empty one, for every further layer of the frame. The end from
-    // which a layer was taken is known to the regions that took it.
+    // A region that stopped early uses its last layer, an empty one, for every further layer of the frame. The side of
+    // a layer comes from a region that found the layer.
     void gather_layers() {
         std::size_t layer_count = 0;
         for (const auto& [r, fragments, runs] : regions_)

@@ -3,10 +3,10 @@
 // Rule     literal: one region, the frame; every pass rasterizes everything. It is the definition. replay: one region
 //          per tile. A tile guesses the frame's answers to queries from its own counts; it runs again only if the frame
 //          decided otherwise and the tile was not idle. Within the limit of fragment memory, a tile rasterizes its
-//          transparent list once (region_source.cpp); without memory every pass rasterizes. One blank tile runs for all
-//          of its size if the frame promises that they are alike. Counters are those of literal execution. A frame that
-//          needs to be whole (Frame::needs_frame, or a lookup that leaves its region) runs literally, whatever was
-//          requested.
+//          transparent list once (region_source.cpp); without memory every pass rasterizes. Of all tiles without
+//          triangles, one of each size runs for the others of that size, if the frame promises that their results are
+//          equal (Frame::alike_where_blank). Counters are those of literal execution. A frame that needs to be whole
+//          (Frame::needs_frame, or a lookup that leaves its region) runs literally, whatever was requested.
 // Source   execution.md 4, 5 and 8.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once

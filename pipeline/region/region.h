@@ -77,8 +77,8 @@ class Region {
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
 
-    // The frame's answer to "is the count above the limit of --termination?". A promise belongs to the query that ends
-    // the loop, the last act of its iteration: a region that keeps it may stop there. A query for a branch within the
+    // The frame's answer to "is the count above the limit of --termination?". Idle::yes is for the query that ends the
+    // loop, the last call of an iteration: the region may stop there. A query that only selects a branch within the
     // iteration uses Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle) { return loop_.any(count, idle); }
     void begin_iteration() { loop_.begin_iteration(); }
@@ -88,7 +88,7 @@ class Region {
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1) { return loop_.limit_reached(passes); }
     void keep_layer(Target color, Target depth, Side side = Side::front) { loop_.keep_layer(color, depth, side); }
-    // After the last layer: the contents of this region in layers that only other regions have.
+    // Called after the last layer: sets the contents that this region has in layers that only other regions have found.
     void keep_no_layer(Target color, Target depth) { loop_.keep_no_layer(color, depth); }
     // Sets the final colour, the algorithm's result. If the image has another format, a quad converts it.
     void publish(Target color);

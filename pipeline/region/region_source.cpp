@@ -42,7 +42,7 @@ std::span<const std::uint32_t> Source::triangles_of(const PreparedDraw& list) co
 }
 
 // Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
-// index, so a range of primitives is a run of triangles.
+// index, so a range of primitives is a contiguous range of triangles.
 void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink given) {
     stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
@@ -154,7 +154,7 @@ DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& l
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }
 
-// For passes over the list that may be recorded.
+// Called in passes over a list that may be recorded.
 void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
     PathTaken& taken = shared_.statistics.taken;
     taken.rasterizes = true;

@@ -46,8 +46,8 @@ class Source {
     void route_submitted(const PassState& state);
     void finish_submitted(const PassState& state);
 
-    // Passes that rows can draw: the first function tests whether the pass is suitable, the second draws it and returns
-    // the counts.
+    // For passes that rows can draw: the first function of each pair tests whether the pass is suitable, the second
+    // draws the pass and returns the counts.
     [[nodiscard]] bool depth_suits_rows(const PassState& state);
     [[nodiscard]] rasterizer::DepthDrawn draw_depth_rows(const PassState& state);
     [[nodiscard]] bool sums_suit_rows(const PassState& state);

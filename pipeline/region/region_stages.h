@@ -30,7 +30,7 @@ class Stages {
     ~Stages();
 
     void begin_pass(const PassState& state, PassKind kind);
-    void begin_look() noexcept { kind_ = PassKind::full_screen; }  // for a query that is not a pass
+    void begin_look() noexcept { kind_ = PassKind::full_screen; }  // for Region::trace_pixels, which is not a pass
     // Sets what is known about the depth test of this pass, and whether its colours use textures and shadow.
     void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
     void set_material(bool samples_textures, bool takes_shadow) noexcept {

@@ -56,7 +56,7 @@ void require(Verdict verdict, const DeviceProfile& profile) {
     if (verdict) throw Refused{profile, *std::move(verdict)};
 }
 
-// Sets up one draw: the soup is one run of one material, and its window positions are final.
+// Sets up one draw: all triangles have one material, and the soup's positions are window positions.
 PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout, const DrawState& state,
                       rasterizer::TriangleSoup soup) {
     rasterizer::RasterState raster;
@@ -143,8 +143,8 @@ void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
         }
 }
 
-// The increase of the counter `blended` is the number of fragments that pass all tests, which an occlusion query
-// counts.
+// The number of fragments that pass all tests, as an occlusion query counts them, is the increase of the counter
+// `blended`.
 std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup) {
     const FloatEnvironment ours;
     State& s = *state_;

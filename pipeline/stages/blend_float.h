@@ -7,7 +7,7 @@
 //          two give 0x7fffffff; max(-0,+0) = +0, min = -0; MinMaxNan::destination: d unless s is less, or greater.
 //          SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
 // Source   fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is
-//          our assumption.
+//          assumed.
 // Tests    tests/pipeline/stages/blend_float_test.cpp
 #pragma once
 #include <bit>

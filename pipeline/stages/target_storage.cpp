@@ -1,3 +1,4 @@
+// pipeline/stages/target_storage.cpp - storage, clears and reads of a render target's planes (target_storage.h).
 #include "pipeline/stages/target_storage.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// pipeline/textures/shadow_compare.cpp - compares a batch's coordinates with a depth texture (shadow_compare.h).
 #include "pipeline/textures/shadow_compare.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// pipeline/textures/shadow_stage.cpp - the coordinates of a light's map and the product of colours with its comparison
+// (shadow_stage.h).
 #include "pipeline/textures/shadow_stage.h"
 
 #include "pipeline/vertices/matrix.h"

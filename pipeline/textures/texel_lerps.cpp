@@ -1,3 +1,4 @@
+// pipeline/textures/texel_lerps.cpp - lookups by linear interpolations of texels (texel_lerps.h).
 #include "pipeline/textures/texel_lerps.h"
 
 #include "pipeline/formats/srgb.h"

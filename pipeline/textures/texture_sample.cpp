@@ -1,3 +1,4 @@
+// pipeline/textures/texture_sample.cpp - nearest and bilinear colour lookups for a batch (texture_sample.h).
 #include "pipeline/textures/texture_sample.h"
 
 #include "pipeline/formats/srgb.h"

@@ -1,3 +1,4 @@
+// pipeline/vertices/check_list.cpp - the checks of check_list.h, field by field.
 #include "pipeline/vertices/check_list.h"
 
 #include <algorithm>

@@ -60,7 +60,7 @@ struct Material {
 struct Instance {
     std::uint32_t mesh = 0, material = 0;
     Matrix model = identity;
-    // Its triangles, in the listed order, are front to back at every pixel from the scene's own view.
+    // true: the triangles in the listed order are front to back at every pixel, seen from the scene's own view.
     bool arrives_sorted = false;
     friend bool operator==(const Instance&, const Instance&) = default;
 };

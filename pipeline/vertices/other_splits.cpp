@@ -1,3 +1,4 @@
+// pipeline/vertices/other_splits.cpp - rotates corners, flips diagonals and moves windows (other_splits.h).
 #include "pipeline/vertices/other_splits.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// pipeline/vertices/other_splits.h - submits the same surfaces in a different form. This should not change a depth, but
-// does if the device's interpolation depends on it.
+// pipeline/vertices/other_splits.h - submits the same surfaces in a different form. The depths should not change, but
+// do if the device's interpolation depends on that form.
 //
 // Rule     Rotating: corners (0, 1, 2) of every triangle become (k, k + 1, k + 2) modulo 3. Flipping: two consecutive
 //          triangles of a mesh form a quad if they share a side in opposite directions and are in one plane; (a, b, c)
 //          and (c, d, a) become (b, c, d) and (d, a, b). In one plane means: the distance of d from the plane of the
-//          first triangle is at most 2^-20 of their longest side, and the quad is convex [A]. Moving: every window
-//          position moves by whole pixels, exactly, and so does the viewport.
+//          first triangle is at most 2^-20 of their longest side, and the quad is convex; both limits are assumed.
+//          Moving: every window position moves by whole pixels, exactly, and so does the viewport.
 // Tests    tests/pipeline/vertices/other_splits_test.cpp
 #pragma once
 #include <cstdint>

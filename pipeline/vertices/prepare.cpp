@@ -1,3 +1,4 @@
+// pipeline/vertices/prepare.cpp - transforms, lights, sets up and bins a draw list (prepare.h).
 #include "pipeline/vertices/prepare.h"
 
 #include <algorithm>

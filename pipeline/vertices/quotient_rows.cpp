@@ -1,3 +1,4 @@
+// pipeline/vertices/quotient_rows.cpp - the matrices of quotient_rows.h.
 #include "pipeline/vertices/quotient_rows.h"
 
 #include "pipeline/vertices/matrix.h"

@@ -1,3 +1,4 @@
+// pipeline/vertices/texgen.cpp - generates and transforms texture coordinates (texgen.h).
 #include "pipeline/vertices/texgen.h"
 
 #include <stdexcept>

@@ -1,3 +1,5 @@
+// pipeline/vertices/vertex_stage.cpp - transforms and lights the vertices of a mesh, by kernels of vertex_lanes.h where
+// they apply (vertex_stage.h).
 #include "pipeline/vertices/vertex_stage.h"
 
 #include <algorithm>

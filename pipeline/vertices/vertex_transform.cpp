@@ -1,3 +1,4 @@
+// pipeline/vertices/vertex_transform.cpp - products of matrices and positions by the vertex paths (vertex_transform.h).
 #include "pipeline/vertices/vertex_transform.h"
 
 #include "rasterizer/base/nv20_arithmetic.h"

@@ -1,3 +1,5 @@
+// rasterizer/base/float_environment.cpp - sets and restores the floating-point control register of the calling thread
+// (MXCSR on x86, FPCR on AArch64, the C library elsewhere), as float_environment.h declares.
 #include "rasterizer/base/float_environment.h"
 
 #include <cfenv>

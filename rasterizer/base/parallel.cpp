@@ -1,3 +1,4 @@
+// rasterizer/base/parallel.cpp - parallel loops (parallel.h) on oneTBB, or on thread_loop.h in builds without it.
 #include "rasterizer/base/parallel.h"
 
 #include "rasterizer/base/float_environment.h"
@@ -27,8 +28,8 @@ namespace strata {
 namespace {
 
 // oneTBB starts its threads when a loop needs them. If the system refuses one, the process aborts or hangs at exit.
-// Therefore the threads are started experimentally first. After a refusal oneTBB is limited to the number that the
-// system granted, and more are not requested again.
+// Therefore the threads are first started as a trial (available_threads in thread_loop.h). After a refusal oneTBB is
+// limited to the number that the system granted, and more are not requested again.
 class Supply {
   public:
     // The number of threads to use: at most `threads`, at least 1, including the caller.

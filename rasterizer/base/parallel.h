@@ -15,7 +15,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 // The number of threads that the argument `threads` of parallel_for means.
 [[nodiscard]] int thread_count(int threads) noexcept;
 
-// Set when the system refuses to start `asked` threads: later loops of this process run on `had`. Both are 0 otherwise.
+// Set if the system refused to start the `asked` threads that a loop requested: later loops of this process use `had`
+// threads. Both are 0 if that never happened.
 struct ThreadShortage {
     int asked = 0, had = 0;
 };

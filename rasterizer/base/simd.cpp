@@ -1,3 +1,5 @@
+// rasterizer/base/simd.cpp - which instruction sets the processor supports, and which one the calling thread uses
+// (simd.h).
 #include "rasterizer/base/simd.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// rasterizer/base/thread_loop.cpp - parallel loops on POSIX threads (thread_loop.h).
 #include "rasterizer/base/thread_loop.h"
 
 #include <pthread.h>

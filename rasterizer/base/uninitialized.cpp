@@ -1,3 +1,5 @@
+// rasterizer/base/uninitialized.cpp - memory for the vectors of uninitialized.h, from oneTBB's allocator or from
+// operator new.
 #include "rasterizer/base/uninitialized.h"
 
 #include <cstdint>

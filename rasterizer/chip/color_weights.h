@@ -4,9 +4,9 @@
 //          nearest, a half rounds up. Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the
 //          two others), exactly. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 +
 //          w2 c2 + 128) >> 8, divided by 255 in binary32. If 1/w differs: perspective_weights.h; or
-//          PerspectiveColor::edge_products [A]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64,
-//          truncated to 24 bits; or weight_products [A]: p_i = b_i (1/w_i) truncated to 24 bits, normalized with a
-//          reciprocal truncated to 28 bits.
+//          PerspectiveColor::edge_products (assumed): p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64,
+//          truncated to 24 bits; or weight_products (assumed): p_i = b_i (1/w_i) truncated to 24 bits, normalized with
+//          a reciprocal truncated to 28 bits.
 // Source   attributes.md 2.2 to 2.5; chip-depth.md 8; chip-float-depth.md 7.
 // Tests    tests/rasterizer/chip/color_weights_test.cpp
 #pragma once

@@ -1,3 +1,5 @@
+// rasterizer/chip/w_buffer.cpp - the slope of w between two pixels of a triangle, for the polygon offset of NV2A's w
+// buffer (w_buffer.h).
 #include "rasterizer/chip/w_buffer.h"
 
 #include "rasterizer/set_up/polygon_offset.h"

@@ -3,7 +3,8 @@
 // Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product truncated
 //          toward zero to 2^(ex - 28), where ex is the largest exponent of w1 and the products; the sum truncated to 24
 //          bits, offset added (offset_value.h). w_i are binary32, times the pass's scale, rounded once. The slope of
-//          the offset is |w(P) - w(Q)| of two adjacent pixels along the steeper axis, one number per triangle (WSlope).
+//          the offset is |w(P) - w(Q)|, where P and Q are two adjacent pixels along the steeper axis: one number per
+//          triangle (WSlope).
 // Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the positions of P and Q are not certain
 //          there.
 // Numbers  Differences and products are in binary64: exact except for the remainder's product, which is rounded.

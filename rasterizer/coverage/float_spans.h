@@ -3,8 +3,9 @@
 //
 // Rule     CoverageRule::float_spans: corners sorted by y; 1/2 is added to x and subtracted from y. Each side runs over
 //          whole rows from ceil(y); row k of a part covers int(left + k slope) up to but excluding int(right + k
-//          slope). First come the rows from the lowest y to the middle corner, then those to the highest. Nothing is
-//          drawn if 1 / area is not finite. int truncates toward zero; every operation is rounded to binary32.
+//          slope). The rows from the lowest y to the middle corner come first, then those from there to the highest y.
+//          Nothing is drawn if 1 / area is not finite. int truncates toward zero; every operation is rounded to
+//          binary32.
 // Source   mesa-rasterizers.md 3.1 and 3.2.
 // Numbers  Positions are within the guard band of +-2^15 pixels, but slopes are unbounded: x is clamped to the box
 //          before the conversion to an integer.
@@ -121,8 +122,8 @@ class FloatSpans {
     return {static_cast<int>(x0) - 2, static_cast<int>(y0) - 2, static_cast<int>(x1) + 3, static_cast<int>(y1) + 3};
 }
 
-// Triangles whose boxes have at most this many pixels in each direction are rasterized at set-up, to find their covered
-// pixels (coverage.md 7.1).
+// Triangles whose boxes have at most this many pixels in each direction are rasterized during set-up, to find the box
+// of their covered pixels (coverage.md 7.1).
 inline constexpr int seen_size = 12;
 // The bounding box of the covered pixels within `box`; empty if there are none.
 [[nodiscard]] inline Rect covered_box(const FloatSpans& spans, const Rect& box) {

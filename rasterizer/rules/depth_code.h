@@ -41,7 +41,7 @@ template <class Limit>
 struct DepthConversion {
     CodeKind kind;
     Limit least, greatest;  // the depth range, in the unit of the values
-    double scale, half;     // buffer units per unit of the values; what rounding adds before truncation
+    double scale, half;     // buffer units per unit of the values; the rounding term, added before truncation
     bool wraps = false;     // DepthLimits::wrap: the range is not applied; to_wrapped_code is used
     [[nodiscard]] constexpr bool is_fixed() const noexcept {
         return kind == CodeKind::fixed || kind == CodeKind::fixed_product || kind == CodeKind::fixed_cut_product;

@@ -1,9 +1,10 @@
+// rasterizer/rules/hypotheses.cpp - the alternatives of every uncertain constant, as listed by hypotheses.h.
 #include "rasterizer/rules/hypotheses.h"
 
 namespace strata::rasterizer {
 namespace {
 
-// The list being built; appends a changed copy of the given rules if the change has an effect.
+// The list that is built. `vary` appends a changed copy of the given rules if the change has an effect.
 struct List {
     std::vector<NamedHypothesis> all;
 

@@ -78,7 +78,7 @@ struct RasterState {
     bool range_culls_triangles = false;
     // Units of a w buffer per unit of clip w; 0: chosen so that w of the far plane is depth 1 (depth.md 4.8).
     float w_scale = 0.0f;
-    // For single-sided runs: double-sided ones are never culled.
+    // For single-sided triangles: double-sided ones are never culled.
     CullFace cull = CullFace::back;
     FrontFace front_face = FrontFace::counter_clockwise;
     PolygonOffset polygon_offset;

@@ -1,3 +1,4 @@
+// rasterizer/set_up/check_input.cpp - the checks of check_input.h, field by field.
 #include "rasterizer/set_up/check_input.h"
 
 #include <algorithm>

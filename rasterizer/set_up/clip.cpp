@@ -1,3 +1,5 @@
+// rasterizer/set_up/clip.cpp - clips triangles to the planes of clip.h, by the guard band's arithmetic (binary64) or by
+// one of the two of the view volume (binary32).
 #include "rasterizer/set_up/clip.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 //          near, far and the user's, in binary32; the new corner starts from the end that is nearer to the plane.
 //          view_volume_depth_first: near, far, -x = w, x = w, y = w, -y = w and the user's; corner = (dO I - dI O) (1 /
 //          (dO - dI)), each operation rounded.
-// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The bound on w is ours [A]: it keeps 1 / w and u /
-//          w finite.
+// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The bound on w is assumed: it keeps 1 / w and u / w
+//          finite.
 // Tests    tests/rasterizer/set_up/clip_test.cpp
 #pragma once
 #include <array>
@@ -22,7 +22,7 @@ namespace strata::rasterizer {
 
 // One plane for w, two for near and far, four for the guard band, six of the user.
 inline constexpr int max_clip_planes = 1 + 2 + 4 + 6;
-// [A] Keeps 1 / w and u / w finite (coverage.md 2.2).
+// Assumed. This least w keeps 1 / w and u / w finite (coverage.md 2.2).
 inline constexpr float least_w = 0x1p-64f;
 
 // A convex polygon, corners in order along its boundary. Each plane adds at most one corner to the three of the

@@ -1,3 +1,5 @@
+// rasterizer/set_up/depth_bound.cpp - an upper bound on the depth of fragments from corners, slopes and rounding errors
+// (depth_bound.h).
 #include "rasterizer/set_up/depth_bound.h"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// rasterizer/set_up/geometry.cpp - set_up of geometry.h: sets up vertices and triangles in parallel chunks and
+// concatenates the results in submission order.
 #include "rasterizer/set_up/geometry.h"
 
 #include <algorithm>
@@ -39,7 +41,8 @@ class Listing {
         return soup_.order.empty() ? start_.back() : soup_.order.size();
     }
 
-    // `run` is where the previous triangle was found; the next one is mostly in the same run.
+    // `run` is the index of the TriangleRun in which the previous triangle was found; the next triangle is mostly in
+    // the same one.
     [[nodiscard]] SourceTriangle at(std::uint32_t primitive, std::size_t& run) const {
         const std::uint32_t number = soup_.order.empty() ? primitive : soup_.order[primitive];
         if (number < start_[run] || number >= start_[run + 1])

@@ -1,3 +1,4 @@
+// rasterizer/set_up/setup.cpp - the steps of setup.h for one vertex, one triangle, or a group of triangles.
 #include "rasterizer/set_up/setup.h"
 
 #include <algorithm>
@@ -302,8 +303,8 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
     return fate;
 }
 
-// If all three vertices are outside the same plane, the triangle is outside. Otherwise only the planes that some vertex
-// is outside of clip it.
+// If all three vertices are outside the same plane, the triangle is outside. Otherwise it is clipped only against the
+// planes that some vertex is outside of.
 void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     const auto& [a, b, c] = triangle.vertex;
     const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;

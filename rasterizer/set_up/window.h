@@ -136,7 +136,8 @@ class WindowTransform {
     [[nodiscard]] constexpr int counted_row(int y) const noexcept { return is_turned_ ? rows_ - 1 - y : y; }
     [[nodiscard]] constexpr bool is_turned() const noexcept { return is_turned_; }
 
-    // The rules for the kernel of sixteen vertices; empty if this transform needs more than they describe.
+    // The rules for the kernel that sets up sixteen vertices (plain_vertices.h); empty if this transform needs more
+    // than those rules can express.
     [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
         if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate ||
             is_turned_)

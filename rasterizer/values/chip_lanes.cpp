@@ -1,3 +1,5 @@
+// rasterizer/values/chip_lanes.cpp - the inputs of NV2A's kernels for one triangle, from its geometry (chip_lanes.h),
+// and the definition for corners that are not narrow.
 #include "rasterizer/values/chip_lanes.h"
 
 #include "rasterizer/chip/window_z.h"

@@ -1,3 +1,4 @@
+// rasterizer/values/cut_coordinates.cpp - interpolates texture coordinates as NV2A does (cut_coordinates.h).
 #include "rasterizer/values/cut_coordinates.h"
 
 #include <algorithm>

@@ -6,11 +6,11 @@
 //          a product is the sum of its factors' exponents. If the three corner values have the same bits, the result is
 //          that value. If w differs: the exact plane, or with PerspectiveCoordinates::cut_products the same sum with
 //          the weights of perspective_weights.h.
-// Source   [M] our own fit of captures: the sign of 314 coordinates that are 0 except for rounding (ClipPlane), 40,960
-//          coordinates that are integers (checkerboards of CombinerOps and SpecialInputs), 52 shadow comparisons: 0
-//          wrong.
+// Source   Fitted to hardware captures by this project: the sign of 314 coordinates that are 0 except for rounding
+//          (ClipPlane), 40,960 coordinates that are integers (checkerboards of CombinerOps and SpecialInputs), 52
+//          shadow comparisons: 0 wrong.
 // Numbers  Differences, products and 1 - b are computed in binary64: exact if exponents are less than 29 apart, else
-//          rounded [A].
+//          rounded, which is assumed.
 // Tests    tests/rasterizer/values/cut_coordinates_test.cpp
 #pragma once
 #include <array>

@@ -1,3 +1,5 @@
+// rasterizer/values/depth_paths.cpp - the depth paths that compute a value before its code (depth_paths.h): quotients r
+// / q, and planes in binary32 and binary64.
 #include "rasterizer/values/depth_paths.h"
 
 #include "rasterizer/set_up/window.h"

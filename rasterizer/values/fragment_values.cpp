@@ -1,3 +1,5 @@
+// rasterizer/values/fragment_values.cpp - fills depths, codes and references of a batch (fragment_values.h) in the path
+// that the constructor chose.
 #include "rasterizer/values/fragment_values.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // Rule     Depth: shader_z is the exact plane in [0,1] units, rounded once, not clamped; the code is by the requested
 //          path, clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane
 //          rounded once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values
-//          with the same bits give that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped
+//          with the same bits give that constant (assumed). PlaneOrigin::unsnapped: the planes start at the unsnapped
 //          positions, are evaluated in binary64 and rounded once. Other values of PlaneRule: planes of float_planes.h;
 //          PerspectiveDivide::reciprocal multiplies by the rounded reciprocal of the plane of 1/w. Colours by 8-bit
 //          weights: color_weights.h; coordinates by truncated weights: cut_coordinates.h. depth_replace drops a
@@ -23,7 +23,7 @@
 
 namespace strata::rasterizer {
 
-// A triangle that is being drawn.
+// The triangle whose fragments are computed, with its edges or weights.
 struct DrawnTriangle {
     const Geometry& geometry;
     std::uint32_t index;

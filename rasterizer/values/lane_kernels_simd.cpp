@@ -136,7 +136,7 @@ HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const 
 
 bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
            const DepthLanes& out) noexcept {
-    // Short runs of fragments have few vectors within one row.
+    // In batches of few fragments hardly any vector is within one row.
     const bool by_rows = count >= 64;
     if (w.kind == PixelWeights::Kind::unsnapped)
         return by_rows ? depth_of<true, true>(w, plane, x, y, count, out)

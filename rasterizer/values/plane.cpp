@@ -1,3 +1,5 @@
+// rasterizer/values/plane.cpp - rounds planes to binary32 or to codes (plane.h): the filter in binary64 for every lane,
+// then exact sums for the lanes that it cannot decide.
 #include "rasterizer/values/plane.h"
 
 #include "rasterizer/base/exact_sum.h"

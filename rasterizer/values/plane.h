@@ -114,7 +114,7 @@ struct ToBinary32 {
 
 // Rounds the plane at every lane to binary32. Returns the number of lanes that needed exact arithmetic.
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* out) noexcept;
-// Rounds the plane at every lane to codes. Returns the same number.
+// Rounds the plane at every lane to codes. Returns the number of lanes that needed exact arithmetic.
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
                 std::uint32_t* out) noexcept;
 

@@ -1,3 +1,5 @@
+// rasterizer/walk/rows.cpp - when passes may draw by rows (rows.h), and the exact arithmetic that their kernels fall
+// back to.
 #include "rasterizer/walk/rows.h"
 
 #include <bit>

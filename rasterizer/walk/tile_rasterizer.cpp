@@ -1,3 +1,5 @@
+// rasterizer/walk/tile_rasterizer.cpp - TileRasterizer::draw (tile_rasterizer.h): triangles to batches of fragments, by
+// one of three walks: small triangles as bit masks, large ones by spans, float spans.
 #include "rasterizer/walk/tile_rasterizer.h"
 
 #include <optional>
@@ -63,8 +65,8 @@ class TileRasterizer::Pass {
         batch_.material = material;
     }
 
-    // Consecutive rows are emitted together. If the two parts of a triangle share a row, the second part starts a new
-    // run there.
+    // Consecutive rows are emitted together. If the upper and the lower part of a triangle share a row, the rows of the
+    // second part are emitted separately.
     void draw_float_spans(std::uint32_t index) {
         const FloatSpans spans{geometry_.positions(geometry_.triangles[index])};
         if (!spans.is_drawn()) return;
@@ -95,8 +97,8 @@ class TileRasterizer::Pass {
         const RegionOrigin origin{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
                                   group_.y0[k] - static_cast<std::uint32_t>(region.y0),
                                   static_cast<std::uint32_t>(region.width()), record.primitive};
-        // The batch already contains a pixel or has too little room: it is flushed. An empty batch has room for any
-        // small triangle.
+        // emit fails if the batch already contains one of the triangle's pixels or has too little room: the batch is
+        // flushed. An empty batch has room for any small triangle.
         if (!small_.emit(group_, k, origin, owner_.claims_, batch_)) {
             flush();
             static_cast<void>(small_.emit(group_, k, origin, owner_.claims_, batch_));

@@ -32,7 +32,7 @@ class SinkStream : public Imf::OStream {
     void seekp(std::uint64_t position) override {
         if (!sink_.seek(static_cast<std::int64_t>(position))) throw std::runtime_error("a seek failed");
     }
-    // All rows have been given; the tables of blocks follow.
+    // Called after the last row; the tables of blocks follow.
     void end() noexcept { is_ending_ = true; }
     [[nodiscard]] bool lacks_block() const noexcept { return lacks_block_; }
 
@@ -89,9 +89,9 @@ void write_deep(Imf::MultiPartOutputFile& file, int number, const PartSource& pa
     }
 }
 
-// Every part has two blocks of 16 rows in work per thread, about three times (with their compressed form and the
-// compressor's state), from the file's first byte to its last. So a single image uses all threads, and a file of many
-// layers uses few, so that the memory added is small beside the layers themselves.
+// While a file is written, every part has two blocks of 16 rows per thread in memory, about three times (with their
+// compressed form and the compressor's state). Therefore a single image uses all threads and a file of many layers uses
+// few: the additional memory is small compared with the layers.
 int threads_for(std::span<const PartSource> parts) {
     const int all = start_threads();
     return parts.size() == 1 ? all : std::min(all, parts.front().header.height / 1024);

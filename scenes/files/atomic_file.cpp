@@ -1,3 +1,4 @@
+// scenes/files/atomic_file.cpp - writes a temporary file and renames it, or copies it to a stream (atomic_file.h).
 #include "scenes/files/atomic_file.h"
 
 #include <fcntl.h>

@@ -40,7 +40,7 @@ class AtomicFile {
     bool flush() noexcept;  // writes the buffer to the file
     void put_in_place();    // renames the temporary file
     void send() noexcept;   // copies the temporary file to a pipe or a device
-    // note_failure() keeps the first errno; discard() closes and unlinks what was not committed.
+    // note_failure() keeps the first errno; discard() closes and unlinks a file that was not committed.
     void note_failure() noexcept;
     void discard() noexcept;
 
@@ -51,12 +51,12 @@ class AtomicFile {
     std::unique_ptr<std::byte[]> buffer_;
     std::size_t used_ = 0;
     std::int64_t begin_ = 0;
-    // Its slot in the table of unfinished files; -1 after commit().
+    // This file's slot in the table of unfinished files; -1 after commit().
     int slot_ = -1;
     int failure_ = 0;  // errno of the first failure
 };
 
-// From now on `told` is called with the path of every committed file, on the thread that wrote it.
+// From now on `told` is called for every committed file with its path, on the thread that wrote the file.
 void report_written_files(void (*told)(const std::string& path)) noexcept;
 
 // True for "-" and for the names by which Linux calls standard output.

@@ -79,7 +79,7 @@ class DeepRows {
     std::vector<Words> words_;
 };
 
-// The offset of each of our words in a fragment of the file.
+// The offset of each word of Words in a fragment of the file.
 std::array<std::size_t, words_per_fragment> offsets_in(const PartHeader& header, const std::string& path) {
     std::array<std::size_t, words_per_fragment> offsets{};
     for (std::size_t i = 0; i < words_per_fragment; ++i) {

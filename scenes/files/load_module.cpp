@@ -47,7 +47,8 @@ std::vector<std::filesystem::path> places(const char* file) {
 
 }  // namespace
 
-// A function that is already in the program (tests link the module) takes precedence.
+// If the program already contains the function, because it is linked with the module as some tests are, that one is
+// used.
 void* module_function(const ModuleFile& module) {
     if (void* const linked = ::dlsym(RTLD_DEFAULT, module.symbol)) return linked;
     std::error_code ignored;

@@ -1,3 +1,5 @@
+// scenes/files/picture_attributes.cpp - the text chunks of a PNG and the attributes of an EXR file, by which an image
+// states how it was made (picture_attributes.h).
 #include "scenes/files/picture_attributes.h"
 
 #include <span>

@@ -1,3 +1,4 @@
+// scenes/files/strict_json.cpp - a JSON parser callback that rejects repeated keys and deep nesting (strict_json.h).
 #include "scenes/files/strict_json.h"
 
 #include <functional>

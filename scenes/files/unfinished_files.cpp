@@ -1,3 +1,5 @@
+// scenes/files/unfinished_files.cpp - the table of unfinished files and the signal handlers that remove them
+// (unfinished_files.h).
 #include "scenes/files/unfinished_files.h"
 
 #include <dirent.h>
@@ -18,7 +20,7 @@ namespace strata::scenes {
 namespace {
 
 // A path that a signal handler can read: fixed storage and lock-free flags. A path is written while its slot is
-// `claimed`, when the handler skips it, and read only while `active`. 16 slots suffice, because a run writes a few
+// `claimed`, when the handler skips it, and read only while `active`. 16 slots suffice, because a command writes a few
 // files at a time.
 struct Slot {
     std::atomic<int> state{empty};
@@ -32,8 +34,8 @@ std::atomic<int> group{0};           // the process group to kill; 0: none
 std::atomic<bool> is_ending{false};  // set when a handler removes files: other threads must not create new ones
 
 // Does not use the C library's directory streams, which allocate. Entries that other processes add meanwhile are found
-// in another round. The deepest folder that we write is scene/ in a pack in a suite; a command run by the user may
-// create deeper ones.
+// in another round. The deepest folder that the program writes is scene/ in a pack in a suite; a command run by the
+// user may create deeper ones.
 void remove_tree(int parent, const char* name, int levels) noexcept {
     if (::unlinkat(parent, name, 0) == 0 || levels == 0) return;
     const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);

@@ -15,7 +15,7 @@ namespace strata::scenes {
 // The same for a folder, which is removed with its contents; links in it are not followed.
 [[nodiscard]] int enter_unfinished_folder(const std::string& path);
 
-// Removes either from the table; the file or folder itself is not changed.
+// Removes the file or folder in slot `place` from the table; the file or folder itself is not changed.
 void forget_unfinished_file(int place) noexcept;
 
 // The process group that is sent SIGKILL first, because it may write to those folders. There is one at a time; 0: none.

@@ -1,4 +1,4 @@
-// scenes/gltf/accessor.cpp - see accessor.h.
+// scenes/gltf/accessor.cpp - decodes elements from buffer bytes and applies sparse values (accessor.h).
 #include "scenes/gltf/accessor.h"
 
 #include <cassert>

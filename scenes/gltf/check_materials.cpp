@@ -30,7 +30,7 @@ void check_image(const JsonAt& image, const JsonAt& root) {
     if (has_view && !media_type) image.place().fail("UNSATISFIED_DEPENDENCY", "mimeType next to bufferView", "none");
 }
 
-// The angle's limit is that of our sine and cosine (numbers/elementary.h).
+// The limit of the angle is that of scenes/numbers/elementary.h.
 void check_texture_transform(const JsonAt& info) {
     const auto extensions = info.find("extensions");
     const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
@@ -42,7 +42,7 @@ void check_texture_transform(const JsonAt& info) {
     if (const auto set = transform->find("texCoord")) (void)set->integer(0, max_bytes);
 }
 
-// The only texture that is drawn, and so the only one whose image must be readable.
+// The base colour texture is the only one that is drawn, and so the only one whose image must be readable.
 void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     const std::size_t texture = info.member("index").index(root.size("textures"));
     if (const auto set = info.find("texCoord")) (void)set->integer(0, max_bytes);

@@ -1,3 +1,4 @@
+// scenes/gltf/instancing.cpp - checks and reads the attributes of EXT_mesh_gpu_instancing (instancing.h).
 #include "scenes/gltf/instancing.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// scenes/gltf/material.cpp - see material.h.
+// scenes/gltf/material.cpp - materials, textures and their conversion to the frame's colour space (material.h).
 #include "scenes/gltf/material.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// scenes/gltf/mesh.cpp - see mesh.h.
+// scenes/gltf/mesh.cpp - corners in drawing order, the vertices that they use, and their attributes (mesh.h).
 #include "scenes/gltf/mesh.h"
 
 #include <algorithm>

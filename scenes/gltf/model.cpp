@@ -1,4 +1,4 @@
-// scenes/gltf/model.cpp - see model.h.
+// scenes/gltf/model.cpp - reduces the checked JSON to what the scene needs and passes it to tinygltf (model.h).
 #include "scenes/gltf/model.h"
 
 namespace strata::scenes {

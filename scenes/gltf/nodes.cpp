@@ -1,4 +1,4 @@
-// scenes/gltf/nodes.cpp - see nodes.h.
+// scenes/gltf/nodes.cpp - transforms of nodes, and the views of cameras (nodes.h).
 #include "scenes/gltf/nodes.h"
 
 #include <algorithm>

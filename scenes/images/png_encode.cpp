@@ -1,3 +1,4 @@
+// scenes/images/png_encode.cpp - passes rows and texts to libpng (png_encode.h).
 #include "scenes/images/png_encode.h"
 
 #include <png.h>

@@ -1,3 +1,5 @@
+// scenes/images/scaled_pnm.cpp - reads the header and the samples of a PNM file and scales them to its maxval
+// (scaled_pnm.h).
 #include "scenes/images/scaled_pnm.h"
 
 #include <charconv>

@@ -1,3 +1,4 @@
+// scenes/models/load_model_module.cpp - loads the model module on first use (load_model_module.h).
 #include "scenes/models/load_model_module.h"
 
 #include "scenes/files/load_module.h"

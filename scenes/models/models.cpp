@@ -1,3 +1,4 @@
+// scenes/models/models.cpp - converts the meshes, materials and textures that Assimp has read to a scene (models.h).
 #include "scenes/models/models.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// scenes/packs/json_fields.cpp - numbers as decimals and bits, and the errors of a field that is missing or unknown
+// (json_fields.h).
 #include "scenes/packs/json_fields.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// scenes/packs/new_folder.cpp - creates, fills and, unless kept, removes the folder of new_folder.h.
 #include "scenes/packs/new_folder.h"
 
 #include "rasterizer/base/input_error.h"

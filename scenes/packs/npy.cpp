@@ -1,3 +1,4 @@
+// scenes/packs/npy.cpp - headers and elements of NumPy's array files (npy.h).
 #include "scenes/packs/npy.h"
 
 #include <fmt/format.h>

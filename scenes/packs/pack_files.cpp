@@ -1,3 +1,4 @@
+// scenes/packs/pack_files.cpp - digests, byte sums and the list of a pack's files (pack_files.h).
 #include "scenes/packs/pack_files.h"
 
 #include <xxhash.h>

@@ -1,3 +1,4 @@
+// scenes/packs/pack_scene.cpp - writes the scene of a pack as JSON and arrays, and reads it back (pack_scene.h).
 #include "scenes/packs/pack_scene.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// scenes/packs/plain_triangles.cpp - meshes from NumPy arrays and from lists in JSON (plain_triangles.h).
 #include "scenes/packs/plain_triangles.h"
 
 #include <fmt/format.h>

@@ -85,8 +85,8 @@ Triangle next_triangle(SplitMix64& random, Triangle& last, bool first) noexcept 
     return last;
 }
 
-// One triangle in eight is opaque. Alpha is never 0: a step of 2^-24 is added. All random numbers are drawn before the
-// choice, so that each colour consumes the same number of them.
+// One triangle in eight is opaque. Alpha is never 0: a step of 2^-24 is added. All random numbers are generated before
+// the choice, so that each colour consumes the same number of them.
 pipeline::Rgba next_color(SplitMix64& random) noexcept {
     pipeline::Rgba color{};
     for (std::size_t i = 0; i < 3; ++i) color[i] = random.unit();

@@ -1,12 +1,12 @@
-// peeling/algorithms/fixed_passes/adaptive.cpp - a pixel's visibility as a step function of k nodes, then colours by
-// what they are seen through. Salvi, Montgomery and Lefohn 2011, "Adaptive Transparency", sections 3 and 4;
-// algorithms.md 19.2.
+// peeling/algorithms/fixed_passes/adaptive.cpp - adaptive transparency: pass 1 approximates the transmittance of every
+// pixel as a step function of depth with k nodes, pass 2 weights each fragment by the transmittance in front of it.
+// Salvi, Montgomery and Lefohn 2011, "Adaptive Transparency", sections 3 and 4; algorithms.md 19.2.
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), float targets that blend.
-// Passes     2. Exact where no pixel has more than k visible fragments and no two of one depth: equal depths do not
-//            hide one another.
-// Invariant  a pixel's nodes are sorted by depth; transmittance of node e = what everything up to its depth lets
-//            through, or less where nodes were removed. The last one's is exact.
+// Passes     2. Exact if no pixel has more than k visible fragments and no two of them have equal depths. Of equal
+//            depths none dims the others.
+// Invariant  a pixel's nodes are sorted by depth. The transmittance of a node is that of all fragments up to its depth,
+//            or less if nodes were removed; that of the last node is exact.
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -26,7 +26,7 @@ struct CurveTargets {
     std::array<Target, 2> through{};
 };
 
-// Pass 1, fragment after fragment.
+// Pass 1 inserts the fragments into the curve of their pixel one after another (visibility_curve.h).
 void build(Region& region, const CurveTargets& t) {
     const auto count = static_cast<std::size_t>(t.depths.nodes), first = t.depths.target_count();
     PassState state = node_state(region, t.depths);
@@ -51,7 +51,7 @@ void build(Region& region, const CurveTargets& t) {
     }));
 }
 
-// Pass 2: (c a, a) times what the nodes before the fragment let through.
+// Pass 2 sums (c a, a) of each fragment times the transmittance of the last node in front of it.
 void accumulate(Region& region, const CurveTargets& t, Target sums) {
     const auto count = static_cast<std::size_t>(t.depths.nodes), first = t.depths.target_count();
     region.clear(sums, {});

@@ -1,10 +1,11 @@
-// peeling/algorithms/fixed_passes/atomic_loop.cpp - the k nearest depths of a pixel by atomic minimum, then their
-// colours; the rest is a tail. Kubisch 2014 (atomic_loop); Maule et al. 2013 (hybrid_transparency: a core of k, the
-// rest averaged); algorithms.md 21.
+// peeling/algorithms/fixed_passes/atomic_loop.cpp - pass 1 finds the k nearest depths of every pixel by atomic minimum,
+// pass 2 stores the colours of the fragments with these depths; all other fragments form the tail. Kubisch 2014
+// (atomic_loop); Maule et al. 2013 (hybrid_transparency: a core of k, the rest averaged); algorithms.md 21.
 //
-// Needs      unordered access with atomics; float targets that blend for a tail of sums.
-// Passes     2. Exact where no pixel has more than k visible fragments. Equal depths: one entry with the colour of the
-//            last submitted (atomic_loop); an entry each, the first submitted in front (hybrid_transparency).
+// Needs      unordered access with atomics; float targets that blend for the tails that are sums.
+// Passes     2. Exact if no pixel has more than k visible fragments. Fragments of equal depth share an entry, which
+//            shows the last submitted (atomic_loop), or have an entry each, the first submitted in front
+//            (hybrid_transparency).
 // Invariant  after pass 1 a pixel's entries are its k least codes in order; after pass 2 each has the colour of a
 //            fragment of its code.
 #include "peeling/algorithms/entry.h"
@@ -30,7 +31,7 @@ void find_depths(Region& region, AtomicEntries& entries) {
     }));
 }
 
-// What finds no entry is drawn into the tail.
+// Pass 2: stores the colour of each fragment that has an entry, and adds the others to the tail.
 void find_colors(Region& region, AtomicEntries& entries, const TailTargets& tail) {
     PixelSet overflow{region};
     PassState state = tail.state();

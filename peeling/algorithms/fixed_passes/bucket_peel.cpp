@@ -1,10 +1,11 @@
-// peeling/algorithms/fixed_passes/bucket_peel.cpp - a pixel's depths in 16 equal buckets, of each the nearest and the
-// farthest fragment. Liu et al. 2009, "Efficient Depth Peeling via Bucket Sort", sections 3 and 4; algorithms.md 24.
+// peeling/algorithms/fixed_passes/bucket_peel.cpp - divides the depth range of every pixel into 16 equal buckets and
+// composites the nearest and the farthest fragment of each. Liu et al. 2009, "Efficient Depth Peeling via Bucket Sort",
+// sections 3 and 4; algorithms.md 24.
 //
-// Needs      float MAX blending, eight render targets, separate alpha blending. Made for a GeForce8.
-// Passes     6: the bounds of depth, the buckets, four of colours. Equal depths: merged. A bucket's fragments between
-//            its ends are lost, and told.
-// Invariant  before colour pass p `accumulated` = buckets 0 ... 4 p - 1, composited.
+// Needs      float MAX blending, eight render targets, separate alpha blending. GeForce8 has all of these.
+// Passes     6: one for the bounds of depth, one for the buckets, four for colours. Fragments of equal depth are
+//            merged. Fragments between the nearest and the farthest of a bucket are lost, which is reported.
+// Invariant  before colour pass p, `accumulated` = buckets 0 to 4 p - 1, composited.
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -19,7 +20,7 @@ using namespace pipeline;
 
 namespace {
 
-constexpr std::size_t targets = buckets / 2, in_a_pass = 4;  // two buckets a target: (-near, far) of each
+constexpr std::size_t targets = buckets / 2, in_a_pass = 4;  // two buckets per target: (-near, far) of each
 constexpr Rgba empty_ends{-2, -2, -2, -2};
 PassState max_state(const Region& region) {
     PassState state;
@@ -61,8 +62,8 @@ void fill_buckets(Region& region, Target bounds, const std::array<Target, target
     }));
 }
 
-// Colours of four buckets' ends, eight targets: times alpha, MAX over 0. A single fragment is its bucket's near end
-// alone.
+// One colour pass: the premultiplied colours of the nearest and the farthest fragments of four buckets, in eight
+// targets under MAX. The only fragment of a bucket is written as its nearest.
 void find_colors(Region& region, Target bounds, std::size_t first, const std::array<Target, targets>& ends,
                  const std::array<Target, targets>& colors, PixelSet& lost) {
     PassState state = max_state(region);
@@ -76,7 +77,7 @@ void find_colors(Region& region, Target bounds, std::size_t first, const std::ar
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float depth = depth_as_float(in.code[i], format), a = in.color[3][i];
             const std::size_t bucket = bucket_of(reversed, depth, own.color(0)[0][i], own.color(0)[1][i]) - first;
-            std::size_t place = targets;  // of no target
+            std::size_t place = targets;  // no target: the fragment writes 0
             if (bucket < in_a_pass && in.code[i] < own.depth(3)[i]) {
                 const ColorLanes& both = own.color(static_cast<int>(1 + bucket / 2));
                 const std::size_t channel = bucket % 2 * 2;
@@ -94,7 +95,8 @@ void find_colors(Region& region, Target bounds, std::size_t first, const std::ar
     }));
 }
 
-// The eight layers of a pass, near to far; each is neutral where it has no fragment.
+// Composites the eight layers of a colour pass UNDER, near to far. A pixel without a fragment in a layer has 0 there,
+// which UNDER ignores.
 void composite(Region& region, const std::array<Target, targets>& colors, Target accumulated) {
     for (const Target layer : colors) {
         PassState state;

@@ -1,11 +1,13 @@
-// peeling/algorithms/fixed_passes/linked_list.cpp - every fragment in a list of its pixel, sorted at the end; or as
-// many as there are nodes for. Yang et al. 2010, "Real-Time Concurrent Linked List Construction on the GPU";
-// algorithms.md 20.
+// peeling/algorithms/fixed_passes/linked_list.cpp - stores every visible fragment in a list of its pixel, as long as
+// nodes are left, and sorts and composites the lists after the pass. Yang et al. 2010, "Real-Time Concurrent Linked
+// List Construction on the GPU"; algorithms.md 20.
 //
 // Needs      unordered access with atomics.
-// Passes     1. Equal depths: the first submitted in front. Exact unless nodes run out, which is reported.
-// Invariant  a pixel's list holds its fragments in submission order. A device's order is that of its threads [A].
-// Lists are looked up range by range where a region's do not fit into the memory: the pass is counted once.
+// Passes     1. Of equal depths the first submitted is in front. Exact unless nodes run out, which is reported.
+// Invariant  a pixel's list contains its fragments in submission order. This is assumed: on a device the order depends
+//            on its threads.
+// If the lists of a region do not fit into the memory, they are built for one range of pixels after another, and the
+// pass is counted once.
 #include <algorithm>
 
 #include "peeling/algorithms/entry.h"
@@ -30,19 +32,20 @@ struct Lists {
     [[nodiscard]] PixelRange range_from(std::uint32_t first) const {
         return next_range(coverage, region.rect().width(), first, region.frame().list_bytes / sizeof(KeyedFragment));
     }
-    // Fragments that a list of its own limit holds, of those that a pixel has.
+    // The number of `count` fragments for which the pixel's own limit leaves nodes.
     [[nodiscard]] std::size_t most(std::size_t count) const {
         const auto limit = static_cast<std::size_t>(options.pixel_nodes);
         return limit == 0 ? count : std::min(count, limit);
     }
 };
 
-// The order in which a frame's nodes are given out: by triangle, and row by row within one [A].
+// The order in which fragments take the nodes of a frame: by triangle, and row by row within a triangle (assumed).
 std::uint64_t node_key(const KeyedFragment& fragment, std::uint32_t pixel) {
     return std::uint64_t{fragment.primitive} << 32 | pixel;
 }
 
-// With a limit of nodes a frame, the region is the frame: which fragment gets the last one.
+// Finds the fragment that takes the last node of the frame, if --frame-nodes limits them. The region is then the whole
+// frame.
 void give_out_nodes(Lists& lists) {
     if (lists.options.frame_nodes == 0) return;
     std::vector<std::uint64_t> keys;
@@ -62,15 +65,15 @@ void give_out_nodes(Lists& lists) {
     lists.last_node = *last;
 }
 
-// OVER, straight source, each operation rounded to binary32; alpha as 0.8 has it.
+// OVER with a source that is not premultiplied, each operation rounded to binary32; alpha by algorithms.md 0.8.
 void blend_over(Rgba& below, const Rgba& source) noexcept {
     const float a = source[3];
     for (Rgba::length_type c = 0; c < 3; ++c) below[c] = a * source[c] + (1.0f - a) * below[c];
     below[3] = scalar::alpha_over(1.0f - a, below[3]);
 }
 
-// The fragments of a pixel by depth, all of them or those that have nodes; those that have none are blended behind if
-// the rule says so.
+// Composites one pixel: the fragments that have nodes, sorted by depth, or the nearest of all fragments
+// (Overflow::drop_far). With Overflow::blend the fragments without a node are first blended onto the background.
 void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments, Target result,
                    PixelSet& overflow, FragmentOrder& order) {
     std::size_t nodes = lists.most(fragments.size());

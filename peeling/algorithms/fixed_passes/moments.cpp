@@ -1,11 +1,12 @@
-// peeling/algorithms/fixed_passes/moments.cpp - absorbance as power moments of depth, then colours by what they are
-// seen through. Muenstermann et al. 2018, "Moment-Based Order-Independent Transparency", sections 3 and 4;
-// algorithms.md 22.
+// peeling/algorithms/fixed_passes/moments.cpp - pass 1 sums power moments of the absorbance over depth, pass 2 weights
+// each fragment by the transmittance in front of it that the moments imply. Muenstermann et al. 2018, "Moment-Based
+// Order-Independent Transparency", sections 3 and 4; algorithms.md 22.
 //
 // Needs      binary32 additive blending, up to three render targets.
-// Passes     2. An approximation: what lets through in all is exact but for rounding, where it lies is a bound of the
-//            moments.
-// Invariant  with A = -log(1 - a) and z = 2 d - 1: after pass 1 total = sum of A, moments = sums of A z, A z^2 ...
+// Passes     2. An approximation: the transmittance of all fragments together is exact except for rounding, its
+//            distribution over depth is reconstructed from the moments.
+// Invariant  with the absorbance A = -log(1 - a) and z = 2 d - 1, where d is the window depth: after pass 1, total =
+//            sum of A, moments = sums of A z, A z^2 ...
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -19,9 +20,11 @@ using namespace pipeline;
 
 namespace {
 
-constexpr float least_through = 0x1p-24f;  // of a fragment: an opaque one has no finite absorbance
+constexpr float least_through = 0x1p-24f;  // least transmittance of a fragment: that of an opaque one, 0, has no finite
+                                           // absorbance
 
-// The moments of a distribution that keep the matrix positive where roundings would not; and how much of them is taken.
+// The moments of a fixed distribution, of which a small share is mixed into those of every pixel, so that rounding
+// cannot make the Hankel matrix indefinite; and the share.
 constexpr std::array<double, 8> fixed_4{0, 0.375, 0, 0.375}, fixed_6{0, 0.48, 0, 0.451, 0, 0.45},
     fixed_8{0, 0.75, 0, 0.67666666666666664, 0, 0.63, 0, 0.60030303030303034};
 struct Bias {
@@ -67,7 +70,7 @@ float place_of(const Frame& frame, float shader_z) noexcept {
     return 2.0f * depth_behind_near(is_reversed(frame), shader_z) - 1.0f;
 }
 
-// Pass 1: binary32, powers from the left.
+// Pass 1, in binary32: each power is the previous one times z.
 void add_moments(Region& region, const MomentTargets& t) {
     PassState state = visible_state(region);
     state.color = {t.total, t.powers[0], t.powers[1]};
@@ -87,7 +90,7 @@ void add_moments(Region& region, const MomentTargets& t) {
     }));
 }
 
-// What lets through before depth z.
+// The transmittance in front of depth z at lane i.
 float through(const MomentTargets& t, const Loads& own, std::size_t i, float z, const Bias& bias,
               double overestimation) {
     const float total = own.color(0)[0][i];
@@ -101,7 +104,7 @@ float through(const MomentTargets& t, const Loads& own, std::size_t i, float z, 
     return exp_of_minus(total * static_cast<float>(share));
 }
 
-// Pass 2.
+// Pass 2 sums (c w, w), where w is alpha times the transmittance in front of the fragment.
 void accumulate(Region& region, const MomentTargets& t, const AlgorithmOptions& options, Target sums) {
     region.clear(sums, {});
     PassState state = visible_state(region);
@@ -121,7 +124,8 @@ void accumulate(Region& region, const MomentTargets& t, const AlgorithmOptions& 
     }));
 }
 
-// The colours cover as much as all absorbances say: everything, where they are that of an opaque fragment.
+// Resolves the sums. The transmittance over the background is exp(-total), or 0 if the total is at least the absorbance
+// of an opaque fragment.
 void composite(Region& region, Target sums, Target total, Target result) {
     PassState state;
     state.color[0] = result;

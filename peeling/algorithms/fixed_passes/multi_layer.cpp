@@ -1,11 +1,12 @@
-// peeling/algorithms/fixed_passes/multi_layer.cpp - the k nearest fragments so far at every pixel; one more merges the
-// two farthest. Salvi and Vaidyanathan 2014, "Multi-Layer Alpha Blending"; algorithms.md 19.
+// peeling/algorithms/fixed_passes/multi_layer.cpp - keeps k layers per pixel, sorted by depth, during one pass; a
+// fragment that does not fit makes the two farthest merge. Salvi and Vaidyanathan 2014, "Multi-Layer Alpha Blending";
+// algorithms.md 19.
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), a float target for depths.
-// Passes     1. Exact where no pixel has more than k visible fragments, or arrives front to back. Equal depths: the
-//            last submitted in front.
-// Invariant  a pixel's nodes are sorted by depth; under one another they are what has arrived, but for the order of
-//            what was merged.
+// Passes     1. Exact if no pixel has more than k visible fragments, or if all are submitted front to back. Of equal
+//            depths the last submitted is in front.
+// Invariant  a pixel's nodes are sorted by depth; composited UNDER one another they give the fragments drawn so far,
+//            except for the order of merged ones.
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -18,11 +19,11 @@ using namespace pipeline;
 
 namespace {
 
-constexpr int most_layers = 6;  // and two targets of their depths
+constexpr int most_layers = 6;  // because eight targets include two of depths
 
 struct Node {
     float depth = no_node;
-    Rgba layer{0, 0, 0, 1};  // premultiplied; alpha lets through
+    Rgba layer{0, 0, 0, 1};  // premultiplied; alpha is the transmittance
 };
 
 struct NodeTargets {
@@ -48,14 +49,14 @@ Rgba merged(const Rgba& front, const Rgba& back) noexcept {
     return both;
 }
 
-// A new node goes before all that are not nearer; what is then behind the last one is merged into it.
+// Inserts a node in front of all that are not nearer. The node that no longer fits is merged into the last one.
 void insert(std::array<Node, most_nodes>& nodes, std::size_t count, Node node) noexcept {
     for (std::size_t e = 0; e < count; ++e)
         if (node.depth <= nodes[e].depth) std::swap(node, nodes[e]);
     if (node.depth != no_node) nodes[count - 1].layer = merged(nodes[count - 1].layer, node.layer);
 }
 
-// The one geometry pass: a program reads and writes all nodes of its pixel, fragment after fragment.
+// The geometry pass: the program reads and writes all nodes of its pixel, in submission order.
 void insert_all(Region& region, const NodeTargets& t) {
     const auto count = static_cast<std::size_t>(t.depths.nodes), first = t.depths.target_count();
     PassState state = node_state(region, t.depths);
@@ -79,7 +80,7 @@ void insert_all(Region& region, const NodeTargets& t) {
     }));
 }
 
-// One quad: all layers from the nearest on, and what they let through of the background.
+// The full-screen pass: composites all layers from the nearest on over the background.
 void composite(Region& region, const NodeTargets& t, Target result) {
     PassState state;
     state.color[0] = result;

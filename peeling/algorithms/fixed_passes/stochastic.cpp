@@ -1,13 +1,13 @@
-// peeling/algorithms/fixed_passes/stochastic.cpp - every fragment covers some of a pixel's samples by chance; colours
-// by how many see them. Enderton et al. 2010, "Stochastic Transparency", sections 3 and 4 (alpha correction);
-// algorithms.md 23.
+// peeling/algorithms/fixed_passes/stochastic.cpp - pass 1 stores the nearest depth of every sample, where a fragment
+// covers samples chosen at random; pass 2 weights each fragment by the share of samples in which nothing is in front of
+// it. Enderton et al. 2010, "Stochastic Transparency", sections 3 and 4 (alpha correction); algorithms.md 23.
 //
-// Needs      float MAX blending, then targets of unequal blends.
-// Passes     2. An approximation: unbiased before the correction; exact where no pixel has more than one visible
-//            fragment.
-// Invariant  after pass 1 sample s = the nearest depth among the fragments whose mask has s; through = product of (1 -
-//            a) is exact. The samples are channels of float targets under MAX, which leave what multisampled depth with
-//            LESS and a mask would [A].
+// Needs      float MAX blending, and targets with different blends in one pass.
+// Passes     2. An approximation: its expected value is exact before the alpha correction. Exact if no pixel has more
+//            than one visible fragment.
+// Invariant  after pass 1, sample s = the nearest depth of the fragments whose mask includes s; `through` = the product
+//            of (1 - a), which is exact. Assumed: the samples are channels of float targets under MAX, with the values
+//            that a multisampled depth buffer with LESS and a sample mask would have.
 #include <array>
 
 #include "peeling/algorithms/entry.h"
@@ -22,11 +22,11 @@ using namespace pipeline;
 
 namespace {
 
-constexpr float no_depth = -2.0f;  // of a sample that nothing covers: behind every -depth
+constexpr float no_depth = -2.0f;  // a sample that no fragment covers: less than every -depth
 
 struct Samples {
     int count = 0;
-    std::array<Target, 2> depths{};  // -depth, a sample a channel
+    std::array<Target, 2> depths{};  // -depth, one sample per channel
     [[nodiscard]] std::size_t targets() const noexcept { return static_cast<std::size_t>(count + 3) / 4; }
 };
 
@@ -61,7 +61,7 @@ Samples cover(Region& region, const AlgorithmOptions& options) {
     return samples;
 }
 
-// (c a, a) times the share of samples in which nothing nearer lies.
+// Pass 2: sums (c a, a) times the share of samples that have no nearer depth; `through` is the product of (1 - a).
 void accumulate(Region& region, const Samples& samples, Target sums, Target through) {
     region.clear(sums, {});
     region.clear(through, {.color = {1, 1, 1, 1}});
@@ -86,7 +86,7 @@ void accumulate(Region& region, const Samples& samples, Target sums, Target thro
     }));
 }
 
-// Alpha correction: the colour is the average of what was seen, and covers as much as all alphas say.
+// The alpha correction: the colour is the weighted average of the fragments, and its coverage is 1 - through.
 void composite(Region& region, Target sums, Target through, Target result) {
     PassState state;
     state.color[0] = result;

@@ -1,7 +1,8 @@
-// peeling/algorithms/fixed_passes/weighted_blended.cpp - one pass, every colour of a pixel replaced by their average
-// weighted by alpha and depth. McGuire and Bavoil 2013, sections 3 and 4; algorithms.md 18.
+// peeling/algorithms/fixed_passes/weighted_blended.cpp - one pass: the colour of a pixel is the average of its
+// fragments, weighted by alpha and depth. McGuire and Bavoil 2013, sections 3 and 4; algorithms.md 18.
 //
-// Needs      fp16 additive blending, two render targets: of unequal blends, or of one blend that treats alpha apart.
+// Needs      fp16 additive blending, two render targets; weighted_blended needs different blends in them,
+//            weighted_blended_shared one blend with separate factors for alpha.
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour, whatever their alphas.
 // Invariant  sums = sum of (c a, a) w(z, a), revealage = product of (1 - a), in submission order and in the targets'
 //            precision.
@@ -17,11 +18,13 @@ using namespace pipeline;
 
 namespace {
 
-// Where the two products of a pass stand. apart: the sum of weights beside the sums of colours, the revealage in the
-// other target; shared: the revealage is the alpha of the sums, and the other target sums the weights.
+// Which target stores the sum of weights, and which the revealage. apart: the alpha of the first target is the sum of
+// weights, and the second target is the revealage. shared: the alpha of the first target is the revealage, and the
+// second target is the sum of weights.
 enum class Form : std::uint8_t { apart, shared };
 
-// Targets that blend differently, or sums of colours and a product of alphas in both.
+// apart: the first target adds, the second multiplies by 1 - alpha. shared: both add colours and multiply their alpha
+// by 1 - alpha.
 std::array<Blend, max_color_targets> blends_of(Form form) noexcept {
     constexpr BlendTerm sum{BlendEquation::add, BlendFactor::one, BlendFactor::one};
     constexpr BlendTerm by_color{BlendEquation::add, BlendFactor::zero, BlendFactor::one_minus_src_color};
@@ -55,7 +58,8 @@ void accumulate(Region& region, const ListingInputs& inputs, Form form, Target s
     }));
 }
 
-// Reads the two targets and the background; reports the pixels whose sums are above their format's greatest number.
+// The full-screen pass: resolves the two targets over the background, and reports the pixels whose sums exceed the
+// greatest number of their format.
 void resolve(Region& region, Form form, const PassState& state) {
     const bool half = region.storage(state.reads[0]).format() == Format::rgba16f;
     const float limit = half ? 65504.0f : std::numeric_limits<float>::max();

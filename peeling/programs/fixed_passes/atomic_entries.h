@@ -1,8 +1,10 @@
-// peeling/programs/fixed_passes/atomic_entries.h - buffers of k entries a pixel that programs fill by atomic minimum:
-// codes, then their colours.
+// peeling/programs/fixed_passes/atomic_entries.h - per-pixel arrays of k entries in which fragment programs collect the
+// k nearest fragments by atomic minimum: a first pass collects depth codes, a second one their colours (atomic_loop,
+// hybrid_transparency).
 //
-// Rule     Each pixel's entries are the k least codes in ascending order, whatever the submission order. Equal codes
-//          share an entry, in which the last colour stays, or have one each, filled in submission order.
+// Rule     After the first pass a pixel's entries are its k least depth codes in ascending order, whatever the
+//          submission order. Fragments of equal codes share an entry, which keeps the colour of the last one submitted
+//          (EqualCodes::share), or take an entry each, in submission order (EqualCodes::apart).
 // Source   algorithms.md 21.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once
@@ -18,7 +20,7 @@ inline namespace strict {
 
 enum class EqualCodes : std::uint8_t { share, apart };
 
-// Buffers of a region, k entries a pixel.
+// The entries of all pixels of a region: k codes and k colours per pixel. `pixel` is an index in the region.
 class AtomicEntries {
   public:
     AtomicEntries(const pipeline::Region& region, int k, EqualCodes equal)
@@ -28,7 +30,8 @@ class AtomicEntries {
           colors_(codes_.size()),
           taken_(codes_.size()) {}
 
-    // A program's loop of atomicMin: what it puts out of an entry goes on to the next.
+    // The loop of atomicMin in the program of the first pass: a code replaces the first greater one, and the replaced
+    // code moves on to the next entry.
     void add_code(std::uint32_t pixel, std::uint32_t code) {
         for (std::size_t e = pixel * k_; e < (pixel + 1) * k_; ++e) {
             const std::uint32_t before = std::exchange(codes_[e], std::min(codes_[e], code));
@@ -36,7 +39,8 @@ class AtomicEntries {
             code = std::max(before, code);
         }
     }
-    // False if the fragment has no entry: it belongs to the tail.
+    // Stores the colour in the entry of the fragment's code. Returns false if there is none: the fragment belongs to
+    // the tail (tail.h).
     bool add_color(std::uint32_t pixel, std::uint32_t code, const pipeline::Rgba& color) {
         for (std::size_t e = pixel * k_; e < (pixel + 1) * k_ && codes_[e] <= code; ++e) {
             if (codes_[e] != code || (equal_ == EqualCodes::apart && taken_[e])) continue;
@@ -46,7 +50,8 @@ class AtomicEntries {
         }
         return false;
     }
-    // From the nearest on, in binary32: C += T (a c), T *= 1 - a.
+    // Composites the entries from the nearest on, in binary32: C += T (a c), T *= 1 - a, where T is the transmittance.
+    // Returns (C, T).
     [[nodiscard]] pipeline::Rgba composite(std::uint32_t pixel) const {
         pipeline::Rgba all{0, 0, 0, 1};
         for (std::size_t e = pixel * k_; e < (pixel + 1) * k_ && codes_[e] != empty; ++e) {

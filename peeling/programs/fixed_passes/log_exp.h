@@ -1,10 +1,11 @@
-// peeling/programs/fixed_passes/log_exp.h - logarithm and exponential of binary32 without libm: the same bits on every
-// machine.
+// peeling/programs/fixed_passes/log_exp.h - logarithm and exponential of binary32 numbers without the C library, so
+// that the bits are the same on every machine. Used by the algorithm moments.
 //
-// Rule     Computed in binary64 by series whose rest is below 2^-62, each operation rounded, and rounded once to
-//          binary32: within 0.5 + 2^-20 units in the last place of the real value.
-// Numbers  log: x = m 2^e, m in (sqrt(1/2), sqrt(2)]; 2 atanh(s) with s = (m - 1) / (m + 1), |s| < 0.1716, to s^27.
-//          exp: x = r - k log 2, |r| < 0.35, Taylor to r^14; 0 where x > 105.
+// Rule     Both are series in binary64, each operation rounded, truncated where the remainder is below 2^-62; the sum
+//          is rounded once to binary32. The result is within 0.5 + 2^-20 units in the last place of the real value.
+// Numbers  log: x = m 2^e with m in (sqrt(1/2), sqrt(2)], and log m = 2 atanh(s) with s = (m - 1) / (m + 1), |s| <
+//          0.1716, up to s^27. exp: exp(-x) = 2^-k exp(r) with r = k log 2 - x, |r| < 0.35, Taylor series up to r^14; 0
+//          if x > 105.
 // Tests    tests/peeling/algorithms/moments_test.cpp
 #pragma once
 #include <bit>
@@ -17,7 +18,7 @@ inline namespace strict {
 
 inline constexpr double log_of_2 = 0x1.62e42fefa39efp-1;
 
-// -log(x), of a normal x in (0, 1].
+// -log(x). Precondition: x is a normal number in (0, 1].
 [[nodiscard]] constexpr float minus_log(float x) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     int exponent = static_cast<int>(bits >> 23) - 127;
@@ -32,7 +33,7 @@ inline constexpr double log_of_2 = 0x1.62e42fefa39efp-1;
     return static_cast<float>(-(exponent * log_of_2 + 2.0 * (s * series)));
 }
 
-// exp(-x), of x >= 0.
+// exp(-x). Precondition: x >= 0.
 [[nodiscard]] constexpr float exp_of_minus(float x) noexcept {
     if (!(x <= 105.0f)) return 0.0f;
     const auto halvings = static_cast<int>(static_cast<double>(x) / log_of_2 + 0.5);

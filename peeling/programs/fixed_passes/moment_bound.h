@@ -1,12 +1,13 @@
-// peeling/programs/fixed_passes/moment_bound.h - how much of a distribution lies before a depth, of which only power
-// moments are known.
+// peeling/programs/fixed_passes/moment_bound.h - estimates which share of a distribution over depth is nearer than a
+// given depth, if only the power moments of the distribution are known. Used by the algorithm moments.
 //
-// Rule     Of all distributions with these moments the canonical one with z in its support: n + 1 points z = x0, x1 ...
-//          xn for 2 n moments. Its mass below z, and `overestimation` of that at z. In binary64, each operation
-//          rounded; a pivot of the factorization that is not positive counts as 2^-40, and the share is clamped to [0,
-//          1].
-// Source   Muenstermann et al. 2018 and its supplement; Peters and Klein 2015, Algorithm 1. The roots are found by
-//          Newton's method from above and deflation, in place of closed forms with trigonometric functions [A].
+// Rule     Many distributions have the same 2 n moments. The one used is the canonical distribution that has mass at z:
+//          n + 1 points z = x0, x1 ... xn. The share is its mass below z plus `overestimation` times its mass at z,
+//          clamped to [0, 1]. Arithmetic is binary64, each operation rounded; a pivot of the factorization that is not
+//          positive is replaced by 2^-40.
+// Source   Muenstermann et al. 2018 and its supplement; Peters and Klein 2015, Algorithm 1. Assumed: the roots are
+//          found by Newton's method and deflation, where the paper's shaders use closed forms with trigonometric
+//          functions.
 // Tests    tests/peeling/algorithms/moments_test.cpp
 #pragma once
 #include <algorithm>
@@ -23,8 +24,8 @@ using Coefficients = std::array<double, most_moments / 2 + 1>;  // of powers 0, 
 
 inline namespace strict {
 
-// H c = (1, z, z^2 ... z^n), H the Hankel matrix of the moments, by H = L D L^T: the polynomial whose roots the other
-// points are.
+// The coefficients c of the polynomial whose roots are the points x1 ... xn: the solution of H c = (1, z, z^2 ... z^n),
+// where H is the Hankel matrix of the moments, by the factorization H = L D L^T.
 [[nodiscard]] inline Coefficients kernel_polynomial(const Moments& b, std::size_t n, double z) noexcept {
     constexpr std::size_t most = most_moments / 2 + 1;
     std::array<std::array<double, most>, most> lower{};
@@ -48,8 +49,9 @@ inline namespace strict {
     return c;
 }
 
-// All roots of a polynomial of degree n whose roots are real, greatest first: Newton's method comes down to the
-// greatest from any greater number, and stops where it comes down no further.
+// All roots of a polynomial of degree n, greatest first. Precondition: all roots are real. Newton's method decreases
+// towards the greatest root from any greater number; it ends when a step does not decrease x any more. That root is
+// then divided out.
 [[nodiscard]] inline Coefficients real_roots(Coefficients c, std::size_t n) noexcept {
     Coefficients roots{};
     double x = 0;
@@ -67,13 +69,14 @@ inline namespace strict {
             x = next;
         }
         roots[found] = x;
-        for (std::size_t i = n - 1; i-- > 0;) c[i + 1] += c[i + 2] * x;  // what (x - root) leaves, in c[1] ...
+        for (std::size_t i = n - 1; i-- > 0;) c[i + 1] += c[i + 2] * x;  // the quotient by (x - root), in c[1] ...
         for (std::size_t i = 0; i < n; ++i) c[i] = c[i + 1];
     }
     return roots;
 }
 
-// The share of the distribution before z, of `count` moments (4, 6 or 8) in -1 <= depth <= 1.
+// The share of the distribution that is nearer than z. `b` are the first `count` moments (4, 6 or 8) of depths in [-1,
+// 1]; `overestimation` is in [0, 1].
 [[nodiscard]] inline double share_before(const Moments& b, std::size_t count, double z,
                                          double overestimation) noexcept {
     const std::size_t n = count / 2;

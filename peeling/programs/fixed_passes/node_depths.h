@@ -1,8 +1,8 @@
-// peeling/programs/fixed_passes/node_depths.h - the depths of a pixel's nodes, four to a target: what programs of k
-// nodes a pixel read and write in order.
+// peeling/programs/fixed_passes/node_depths.h - the depths of the k nodes that multi_layer and adaptive keep per pixel,
+// in one or two rgba32f targets.
 //
-// Rule     Node e stands in channel e mod 4 of target e / 4, as depth_float.h has it; no_node, behind every depth,
-//          where it is empty.
+// Rule     The depth of node e is in channel e mod 4 of target e / 4, as the float of depth_float.h. An empty node has
+//          the depth no_node, which is behind every depth.
 // Tests    tests/peeling/algorithms/multi_layer_test.cpp
 #pragma once
 #include <array>
@@ -30,8 +30,8 @@ struct NodeDepths {
     return depths;
 }
 
-// A pass over what is visible whose program reads and writes nodes in order; its first targets, and loads, are the
-// depths.
+// The state of a pass over the visible fragments whose program reads and writes the nodes of its pixel in submission
+// order. The depths are the first colour targets and the first loads.
 [[nodiscard]] inline pipeline::PassState node_state(const pipeline::Region& region, const NodeDepths& depths) {
     pipeline::PassState state;
     state.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = false};

@@ -1,12 +1,12 @@
-// peeling/programs/fixed_passes/sample_mask.h - the samples that a fragment covers by chance: an integer hash, and a
-// mask of as many samples as alpha says.
+// peeling/programs/fixed_passes/sample_mask.h - chooses at random which samples of its pixel a fragment covers, for the
+// algorithm stochastic: an integer hash, and a sample mask whose number of bits follows from alpha.
 //
-// Rule     hash: three rounds of v ^= v >> 16; v *= 7feb352d; v ^= v >> 15; v *= 846ca68b; v ^= v >> 16 over x + 2^16
-//          y, the triangle and the seed, each round's input added to the last one's result. Of S samples a fragment
-//          covers n = trunc(a S + (hash / 2^8) 2^-24), in binary32, at most S; which ones, the hash's hashes choose one
-//          after the other without preference.
-// Source   Enderton et al. 2010, 3.1 (stratified alpha); the mixing function is Wellons's lowbias32 (2018), a bijection
-//          of 32 bits [A].
+// Rule     mix(v) is v ^= v >> 16; v *= 7feb352d; v ^= v >> 15; v *= 846ca68b; v ^= v >> 16. hash = mix(mix(mix(x +
+//          2^16 y) + triangle) + seed). Of S samples a fragment with alpha a covers n = trunc(a S + trunc(hash / 2^8)
+//          2^-24), in binary32, at most S. Every set of n samples has the same probability: sample after sample, a new
+//          hash decides whether it is one of those that are left to choose.
+// Source   Enderton et al. 2010, 3.1 (stratified alpha); the paper names no hash, and lowbias32 of Wellons (2018), a
+//          bijection of 32 bits, is assumed.
 // Tests    tests/peeling/algorithms/stochastic_test.cpp
 #pragma once
 #include <algorithm>
@@ -30,7 +30,7 @@ inline namespace strict {
     return mixed(mixed(mixed(x + (y << 16)) + primitive) + seed);
 }
 
-// Bit s: sample s, of 1 to 8.
+// The mask of a fragment: bit s is set if it covers sample s. `samples` is 1 to 8, `hash` as returned by sample_hash.
 [[nodiscard]] inline std::uint32_t sample_mask(float alpha, int samples, std::uint32_t hash) noexcept {
     const float chance = static_cast<float>(hash >> 8) * 0x1p-24f;
     const float wanted = std::min(alpha * static_cast<float>(samples) + chance, static_cast<float>(samples));
@@ -38,7 +38,8 @@ inline namespace strict {
     std::uint32_t mask = 0;
     for (int s = 0; s < samples; ++s) {
         hash = mixed(hash + 1u);
-        const auto rest = static_cast<std::uint64_t>(samples - s);  // sample s is one of `left` among these
+        const auto rest = static_cast<std::uint64_t>(samples - s);  // `left` of these remaining samples are still to be
+                                                                    // chosen
         if ((hash * rest >> 32) >= static_cast<std::uint64_t>(left)) continue;
         mask |= 1u << s;
         --left;

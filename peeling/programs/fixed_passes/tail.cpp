@@ -1,3 +1,4 @@
+// peeling/programs/fixed_passes/tail.cpp - the targets, passes and resolves of tail.h.
 #include "peeling/programs/fixed_passes/tail.h"
 
 #include "peeling/programs/average.h"

@@ -1,8 +1,10 @@
-// peeling/programs/fixed_passes/tail.h - what is shown of the fragments behind those that are composited in order.
+// peeling/programs/fixed_passes/tail.h - the tail: how an algorithm that composites only some fragments of a pixel in
+// order shows the others, which are behind them.
 //
-// Rule     none: nothing. blend: OVER onto what lies behind, as they come. average: as weighted_average. weighted: as
-//          weighted_blended. Targets are halves, or binary32 where the frame's colour is; the blend is in the frame's
-//          colour format.
+// Rule     none: the tail is not shown. blend: its fragments are blended OVER the opaque colour in submission order, in
+//          the frame's colour format. average: their colour is that of weighted_average; weighted: that of
+//          weighted_blended. The sums of the last two are stored as halves, or as binary32 if the frame's colour format
+//          is rgba32f.
 // Source   algorithms.md 21.3.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once
@@ -11,15 +13,15 @@
 
 namespace strata::peeling {
 
-// The targets of one tail: an algorithm draws its pass with `state`, has its program write what `write` says, and
-// composites over `resolve`.
+// The render targets of a tail. An algorithm draws a pass with `state()` whose program calls `write`, and composites
+// its ordered fragments over the target that `resolve()` returns.
 class TailTargets {
   public:
     TailTargets(pipeline::Region& region, Tail tail, const ListingInputs& inputs);
 
-    // A pass over what is visible that adds what its program keeps.
+    // The state of a pass over the visible fragments: those that its program keeps are added to the tail.
     [[nodiscard]] pipeline::PassState state() const;
-    // The outputs of a whole batch; its program discards what is not of the tail.
+    // Writes the outputs of all fragments of a batch; the program discards those that do not belong to the tail.
     void write(const pipeline::FragmentBatch& in, pipeline::Outputs& out) const;
     // The colour behind everything else: the tail over the opaque colour, in the frame's colour format.
     [[nodiscard]] pipeline::Target resolve();
@@ -28,7 +30,8 @@ class TailTargets {
     pipeline::Region& region_;
     Tail tail_;
     ListingInputs inputs_;
-    pipeline::Target color_{}, sums_{}, other_{};  // what is blended onto; or sums, and a count or revealage
+    pipeline::Target color_{}, sums_{}, other_{};  // the colour onto which the tail is blended; the sums; and the count
+                                                   // (average) or revealage (weighted)
 };
 
 }  // namespace strata::peeling

@@ -1,7 +1,8 @@
-// peeling/programs/fixed_passes/visibility_curve.h - what a pixel lets through down to each depth, as a step function
-// of few steps.
+// peeling/programs/fixed_passes/visibility_curve.h - the transmittance of a pixel as a function of depth, approximated
+// by a step function of at most k steps, for the algorithm adaptive.
 //
-// Rule     Steps are sorted by depth; one more than fits removes the step whose area is least. Binary32, each operation
+// Rule     Steps (nodes) are sorted by depth; `through` is the transmittance from a node's depth on. If there are k +
+//          1, the node is removed whose removal changes the area under the curve least. Binary32, each operation
 //          rounded.
 // Source   algorithms.md 19.2; Salvi et al. 2011.
 // Tests    tests/peeling/algorithms/multi_layer_test.cpp
@@ -16,12 +17,13 @@
 namespace strata::peeling {
 inline namespace strict {
 
-// One node more than there are: the curve before it is compressed.
+// A pixel's curve, with room for one node more than it may keep. Empty nodes have the depth no_node.
 struct VisibilityCurve {
     std::array<float, most_nodes + 1> depth{}, through{};
 };
 
-// Removes the node whose area is least: the step before it takes its transmittance.
+// Removes the node whose removal changes the area under the curve least. From the depth of the node before it on, the
+// curve then has the transmittance of the removed node. `count` is k.
 inline void compress(VisibilityCurve& curve, std::size_t count, bool reversed) noexcept {
     const auto depth = [&](std::size_t e) { return depth_behind_near(reversed, curve.depth[e]); };
     std::size_t least = 1;
@@ -34,7 +36,8 @@ inline void compress(VisibilityCurve& curve, std::size_t count, bool reversed) n
     for (std::size_t e = least - 1; e < count; ++e) curve.through[e] = curve.through[e + 1];
 }
 
-// A new step goes before all nodes that are not nearer, and dims whatever is behind it.
+// Adds a node in front of all nodes that are not nearer, and multiplies the transmittance of the nodes behind it by
+// `through`, which is 1 - alpha of the fragment. `depth` is its key.
 inline void insert(VisibilityCurve& curve, std::size_t count, bool reversed, float depth, float through) noexcept {
     std::size_t place = 0;
     while (place < count && curve.depth[place] < depth) ++place;

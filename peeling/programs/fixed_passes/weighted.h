@@ -1,9 +1,10 @@
-// peeling/programs/fixed_passes/weighted.h - the weights of McGuire and Bavoil 2013, and the pixel that sums of
-// weighted colours make.
+// peeling/programs/fixed_passes/weighted.h - the fragment weights of McGuire and Bavoil 2013, and the resolve of
+// weighted sums to a pixel's colour, for weighted_blended, tails and moments.
 //
-// Rule     Equations 7 to 10, each operation rounded to binary32; pixel = (sums / weights) (1 - t) + background t, t
-//          the product of (1 - a). The background where the sum of weights is not above 0.
-// Source   algorithms.md 18. The guard is ours, in place of the paper's least divisor.
+// Rule     Weights by equations 7 to 10, each operation rounded to binary32. Pixel = (sums / weights) (1 - t) +
+//          background t, where t is the product of (1 - alpha) of all fragments; the background if the sum of weights
+//          is not above 0.
+// Source   algorithms.md 18. The test of the sum of weights replaces the least divisor of the paper.
 // Tests    tests/peeling/algorithms/weighted_blended_test.cpp
 #pragma once
 #include <algorithm>
@@ -16,8 +17,8 @@
 namespace strata::peeling {
 inline namespace strict {
 
-// Without the factor alpha of equations 7 to 10. `z` is the distance from the eye, but in equation 10 the window depth,
-// 0 near and 1 far.
+// The weight without the factor alpha of equations 7 to 10. `z` is the distance from the eye; in equation 10 it is the
+// window depth, 0 near and 1 far.
 [[nodiscard]] inline float weight_at(Weight weight, float z) noexcept {
     const auto at_least = [](float w) { return std::max(0.01f, w); };
     const auto between = [&](float w) { return at_least(std::min(3000.0f, w)); };
@@ -38,7 +39,7 @@ inline namespace strict {
     return std::abs(eye.a + eye.b * z) / std::abs(eye.c + eye.d * z);
 }
 
-// The weights of a batch: times alpha, but for a constant one.
+// The weights of a batch's fragments, multiplied by alpha except for Weight::constant.
 inline void weigh(const ListingInputs& inputs, const pipeline::Frame& frame, const pipeline::FragmentBatch& in,
                   pipeline::Lanes<float>& weights) noexcept {
     const Weight weight = inputs.options.weight;
@@ -51,7 +52,8 @@ inline void weigh(const ListingInputs& inputs, const pipeline::Frame& frame, con
     }
 }
 
-// A pixel of sums, their weight, and what lets through `t` of what is behind.
+// Resolves `count` lanes: sums of weighted colours, sums of weights, and the transmittance of all fragments over the
+// background.
 inline void resolve_weighted(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& weights,
                              const pipeline::Lanes<float>& through, const pipeline::ColorLanes& background,
                              pipeline::ColorLanes& out, std::size_t count) noexcept {

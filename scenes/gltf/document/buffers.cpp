@@ -1,4 +1,4 @@
-// scenes/gltf/document/buffers.cpp - see buffers.h.
+// scenes/gltf/document/buffers.cpp - reads the bytes of buffers and views, and charges the budget (buffers.h).
 #include "scenes/gltf/document/buffers.h"
 
 #include "scenes/gltf/document/uri.h"

@@ -1,4 +1,4 @@
-// scenes/gltf/document/container.cpp - see container.h.
+// scenes/gltf/document/container.cpp - splits a .glb into chunks, or takes a file as JSON text (container.h).
 #include "scenes/gltf/document/container.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// scenes/gltf/document/json.cpp - see json.h.
+// scenes/gltf/document/json.cpp - parses the JSON text and checks types and ranges of values (json.h).
 #include "scenes/gltf/document/json.h"
 
 #include <set>

@@ -1,4 +1,4 @@
-// scenes/gltf/document/uri.cpp - see uri.h.
+// scenes/gltf/document/uri.cpp - decodes data: uris and resolves relative ones to files (uri.h).
 #include "scenes/gltf/document/uri.h"
 
 #include <algorithm>

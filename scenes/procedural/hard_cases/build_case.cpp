@@ -1,3 +1,4 @@
+// scenes/procedural/hard_cases/build_case.cpp - triangles, quads and views from positions in pixels (build_case.h).
 #include "scenes/procedural/hard_cases/build_case.h"
 
 namespace strata::scenes::hard {

@@ -1,3 +1,4 @@
+// scenes/procedural/hard_cases/hard_case.cpp - the list of all hard cases, and the scene of one (hard_case.h).
 #include "scenes/procedural/hard_cases/hard_case.h"
 
 #include <algorithm>
