@@ -1,13 +1,14 @@
-// tests/faults/allocation_faults.cpp - every request for memory fails once, in every job of the library.
+// tests/faults/allocation_faults.cpp - lets every request for memory fail once, in every job of the library, and checks
+// that each failure is handled.
 //
-//     build/release/tests/faults/allocation_faults --load # every request of what makes scenes
-//     build/release/tests/faults/allocation_faults --render # some of the requests of each way to draw a frame
+//     build/release/tests/faults/allocation_faults --load --all # every request while scenes are built
+//     build/release/tests/faults/allocation_faults --render # about 12 requests of each execution of a frame
 //     build/release/tests/faults/allocation_faults --render --all # each of the first 2,000, then every tenth
 //
-// Expected values: the same job without a fault. A job that lacked memory ends with std::bad_alloc, or with the same
-// result if what asked can do without. Done again it gives the same result, and holds as many blocks as before: nothing
-// has leaked. Profiles and cameras are left out: the JSON library's values ask for memory where they are destroyed,
-// which ends a process that has none.
+// The expected result is that of the same job without a fault. A job whose request fails must end with std::bad_alloc,
+// or with the expected result if it can do without that memory. When it is repeated it must give the expected result
+// and hold as many blocks as before, so that nothing has leaked. Profiles and cameras are left out: the values of the
+// JSON library request memory in their destructors, which ends a process that has none.
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -36,7 +37,7 @@ using namespace strata;
 
 struct Job {
     std::string name;
-    std::function<std::string()> run;  // its result in words
+    std::function<std::string()> run;  // its result as text
 };
 
 std::string shown(const peeling::RenderResult& result) {
@@ -45,7 +46,7 @@ std::string shown(const peeling::RenderResult& result) {
            std::to_string(result.audit.layers_max);
 }
 
-// The small frames of the golden digests by every algorithm where it runs, in every execution.
+// Adds the frames of the core scenes by every algorithm, on geforce3 and ideal where they run it, in three executions.
 void add_renders(std::vector<Job>& jobs, const std::vector<golden::GoldenScene>& scenes) {
     struct Way {
         const char* name;
@@ -83,18 +84,19 @@ void add_loads(std::vector<Job>& jobs) {
                         [spec] { return std::to_string(scenes::load_scene(spec, {}).list.meshes.size()); }});
 }
 
-// What a job is at, for the parent of a process that is ended in the middle. It is no block of operator new.
+// The request at which a job is, as text, for the parent of a process that ends early. It is not allocated by operator
+// new.
 constexpr std::size_t at_work_bytes = 256;
 char* const at_work =
     static_cast<char*>(mmap(nullptr, at_work_bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
 
-// What is wrong after the n-th request of the job failed; empty if nothing is.
+// The fault after the n-th request of the job has failed, as text; empty if there is none.
 std::string fault_at(const Job& job, std::uint64_t n, const std::string& whole, std::int64_t held) {
     bool is_other = false;
     test::fail_request(n);
     try {
         is_other = job.run() != whole;
-    } catch (const std::bad_alloc&) {  // as it should be
+    } catch (const std::bad_alloc&) {  // expected
     } catch (const std::exception& error) {
         test::fail_request(0);
         return std::string{"ends with another exception: "} + error.what();
@@ -112,13 +114,15 @@ struct Tried {
 
 Tried try_job(const Job& job, bool all) {
     const std::string whole = job.run();
-    for (int again = 0; again < 2; ++again) static_cast<void>(job.run());  // what is kept for the next time is there
+    for (int again = 0; again < 2; ++again)
+        static_cast<void>(job.run());  // memory that is kept for reuse is then
+                                       // allocated
     const std::int64_t held = test::blocks_held();
     test::fail_request(0);
     static_cast<void>(job.run());
     const std::uint64_t count = test::requests();
     Tried tried;
-    // A step that is no divisor of loops' lengths, so that all lines of a loop are met.
+    // About 12 requests of each job, or all of them.
     const std::uint64_t step = all ? 1 : std::max<std::uint64_t>(1, count / 12);
     for (std::uint64_t n = 1; n <= count; n += n >= 2000 ? std::max<std::uint64_t>(step, 10) : step) {
         std::snprintf(at_work, at_work_bytes, "%s, request %llu", job.name.c_str(), static_cast<unsigned long long>(n));
@@ -130,7 +134,7 @@ Tried try_job(const Job& job, bool all) {
     return tried;
 }
 
-// In a process of its own: a fault that ends it is one fault, and the other jobs go on.
+// Tries a job in a child process: if it ends the process, that is one fault, and the other jobs continue.
 Tried try_apart(const Job& job, bool all) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");

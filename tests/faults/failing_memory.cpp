@@ -1,3 +1,5 @@
+// tests/faults/failing_memory.cpp - counts and fails the requests of operator new and of oneTBB's allocator
+// (failing_memory.h).
 #include "tests/faults/failing_memory.h"
 
 #include <atomic>
@@ -10,7 +12,7 @@ namespace {
 std::atomic<std::uint64_t> count = 0, failing = 0;
 std::atomic<std::int64_t> held = 0;
 
-// Null where this request is the one that fails.
+// Returns null for the request that must fail.
 void* take(std::size_t bytes, std::size_t alignment) noexcept {
     if (++count == failing.load()) return nullptr;
     const std::size_t whole = (bytes + alignment - 1) / alignment * alignment;
@@ -62,7 +64,7 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { g
 void operator delete(void* memory, const std::nothrow_t&) noexcept { give(memory); }
 void operator delete[](void* memory, const std::nothrow_t&) noexcept { give(memory); }
 
-// Found here before the library's own: uninitialized.cpp takes its memory from oneTBB.
+// These definitions replace oneTBB's, from which uninitialized.cpp takes its memory.
 extern "C" {
 void* scalable_malloc(std::size_t bytes) { return take(bytes, usual); }
 void scalable_free(void* memory) { give(memory); }

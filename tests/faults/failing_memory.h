@@ -1,17 +1,17 @@
-// tests/faults/failing_memory.h - memory that runs out when a test says so: operator new and oneTBB's allocator,
-// counted and failed.
+// tests/faults/failing_memory.h - replaces operator new and oneTBB's allocator by functions that count requests and let
+// a chosen one fail.
 #pragma once
 #include <cstdint>
 
 namespace strata::test {
 
-// The `n`-th request from now on, n from 1, throws std::bad_alloc, and no other one; 0: none.
+// Lets only the n-th request from now on fail with std::bad_alloc, n from 1; 0: none.
 void fail_request(std::uint64_t n) noexcept;
 
-// How many requests there were since fail_request was last called.
+// The number of requests since the last call of fail_request.
 [[nodiscard]] std::uint64_t requests() noexcept;
 
-// Blocks that were taken and not given back.
+// The number of blocks that are allocated and not freed.
 [[nodiscard]] std::int64_t blocks_held() noexcept;
 
 }  // namespace strata::test

@@ -1,7 +1,7 @@
-// tests/faults/race.cpp - two ways of adding up in a parallel loop, under the thread sanitizer: `race shared` has every
-// index add to one number, which is a race; `race own` gives each index a place of its own, as parallel.h asks. The
-// sanitizer must tell the first and be silent about the second, or its silence about the product means nothing. All
-// four indices meet at a latch first, so that each has a thread of its own.
+// tests/faults/race.cpp - shows that the thread sanitizer detects a race in a parallel loop. `race shared` increments
+// one number from every index, which is a race and must be reported. `race own` increments a separate number per index,
+// as parallel.h requires, and must not be reported. All four indices first wait at a latch, so that each runs on its
+// own thread.
 #include <cstdio>
 #include <cstring>
 #include <latch>

@@ -1,6 +1,6 @@
-// tests/faults/unset.cpp - two ways with a vector whose elements have no value yet, under the memory sanitizer: `unset
-// read` decides by an uninitialised one, `unset write` writes it first. The sanitizer must tell the first and be silent
-// about the second.
+// tests/faults/unset.cpp - shows that the memory sanitizer detects a read of an uninitialised element. `unset read`
+// branches on an element that was not written and must be reported; `unset write` writes it first and must not be
+// reported.
 #include <cstdio>
 #include <cstring>
 

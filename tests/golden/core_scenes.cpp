@@ -1,3 +1,4 @@
+// tests/golden/core_scenes.cpp - builds the five scenes of core_scenes.h.
 #include "tests/golden/core_scenes.h"
 
 namespace strata::golden {

@@ -14,7 +14,7 @@ namespace strata::testing {
 
 using Color3 = std::array<double, 3>;
 
-// What lies in front of something: colours times their alphas, and what is let through.
+// Composited fragments in real numbers: the premultiplied colour, and the transmittance.
 struct RealLayer {
     Color3 color{};
     double through = 1;
@@ -32,7 +32,8 @@ struct RealLayer {
 
 inline constexpr pipeline::Rgba eighths_background{0.25f, 0.5f, 0.875f, 1};
 
-// Up to `most` fragments a pixel in any order, with ties, and opaque surfaces behind which some of them lie.
+// Up to `most` fragments per pixel in any order, with or without ties. A quarter of the pixels have an opaque surface,
+// which hides some of them.
 [[nodiscard]] inline FragmentScene eighths_scene(unsigned seed, unsigned most, bool has_ties = true) {
     std::mt19937 random{seed};
     const auto eighth = [&](unsigned least) { return static_cast<float>(least + random() % (9 - least)) / 8.0f; };
@@ -41,7 +42,7 @@ inline constexpr pipeline::Rgba eighths_background{0.25f, 0.5f, 0.875f, 1};
         const auto count = random() % (most + 1);
         const auto start = random();
         for (unsigned i = 0; i < count; ++i) {
-            // 5 and 16 have no common divisor: without ties depths differ.
+            // Without ties the depths of a pixel differ, because 5 and 14 have no common divisor.
             const auto depth = has_ties ? random() % 6 : (start + 5 * i) % 14;
             pixel.fragments.push_back(
                 {static_cast<float>(depth) / 16.0f, {eighth(0), eighth(0), eighth(0), eighth(0)}});
@@ -84,7 +85,8 @@ template <class Expected>
     return "";
 }
 
-// A picture that is the same in every way of running.
+// Renders in every execution and returns the first result; clears `are_alike` if a picture or a diagnostic differs from
+// it.
 [[nodiscard]] inline peeling::RenderResult rendered_alike(const FragmentScene& scene, const char* algorithm,
                                                           peeling::RenderOptions options, bool& are_alike) {
     std::optional<peeling::RenderResult> first;

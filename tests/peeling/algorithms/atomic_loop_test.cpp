@@ -1,4 +1,5 @@
-// atomic_loop and hybrid_transparency against sorted lists in real numbers, with each tail. algorithms.md 21.
+// Tests atomic_loop, hybrid_transparency and the tail of front_to_back, with each kind of tail, against sorted lists in
+// real numbers. algorithms.md 21.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -26,10 +27,11 @@ const ExpectedRow expected_hybrid_transparency{{.algorithm = "hybrid_transparenc
                                                 .render_targets = 2}};
 
 struct CoreAndTail {
-    std::vector<GivenFragment> core, tail;  // near to far; in submission order
+    std::vector<GivenFragment> core, tail;  // core: near to far; tail: in submission order
 };
 
-// Equal depths share an entry, in which the last colour stays; or have one each.
+// The k nearest fragments of a pixel, and the others. With `share` fragments of equal depth are one entry with the
+// colour of the last one.
 CoreAndTail split_model(const GivenPixel& pixel, std::size_t k, bool share) {
     const auto fragments = visible(pixel);
     CoreAndTail split;
@@ -81,7 +83,7 @@ Color3 core_over_tail(const GivenPixel& pixel, const CoreAndTail& split, Tail ki
 
 }  // namespace
 
-TEST_CASE("the k nearest are composited in order over each tail of the rest, in every way of running") {
+TEST_CASE("the k nearest fragments are composited in order over each tail of the others and equal in every execution") {
     const FragmentScene scene = eighths_scene(31, 6);
     for (const char* algorithm : {"atomic_loop", "hybrid_transparency"})
         for (const int k : {1, 2, 4, 8})
@@ -102,7 +104,8 @@ TEST_CASE("the k nearest are composited in order over each tail of the rest, in 
                     overflowing += split.tail.empty() ? 0 : 1;
                     return core_over_tail(pixel, split, tail);
                 };
-                // Quotients and products of sums are rounded: 5 of them for each of 6 fragments at most, twice.
+                // Tails of sums are rounded: at most 5 roundings for each of 6 fragments, in the numerator and in the
+                // denominator.
                 const bool is_exact = tail == Tail::none || tail == Tail::blend;
                 CHECK(first_unlike(result.frame.color, expected, is_exact ? 0 : 60 * 0x1p-24) == "");
                 CHECK(are_alike);
@@ -110,7 +113,7 @@ TEST_CASE("the k nearest are composited in order over each tail of the rest, in 
             }
 }
 
-TEST_CASE("what is not said of a tail is each paper's own: blended behind, or averaged") {
+TEST_CASE("the default tail is blended for atomic_loop and averaged for hybrid_transparency") {
     const FragmentScene scene = eighths_scene(32, 6);
     RenderOptions options = eighths_options(scene);
     options.algorithm.nodes = 2;
@@ -122,8 +125,7 @@ TEST_CASE("what is not said of a tail is each paper's own: blended behind, or av
     CHECK(picture("hybrid_transparency", std::nullopt) == picture("hybrid_transparency", Tail::average));
 }
 
-TEST_CASE(
-    "front_to_back that stops early composites the tail of what is left, however it stops, in every way of running") {
+TEST_CASE("front_to_back that stops early composites the tail of the remaining fragments in every execution") {
     const FragmentScene scene = eighths_scene(33, 6, false);
     for (const int passes : {1, 2, 3, 9})
         for (const Tail tail : {Tail::none, Tail::blend, Tail::average, Tail::weighted}) {

@@ -1,4 +1,4 @@
-// bucket_peel against sorted buckets in real numbers. algorithms.md 24.
+// Tests bucket_peel against buckets of sorted depths in real numbers. algorithms.md 24.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <map>
@@ -26,7 +26,8 @@ struct Bucketed {
     bool is_lost = false;
 };
 
-// Colours and alphas of one depth are the greatest of each channel, times alpha.
+// The expected pixel. Fragments of equal depth are one layer: the greatest value of each channel of premultiplied
+// colour and of alpha.
 Bucketed bucketed(const GivenPixel& pixel) {
     std::map<float, RealLayer> by_depth;
     for (const GivenFragment& f : visible(pixel)) {
@@ -55,7 +56,7 @@ Bucketed bucketed(const GivenPixel& pixel) {
 
 }  // namespace
 
-TEST_CASE("a bucket is from 0 to 15 for depths outside the bounds and for NaN too") {
+TEST_CASE("a bucket is from 0 to 15 also for depths outside the bounds and for NaN") {
     using strata::peeling::bucket_of;
     constexpr float infinity = std::numeric_limits<float>::infinity();
     constexpr float minus_near = -0.5f, far = 0.75f;
@@ -69,11 +70,11 @@ TEST_CASE("a bucket is from 0 to 15 for depths outside the bounds and for NaN to
 }
 
 TEST_CASE(
-    "bucket_peel composites the ends of 16 buckets, merges ties and tells what it loses, in every way of running") {
+    "bucket_peel composites the ends of 16 buckets and merges ties and reports lost fragments in every execution") {
     std::size_t lost = 0;
     for (const bool is_crowded : {false, true}) {
         FragmentScene scene = eighths_scene(61, 6);
-        // Beside one far away, a quarter of the pixels has all others in one bucket.
+        // In a quarter of the pixels one fragment is far away, so that all others are in one bucket.
         if (is_crowded)
             for (std::size_t p = 0; p < scene.pixels.size(); p += 4) {
                 scene.pixels[p].opaque.reset();

@@ -1,4 +1,4 @@
-// linked_list and its limits against lists in real numbers. algorithms.md 20.
+// Tests linked_list and its limits of nodes against lists in real numbers. algorithms.md 20.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -26,8 +26,8 @@ struct GivenLists {
     std::size_t overflowing = 0;
 };
 
-// Fragments arrive pixel by pixel in rounds, as draw_list submits them; a node is taken while the pixel and the frame
-// have one.
+// Fragments are submitted in rounds, one per pixel and round, as draw_list does. A fragment takes a node if the pixel
+// and the frame have one left.
 GivenLists lists_model(const FragmentScene& scene, const Limits& limits) {
     GivenLists lists{std::vector<std::vector<GivenFragment>>(scene.pixels.size()),
                      std::vector<std::vector<GivenFragment>>(scene.pixels.size()), 0};
@@ -48,7 +48,7 @@ GivenLists lists_model(const FragmentScene& scene, const Limits& limits) {
             }
             lists.left_over[p].push_back(f);
             if (limits.rule != Overflow::drop_far || listed.empty()) continue;
-            // The farthest goes, the last arrival of equal ones.
+            // The farthest fragment is removed; of equal ones, the last submitted.
             auto farthest = std::max_element(listed.begin(), listed.end(),
                                              [](const auto& a, const auto& b) { return a.depth <= b.depth; });
             if (f.depth < farthest->depth) {
@@ -74,8 +74,8 @@ Color3 list_color(const FragmentScene& scene, const GivenLists& lists, std::size
 }  // namespace
 
 TEST_CASE(
-    "linked_list shows the fragments that have nodes, under each limit and rule, to the last bit and in every way of "
-    "running") {
+    "linked_list composites the fragments that have nodes with the exact result for each limit and rule in every "
+    "execution") {
     const FragmentScene scene = eighths_scene(21, 6);
     std::size_t overflowing = 0;
     for (const Overflow rule : {Overflow::drop_new, Overflow::drop_far, Overflow::blend})
@@ -100,7 +100,7 @@ TEST_CASE(
     CHECK(overflowing > 1000);
 }
 
-TEST_CASE("linked_list looks at its lists in parts where they do not fit, and shows the same") {
+TEST_CASE("linked_list with a limit of nodes per frame runs literally and loses fragments") {
     const FragmentScene scene = eighths_scene(22, 6);
     RenderOptions options = eighths_options(scene);
     options.audit = false;

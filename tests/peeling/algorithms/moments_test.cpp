@@ -1,5 +1,5 @@
-// moments: logarithm and exponential against Boost.Multiprecision, bounds against distributions of points, pictures
-// against the exact one. algorithms.md 22.
+// Tests moments: its logarithm and exponential against Boost.Multiprecision, its bounds against distributions of
+// points, and pictures against the exact A-buffer. algorithms.md 22.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -26,7 +26,7 @@ const ExpectedRow expected_moments{{.algorithm = "moments",
                                     .targets = {"total", "moments", "sums", "result"},
                                     .render_targets = 2}};
 
-// Distance from the real value in units of the last place, that of the least normal below it.
+// The error in units of the last place of the real value; below the normal range, of the least normal number.
 double off_by(float found, const Wide& real) {
     const double value = static_cast<double>(real);
     const double unit = std::ldexp(1.0, std::max(std::ilogb(value), -126) - 23);
@@ -57,7 +57,8 @@ Moments moments_of(const Points& points) {
     return b;
 }
 
-// No fragment is opaque: of such one the share that it is seen through itself would decide.
+// A scene without opaque fragments: the picture of an opaque one would depend on the overestimation of its own
+// absorbance.
 FragmentScene translucent_scene(unsigned seed, unsigned most) {
     FragmentScene scene = eighths_scene(seed, most, false);
     for (GivenPixel& pixel : scene.pixels)
@@ -67,7 +68,7 @@ FragmentScene translucent_scene(unsigned seed, unsigned most) {
 
 }  // namespace
 
-TEST_CASE("minus_log and exp_of_minus are rounded once, but for a millionth of a unit") {
+TEST_CASE("minus_log and exp_of_minus are within half a unit in the last place plus a millionth") {
     std::mt19937 random{6};
     double worst_log = 0, worst_exp = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -85,8 +86,7 @@ TEST_CASE("minus_log and exp_of_minus are rounded once, but for a millionth of a
     CHECK(exp_of_minus(std::numeric_limits<float>::infinity()) == 0.0f);
 }
 
-TEST_CASE(
-    "the share before a depth bounds that of every distribution with the same moments, from below and from above") {
+TEST_CASE("overestimation 0 and 1 give a lower and an upper bound of the share in front of a depth for given moments") {
     std::mt19937 random{7};
     for (const std::size_t count : {4u, 6u, 8u})
         for (int i = 0; i < 500; ++i) {
@@ -104,7 +104,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("more moments leave less between the bounds") {
+TEST_CASE("the bounds are closer together for more moments") {
     std::mt19937 random{8};
     std::array<double, 3> gaps{};
     for (int i = 0; i < 200; ++i) {
@@ -117,7 +117,7 @@ TEST_CASE("more moments leave less between the bounds") {
     CHECK(gaps[2] < gaps[1]);
 }
 
-TEST_CASE("moments is exact for one fragment a pixel, near to exact for two, and the same in every way of running") {
+TEST_CASE("moments is exact for one fragment per pixel and within 2 codes for two and equal in every execution") {
     for (const unsigned most : {1u, 2u})
         for (const int count : {4, 6, 8}) {
             const FragmentScene scene = translucent_scene(51 + most, most);
@@ -133,7 +133,7 @@ TEST_CASE("moments is exact for one fragment a pixel, near to exact for two, and
         }
 }
 
-TEST_CASE("moments comes nearer to the exact picture with more of them") {
+TEST_CASE("the error of a picture by moments is smaller for more moments") {
     const FragmentScene scene = translucent_scene(57, 6);
     std::vector<double> errors;
     for (const int count : {4, 6, 8}) {
@@ -151,7 +151,7 @@ TEST_CASE("moments comes nearer to the exact picture with more of them") {
     CHECK(errors[2] < errors[1]);
 }
 
-TEST_CASE("moments does not ask in which order fragments arrive, and bias and overestimation change what it shows") {
+TEST_CASE("moments does not depend on the submission order and bias and overestimation change its picture") {
     FragmentScene scene{2, 1};
     const GivenFragment near{0.125f, {1, 0.5f, 0.25f, 0.5f}}, far{0.875f, {0.25f, 0.5f, 1, 0.25f}};
     scene.pixels[0].fragments = {near, far};

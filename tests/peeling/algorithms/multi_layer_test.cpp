@@ -1,4 +1,4 @@
-// multi_layer and adaptive against lists of layers and of steps in real numbers. algorithms.md 19.
+// Tests multi_layer and adaptive against lists of layers and of steps in real numbers. algorithms.md 19.
 #include <catch2/catch.hpp>
 #include <list>
 
@@ -27,8 +27,8 @@ struct DeepLayer {
     RealLayer layer;
 };
 
-// A list of any length: the new one before the first that is not nearer; the last two become one where there are more
-// than k.
+// Each fragment is inserted before the first layer that is not nearer. If there are more than k layers, the last two
+// are merged.
 Color3 layered_model(const GivenPixel& pixel, std::size_t k) {
     std::list<DeepLayer> layers;
     for (const GivenFragment& f : visible(pixel)) {
@@ -49,7 +49,8 @@ struct Step {
     double depth, through;
 };
 
-// What lets light through down to each depth, with the step of least area removed wherever there are more than k.
+// The transmittance as a function of depth: its steps, of which the one with the least area is removed if there are
+// more than k.
 std::vector<Step> visibility_model(const GivenPixel& pixel, std::size_t k) {
     std::vector<Step> steps;
     for (const GivenFragment& f : visible(pixel)) {
@@ -93,8 +94,7 @@ Color3 adaptive_model(const GivenPixel& pixel, std::size_t k) {
 
 }  // namespace
 
-TEST_CASE(
-    "multi_layer keeps the k nearest so far and merges the two farthest, to the last bit, in every way of running") {
+TEST_CASE("multi_layer keeps k layers and merges the two farthest with the exact result in every execution") {
     const FragmentScene scene = eighths_scene(11, 6);
     for (int k = 1; k <= 6; ++k) {
         RenderOptions options = eighths_options(scene);
@@ -110,7 +110,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("multi_layer and adaptive are exact where pixels have no more fragments than nodes, in any order") {
+TEST_CASE("multi_layer and adaptive are exact in any order if no pixel has more fragments than nodes") {
     const FragmentScene scene = eighths_scene(12, 6, false);
     for (const char* algorithm : {"multi_layer", "adaptive"}) {
         RenderOptions options = eighths_options(scene);
@@ -119,7 +119,8 @@ TEST_CASE("multi_layer and adaptive are exact where pixels have no more fragment
     }
 }
 
-TEST_CASE("multi_layer is refused more layers than a pass has targets, with the way out") {
+TEST_CASE(
+    "multi_layer with more layers than a pass has targets is rejected and the message names the greatest number") {
     const FragmentScene scene = eighths_scene(13, 2);
     RenderOptions options = eighths_options(scene);
     options.algorithm.nodes = 7;
@@ -129,7 +130,8 @@ TEST_CASE("multi_layer is refused more layers than a pass has targets, with the 
           "profile ideal has no targets for more than 6 layers and their depths in one pass; use --nodes 6");
 }
 
-TEST_CASE("adaptive sees colours through the k steps that removing the least areas leaves, to the last bit") {
+TEST_CASE(
+    "adaptive weights colours by the k steps that remain after removing those of least area with the exact result") {
     const FragmentScene scene = eighths_scene(14, 6);
     for (int k = 1; k <= 8; ++k) {
         RenderOptions options = eighths_options(scene);

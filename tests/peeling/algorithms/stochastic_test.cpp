@@ -1,5 +1,5 @@
-// stochastic: its hash in 64-bit integers, its masks by counting, its pictures against samples in real numbers.
-// algorithms.md 23.
+// Tests stochastic: its hash in 64-bit integers, its masks by counting, and its pictures against samples in real
+// numbers. algorithms.md 23.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -19,7 +19,7 @@ const ExpectedRow expected_stochastic{{.algorithm = "stochastic",
                                        .targets = {"samples", "sums", "through", "result"},
                                        .render_targets = 2}};
 
-// lowbias32 modulo 2^32, with divisions for shifts.
+// lowbias32 modulo 2^32, with divisions in place of shifts.
 std::uint64_t mixed_model(std::uint64_t v) {
     constexpr std::uint64_t words = std::uint64_t{1} << 32;
     v = v % words;
@@ -32,7 +32,7 @@ std::uint32_t hash_model(std::size_t x, std::size_t y, std::size_t triangle, std
     return static_cast<std::uint32_t>(mixed_model(mixed_model(mixed_model(x + 65536 * y) + triangle) + seed));
 }
 
-// The triangle of each fragment: rounds over the pixels, as draw_list submits them.
+// The triangle number of each fragment, in rounds over the pixels as draw_list submits them.
 std::vector<std::vector<std::size_t>> triangles_of(const FragmentScene& scene) {
     std::vector<std::vector<std::size_t>> numbers(scene.pixels.size());
     std::size_t next = 0;
@@ -74,7 +74,7 @@ Color3 sampled(const FragmentScene& scene, std::size_t p, const std::vector<std:
 
 }  // namespace
 
-TEST_CASE("the hash of a fragment is lowbias32 over its pixel, its triangle and the seed") {
+TEST_CASE("the hash of a fragment is lowbias32 over its pixel and triangle and seed") {
     std::mt19937 random{5};
     for (int i = 0; i < 10000; ++i) {
         const std::uint32_t x = random() % 16384, y = random() % 16384, triangle = random(), seed = random();
@@ -82,7 +82,7 @@ TEST_CASE("the hash of a fragment is lowbias32 over its pixel, its triangle and 
     }
 }
 
-TEST_CASE("a mask covers a S samples, rounded down or up so that the mean is right, and prefers none of them") {
+TEST_CASE("a mask has alpha times S samples rounded down or up with the exact mean and every sample equally often") {
     constexpr int tries = 20000;
     for (const int samples : {1, 2, 3, 4, 8})
         for (const float alpha : {0.0f, 0.125f, 0.3f, 0.5f, 0.9f, 1.0f}) {
@@ -107,7 +107,7 @@ TEST_CASE("a mask covers a S samples, rounded down or up so that the mean is rig
         }
 }
 
-TEST_CASE("stochastic shows what its samples see, corrected by the exact alpha, in every way of running") {
+TEST_CASE("stochastic weights colours by visible samples and corrects by the exact alpha in every execution") {
     const FragmentScene scene = eighths_scene(41, 6);
     const auto triangles = triangles_of(scene);
     for (const int samples : {1, 2, 4, 7, 8})
@@ -126,7 +126,7 @@ TEST_CASE("stochastic shows what its samples see, corrected by the exact alpha, 
         }
 }
 
-TEST_CASE("stochastic comes nearer to the exact picture with more samples") {
+TEST_CASE("the error of a stochastic picture is smaller for more samples") {
     const FragmentScene scene = eighths_scene(42, 6, false);
     RenderOptions options = eighths_options(scene);
     const auto exact = render(scene, {"ideal", "a_buffer"}, options).frame.color;

@@ -1,5 +1,5 @@
-// weighted_blended against equations 6 to 10 of McGuire and Bavoil 2013 in binary64, its two forms, and the distance
-// from the eye against the projection itself. algorithms.md 18.
+// Tests both forms of weighted_blended against equations 6 to 10 of McGuire and Bavoil 2013 in binary64, and the
+// distance from the eye against the projection. algorithms.md 18.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -34,7 +34,8 @@ const ExpectedRow expected_weighted_blended_shared{{.algorithm = "weighted_blend
                                                     .targets = {"sums", "weights", "result"},
                                                     .render_targets = 2}};
 
-constexpr double eye_scale = 512;  // window depths 0 to 1 lie 512 before to 512 behind the eye, parallel
+constexpr double eye_scale = 512;  // parallel projection: window depths 0 to 1 are from 512 in front of the eye to 512
+                                   // behind it
 
 View deep_view() {
     View view;
@@ -43,7 +44,7 @@ View deep_view() {
     return view;
 }
 
-// By the definition, of a window depth that is exact.
+// The weight by its definition; `depth` is the exact window depth.
 double weight_of(Weight weight, double depth, double a) {
     const double z = std::abs(2 * depth - 1) * eye_scale;
     switch (weight) {
@@ -80,12 +81,12 @@ BlendedPixel blended_model(const GivenPixel& pixel, const Rgba& background, Weig
     return real;
 }
 
-// How far colours in [0, 1] may be off. A weight takes at most 20 roundings to binary32, its constants among them, its
-// colour 2 more, both in numerator and denominator, and the quad 5; a store into a sum rounds by `stored` for each
-// fragment so far, in both, and in the revealage.
+// The greatest error of colours in [0, 1]. A weight has at most 20 roundings to binary32, including those of its
+// constants, and its colour 2 more, in numerator and denominator; the quad has 5. Each of n stores into the two sums
+// and the revealage rounds by `stored`.
 double allowed_error(int n, double stored) { return (44.0 + 5.0) * 0x1p-24 + (3.0 * n + 3.0) * stored; }
 
-// Up to 7 fragments a pixel at depths from the nearest to where the least weight holds, some of them behind an opaque
+// Up to 7 fragments per pixel, at depths from 0 to where the weight is the least one; some are behind an opaque
 // surface.
 FragmentScene weighted_pixels(unsigned seed) {
     std::mt19937 random{seed};
@@ -105,7 +106,7 @@ double stored_value(const Image& image, Format format, std::size_t pixel, std::s
     return format == Format::rgba8 ? code / 255.0 : static_cast<double>(std::bit_cast<float>(code));
 }
 
-// The first pixel that is further from the model than roundings allow; empty if there is none.
+// A description of the first pixel whose difference from the model exceeds the roundings; empty if there is none.
 std::string off_the_model(const FragmentScene& scene, const RenderResult& result, const RenderOptions& options,
                           Format format) {
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
@@ -134,8 +135,8 @@ RenderOptions options_over_blue(const FragmentScene& scene, Format format) {
 }  // namespace
 
 TEST_CASE(
-    "weighted_blended averages colours by each of its weights over what lies behind, in both forms and every way of "
-    "running") {
+    "weighted_blended averages colours by each of its weights over the background in both forms and every "
+    "execution") {
     const FragmentScene scene = weighted_pixels(1);
     for (const char* algorithm : {"weighted_blended", "weighted_blended_shared"})
         for (const Weight weight : {Weight::eq7, Weight::eq8, Weight::eq9, Weight::eq10, Weight::constant})
@@ -157,7 +158,7 @@ TEST_CASE(
             }
 }
 
-TEST_CASE("a program finds the distance from the eye that the projection was made from") {
+TEST_CASE("a program computes the distance from the eye from window depth and uniforms of the projection") {
     View view;
     const double near = 0.5, far = 300;
     view.projection = strata::pipeline::Matrix(0.0);
@@ -175,15 +176,15 @@ TEST_CASE("a program finds the distance from the eye that the projection was mad
             const double clip = -view.projection[2][2] * distance + view.projection[3][2], ndc = clip / distance;
             const double window = is_half ? 0.25 + 0.75 * (ndc + 1) / 2 : 0.25 + 0.75 * ndc;
             const double found = strata::peeling::distance_at(eye, static_cast<float>(window));
-            // Half a unit of the depth is so much of the distance, and the uniforms and the quotient err by as little.
+            // Half a unit in the last place of the depth, converted to distance; the uniforms and the quotient have
+            // errors of the same size.
             const double slope = distance * distance / (near * 0.75);
             CHECK(std::abs(found - distance) <= slope * 4 * 0x1p-24 + distance * 8 * 0x1p-24);
         }
     }
 }
 
-TEST_CASE(
-    "weighted_blended does not ask in which order fragments arrive, and takes depth 1 for near under reversed depth") {
+TEST_CASE("weighted_blended does not depend on the submission order and under reversed depth 1 is near") {
     FragmentScene scene{2, 1};
     const GivenFragment near{0.125f, {1, 0.5f, 0.25f, 0.5f}}, far{0.875f, {0.25f, 0.5f, 1, 0.25f}};
     scene.pixels[0].fragments = {near, far};
@@ -197,7 +198,7 @@ TEST_CASE(
     CHECK(render(scene, {"ideal", "weighted_blended"}, options).frame.color == image);
 }
 
-TEST_CASE("weighted_blended is exact where the fragments of a pixel have one colour, whatever their alphas") {
+TEST_CASE("weighted_blended is exact where all fragments of a pixel have one colour for any alphas") {
     FragmentScene scene{1, 1};
     for (int i = 1; i <= 6; ++i)
         scene.pixels[0].fragments.push_back(
@@ -206,7 +207,7 @@ TEST_CASE("weighted_blended is exact where the fragments of a pixel have one col
         CHECK(render(scene, {"ideal", algorithm}).audit.max_difference < 1e-4);
 }
 
-TEST_CASE("weighted sums that half precision cannot hold are told, with their pixels") {
+TEST_CASE("weighted sums that exceed half precision are reported with their pixels") {
     FragmentScene scene{2, 2};  // 21 weights of 3000 are below 65504, 22 are above
     scene.pixels[1].fragments.assign(21, {0, {1, 1, 1, 1}});
     scene.pixels[2].fragments.assign(22, {0, {1, 1, 1, 1}});

@@ -1,3 +1,5 @@
+// tests/scenes/gltf/gltf_file.cpp - builds the parts of small glTF files and encodes PNG and JPEG images for them
+// (gltf_file.h).
 #include "tests/scenes/gltf/gltf_file.h"
 
 #include <array>
