@@ -5,7 +5,8 @@
 //          fragments of both are paired and counted; the peel is then run on the emulated machine with that pair and
 //          the given remedy (bias, epsilon, quantisation), and its trace and image are compared with the exact
 //          A-buffer.
-// Source   Everitt 2001; audit.md 11; texturing.md 4.1; numbers.md 6.
+// Source   Everitt 2001; peeling/reference/audit.md 11; pipeline/reference/texturing.md 4.1;
+//          rasterizer/reference/numbers.md 6.
 // Tests    tests/peeling/invariance_test.cpp
 #pragma once
 #include <optional>

@@ -27,8 +27,8 @@ namespace strata::peeling {
     return state;
 }
 
-// The uniforms with which a program computes the distance from the eye (algorithms.md 18.2), in binary64, each rounded
-// once. Precondition: rows z and w of the projection depend on z alone.
+// The uniforms with which a program computes the distance from the eye (peeling/reference/algorithms.md 18.2), in
+// binary64, each rounded once. Precondition: rows z and w of the projection depend on z alone.
 [[nodiscard]] inline EyeDistance eye_distance(const pipeline::View& view,
                                               const rasterizer::RasterState& state) noexcept {
     const double near = state.depth_near, far = state.depth_far;

@@ -2,8 +2,9 @@
 // tests.
 //
 // Rule     Options that are invalid on every profile throw InputError. A combination that this profile lacks gives a
-//          refusal that names the feature, checked in the order of devices.md 9.2. Defaults are those of devices.md 11.
-//          Kernels run on the instruction set that the options name, in the calling thread and in the workers.
+//          refusal that names the feature, checked in the order of pipeline/reference/devices.md 9.2. Defaults are
+//          those of devices.md 11. Kernels run on the instruction set that the options name, in the calling thread and
+//          in the workers.
 // Tests    tests/peeling/refusals_test.cpp, comparison_test.cpp
 #pragma once
 #include <functional>

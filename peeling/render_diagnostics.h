@@ -1,7 +1,7 @@
 // peeling/render_diagnostics.h - the diagnostics of a frame: causes of order errors, peels that did not terminate, and
 // features that no device had.
 //
-// Source   keys-and-counts.md 3.4 and 7.3.
+// Source   peeling/reference/keys-and-counts.md 3.4 and 7.3.
 // Tests    tests/peeling/comparison_test.cpp, published_test.cpp, algorithms/shadow_map_test.cpp
 #pragma once
 #include <vector>

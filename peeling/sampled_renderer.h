@@ -5,7 +5,7 @@
 //          summed over the samples; passes, layers, the fragments of the deepest pixel and differences are the maximum
 //          of the samples. Layer k of the frame is resolved from layer k, from the same end, of every sample; a sample
 //          without such a layer has codes of 0. Depth is the nearest of the samples.
-// Source   fragment-stages.md 13
+// Source   pipeline/reference/fragment-stages.md 13
 // Tests    tests/peeling/sampled_renderer_test.cpp
 #pragma once
 #include <functional>

@@ -3,7 +3,7 @@
 //
 // Rule     gluLookAt and gluPerspective in binary64 with sin and cos of scenes/numbers/elementary.h; matrices
 //          column-major, clip depth -1 to 1 unless as_seen_under converts it.
-// Source   scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
+// Source   scenes/reference/scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
 // Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
 #pragma once
 #include <string>

@@ -1,5 +1,5 @@
 // peeling/algorithms/a_buffer.cpp - the oracle: every visible fragment of a pixel, sorted by exact depth, composited in
-// binary64. algorithms.md 17 (Carpenter 1984, the A-buffer).
+// binary64. peeling/reference/algorithms.md 17 (Carpenter 1984, the A-buffer).
 //
 // Needs      nothing: no device ran this algorithm.
 // Passes     1. Of equal depths the first submitted is in front; none is lost.

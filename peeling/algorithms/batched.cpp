@@ -1,6 +1,6 @@
 // peeling/algorithms/batched.cpp - objects are sorted by depth and divided into batches, and each batch's depth
-// interval is peeled by itself. Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md
-// 15.
+// interval is peeled by itself. Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2;
+// peeling/reference/algorithms.md 15.
 //
 // Needs      a fragment program with discard (clip planes), separate alpha blending, a depth buffer that it can read.
 // Passes     the sum over intervals of L + 1, where L is the number of layers in an interval. Of equal depths only the

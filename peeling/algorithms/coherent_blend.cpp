@@ -1,6 +1,6 @@
 // peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: when a nearer fragment is drawn, blending copies
-// the nearest depth so far into the colour channels. Carr, Mech and Miller 2008, section 6; algorithms.md 11, erratum
-// E16.
+// the nearest depth so far into the colour channels. Carr, Mech and Miller 2008, section 6;
+// peeling/reference/algorithms.md 11, erratum E16.
 //
 // Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs
 //            can read.

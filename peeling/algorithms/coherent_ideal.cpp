@@ -1,6 +1,6 @@
 // peeling/algorithms/coherent_ideal.cpp - coherent layer peeling in two passes, on hypothetical hardware that reads and
-// writes several depths and a flag per sample. Carr, Mech and Miller 2008, Algorithm 2; algorithms.md 12, errata E23,
-// E25.
+// writes several depths and a flag per sample. Carr, Mech and Miller 2008, Algorithm 2; peeling/reference/algorithms.md
+// 12, errata E23, E25.
 //
 // Needs      STRATA_ordered_rmw: targets that the fragment program reads and writes in submission order.
 // Passes     2 per iteration, 1 in the last; 3 for any n in ascending order, 2 n + 1 in descending order. Of equal

@@ -1,5 +1,5 @@
 // peeling/algorithms/depth_units.cpp - one layer per pass with two sequential depth units. Everitt 2001, Listing 1;
-// algorithms.md 2.
+// peeling/reference/algorithms.md 2.
 //
 // Needs      STRATA_depth_units, an emulator extension: no device had sequential depth units.
 // Passes     N + 1 for N distinct depths: the last one finds nothing. Of equal depths only the first submitted is kept.

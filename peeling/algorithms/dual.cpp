@@ -1,5 +1,5 @@
 // peeling/algorithms/dual.cpp - two layers per pass, the nearest and the farthest, blended during the peel with one
-// shared MAX equation. Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
+// shared MAX equation. Bavoil and Myers 2008; peeling/reference/algorithms.md 5, errata E7, E9 to E14.
 //
 // Needs      RG32F and float MAX blending, three render targets.
 // Passes     1 + max(1, ceil(N/2)) with the min-max exit, floor(N/2) + 2 with the paper's exit. Fragments of one depth

@@ -1,6 +1,6 @@
 // peeling/algorithms/dual_independent.cpp - dual peeling with one blend equation per target: layers are blended UNDER
-// in front and OVER behind during the peel. Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1); algorithms.md
-// 6.
+// in front and OVER behind during the peel. Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1);
+// peeling/reference/algorithms.md 6.
 //
 // Needs      ARB_draw_buffers_blend (independent blending), RG32F and float MAX blending, three render targets.
 // Passes     ceil(N/2) + 2: the last peel finds nothing. No layer is lost on ties.

@@ -1,5 +1,5 @@
-// peeling/algorithms/front_to_back.cpp - one layer per pass, nearest first, blended UNDER the layers before it.
-// Everitt 2001 (the peel), Bavoil and Myers 2008 section "Under Blending"; algorithms.md 4.
+// peeling/algorithms/front_to_back.cpp - one layer per pass, nearest first, blended UNDER the layers before it. Everitt
+// 2001 (the peel), Bavoil and Myers 2008 section "Under Blending"; peeling/reference/algorithms.md 4.
 //
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
 // Passes     N + 1 for N distinct depths: the last one finds nothing. Of equal depths only the first submitted is kept.

@@ -1,5 +1,5 @@
 // peeling/algorithms/hybrid.cpp - unordered meshes peeled, ordered ones composited between the peels. Carr, Mech and
-// Miller 2008, Algorithm 1; algorithms.md 9.
+// Miller 2008, Algorithm 1; peeling/reference/algorithms.md 9.
 //
 // Needs      a fragment program with discard, separate alpha blending; an ordered set whose submission order is front
 //            to back at every pixel.

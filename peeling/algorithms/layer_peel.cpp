@@ -1,6 +1,6 @@
 // peeling/algorithms/layer_peel.cpp - the baseline of Carr, Mech and Miller: one pass finds a layer, a second one
-// composites it. Everitt 2001; Carr, Mech and Miller 2008, Table 1 (two geometry passes per iteration); algorithms.md 9
-// without an ordered set.
+// composites it. Everitt 2001; Carr, Mech and Miller 2008, Table 1 (two geometry passes per iteration);
+// peeling/reference/algorithms.md 9 without an ordered set.
 //
 // Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
 // Passes     2 N + 1 in N + 1 iterations: the last one finds nothing. Of equal depths all are composited, the first

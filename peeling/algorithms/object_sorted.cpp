@@ -1,6 +1,6 @@
 // peeling/algorithms/object_sorted.cpp - objects are ordered front to back by occlusion queries, then each is
 // composited in submission order. Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2;
-// algorithms.md 16.
+// peeling/reference/algorithms.md 16.
 //
 // Needs      occlusion queries, separate alpha blending.
 // Passes     1 per object and 2 per query, for n objects: 3 n - 2 if submitted front to back, n^2 + 2 n - 2 at most.

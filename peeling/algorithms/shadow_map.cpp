@@ -1,5 +1,5 @@
 // peeling/algorithms/shadow_map.cpp - one layer per pass with a shadow map rendered from the eye. Everitt 2001, "Shadow
-// Mapping as Depth Test"; algorithms.md 3.
+// Mapping as Depth Test"; peeling/reference/algorithms.md 3.
 //
 // Needs      depth textures and an alpha test; shadow_map_depth_replace also NV_texture_shader.
 // Passes     N + 1 for N distinct depths if the compared depth R is the stored one (depth_replace writes,
@@ -24,8 +24,8 @@ struct Buffers {
 
 // A fragment whose R is not behind the map is in shadow: its alpha is multiplied by (1 - shadow), and the alpha test
 // discards alpha 0. The map's texel is the one at the fragment's own pixel: s/q and t/q of a screen-aligned lookup are
-// off by less than a subpixel (texturing.md 2.4). Fragments that store alpha 0 are also discarded in pass 0: a layer of
-// theirs would be invisible.
+// off by less than a subpixel (pipeline/reference/texturing.md 2.4). Fragments that store alpha 0 are also discarded in
+// pass 0: a layer of theirs would be invisible.
 Drawn peel(Region& region, const Buffers& to) {
     const bool first = !to.map.exists();
     const DepthCompare compare = region.frame().depth_compare();

@@ -1,6 +1,6 @@
 // peeling/algorithms/stencil_routed_k_buffer.cpp - eight fragments per pass, each routed by the stencil test to a
 // sample of its own, sorted after the passes. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2;
-// algorithms.md 13.
+// peeling/reference/algorithms.md 13.
 //
 // Needs      8-sample colour, depth and stencil targets, sample masks; every fragment covers all samples.
 // Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Of equal depths all are composited, the

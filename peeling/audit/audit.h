@@ -9,7 +9,7 @@
 //          all of it. Half of a share is for the trace, 16 bytes per entry; the rest for lists, 52 bytes per fragment:
 //          28 in its list, 8 in each of three orders. In addition a region takes 24 bytes per pixel while it is
 //          audited.
-// Source   audit.md 13; the comparison: audit.md 1 to 5.
+// Source   peeling/reference/audit.md 13; the comparison: audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp, tests/peeling/audit/audit_memory_test.cpp
 #pragma once
 #include <cstdint>

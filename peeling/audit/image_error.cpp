@@ -40,7 +40,7 @@ void for_each_difference(const Image& image, const Image& truth, Body&& body) {
 
 }  // namespace
 
-// The value of a code (formats.md 2.2 and 3.1). Depth and stencil images are not colours.
+// The value of a code (pipeline/reference/formats.md 2.2 and 3.1). Depth and stencil images are not colours.
 double channel_value(const Image& image, int x, int y, int channel) {
     const std::uint32_t code = image.codes[image.index(x, y, channel)];
     switch (info(image.format).type) {

@@ -5,7 +5,7 @@
 //          and its primitive. `stored` is the code that the first writes into the buffer, `reference` the code that the
 //          second computes. Their difference, reference - stored, is counted in units of the last place: codes of D16
 //          and D24, steps between neighbouring floats of D32F (its codes are ordered integers).
-// Source   Everitt 2001, "Depth peeling"; audit.md 8.
+// Source   Everitt 2001, "Depth peeling"; peeling/reference/audit.md 8.
 // Numbers  |difference| < 2^32, in 64 bits.
 // Tests    tests/peeling/audit/path_pairs_test.cpp
 #pragma once

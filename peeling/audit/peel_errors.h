@@ -6,7 +6,7 @@
 //          from the run's trace: each depth in it stands for the first fragment of that depth, and so for a layer. A
 //          layer composited twice or more often is one duplicate, a layer never composited is one loss, so the counts
 //          stay finite for a peel that never ends.
-// Source   audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
+// Source   peeling/reference/audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
 // Tests    tests/peeling/audit/peel_errors_test.cpp
 #pragma once
 #include <cstdint>

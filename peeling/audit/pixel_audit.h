@@ -3,7 +3,7 @@
 // Rule     The sequence that a pixel composited (its trace) is compared, position by position, with its visible
 //          fragments in the order of the algorithm's tie policy. Its colour is compared with all of them composited in
 //          binary64, sorted by the exact depth.
-// Source   audit.md 1 to 5.
+// Source   peeling/reference/audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <array>

@@ -84,7 +84,7 @@ class ColumnPasses {
 
   private:
     // Every fragment outside [begin, end) passes the old front through, and MAX keeps it. If there is none, MAX meets
-    // the cleared target, 0 (algorithms.md 5.4).
+    // the cleared target, 0 (peeling/reference/algorithms.md 5.4).
     void blend_near(std::uint32_t begin, std::uint32_t end, Codes& front) const {
         Codes next = block_.visible[lane_] + block_.hidden[lane_] > end - begin ? front : Codes{};
         const float through = let_through(OneFloat{}, target_.value(front[3]));

@@ -1,5 +1,5 @@
-// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set, one list per lane.
-// How kernels are written: kernels.md. Tests: tests/peeling/loops/block_passes_test.cpp
+// peeling/loops/block_passes_simd.cpp - the loops of block_passes.h for every instruction set, one list per lane. How
+// kernels are written: rasterizer/reference/kernels.md. Tests: tests/peeling/loops/block_passes_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/loops/block_passes_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -170,7 +170,8 @@ bool both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, cons
     return is_plain;
 }
 
-// The blending of algorithms.md 0.4, with the codes packed into one word per pixel, red in the low byte.
+// The blending of peeling/reference/algorithms.md 0.4, with the codes packed into one word per pixel, red in the low
+// byte.
 template <pipeline::UnormRounding to_code>
 void last_quad_by(const BlockCodes& front, const BlockCodes& back, std::uint32_t* words) {
     using Target = StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // no blending here

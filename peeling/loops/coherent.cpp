@@ -117,7 +117,8 @@ Drawn composite_end(CoherentPeel& peel) {
 
 namespace {
 
-// Passes 2 to 6 (algorithms.md 10.1). The count is the paper's query, over both passes that composite.
+// Passes 2 to 6 (peeling/reference/algorithms.md 10.1). The count is the paper's query, over both passes that
+// composite.
 Count finish_iteration(CoherentPeel& peel, const FirstPasses& first) {
     peel.composited.clear();
     first.find_previous(peel);

@@ -1,5 +1,6 @@
 // peeling/loops/coherent.h - the parts of coherent layer peeling that its two formulations (coherent_stencil,
-// coherent_blend) share. Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
+// coherent_blend) share. Carr, Mech and Miller 2008, sections 4 to 6; peeling/reference/algorithms.md 10 and 11, errata
+// E15 to E23.
 //
 // Rule     An iteration composites, in submission order, a run: the fragments from the nearest one not yet composited
 //          (`nearest`, the paper's D(sn)) on, as long as they are submitted in depth order. The run ends before the

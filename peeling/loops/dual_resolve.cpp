@@ -8,7 +8,7 @@
 //            colour format is not one of stored_color.h or not that of back and picture, or no record can be sorted;
 //            and where MAX depends on the order or changes a depth: float targets with colours that are not plain
 //            (block_passes.h), visible depths below the cleared -1, denormals that are flushed. Then the passes run.
-// Source     algorithms.md 0.7.
+// Source     peeling/reference/algorithms.md 0.7.
 // Ties       fragments of one depth are one group (block_passes.h).
 #include "peeling/loops/dual_resolve.h"
 
@@ -49,7 +49,8 @@ BlockRules rules_of(const Frame& frame) {
     return rules;
 }
 
-// True if a depth is changed by MAX blending of (-z, z) onto (-1, -1), or has no order (depth.md 2.9).
+// True if a depth is changed by MAX blending of (-z, z) onto (-1, -1), or has no order (rasterizer/reference/depth.md
+// 2.9).
 bool has_foreign_depths(const TileFragments& fragments, const DeviceProfile& profile) {
     const bool flushes = profile.denormals == DenormalRule::flush;
     const bool wraps = profile.raster.depth_limits == rasterizer::DepthLimits::wrap;

@@ -1,4 +1,4 @@
-// peeling/loops/peel_sets.cpp - the loop of Algorithm 1 and its three passes (algorithms.md 9).
+// peeling/loops/peel_sets.cpp - the loop of Algorithm 1 and its three passes (peeling/reference/algorithms.md 9).
 //
 // Needs      fragment programs with discard, separate alpha blending.
 // Passes     3 per iteration with an ordered set, else 2; the first iteration has no layer to composite.

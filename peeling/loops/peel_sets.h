@@ -1,6 +1,6 @@
 // peeling/loops/peel_sets.h - the loop of Algorithm 1 for hybrid and layer_peel: unordered geometry is peeled layer by
-// layer, and ordered geometry is composited between two peels. Carr, Mech and Miller 2008, section 3; algorithms.md 9,
-// errata E23 and E24.
+// layer, and ordered geometry is composited between two peels. Carr, Mech and Miller 2008, section 3;
+// peeling/reference/algorithms.md 9, errata E23 and E24.
 //
 // Rule     An iteration finds the nearest unordered layer strictly behind the last one (`peeled`), composites the
 //          ordered fragments up to it, then composites the layer, by equality of depth. As published, ordered fragments

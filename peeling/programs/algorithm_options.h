@@ -6,8 +6,8 @@
 
 namespace strata::peeling {
 
-// The weight of a fragment in weighted_blended, McGuire and Bavoil 2013 (algorithms.md 18): equations 7 to 9 by the
-// distance from the eye, equation 10 by the window depth; constant: 1.
+// The weight of a fragment in weighted_blended, McGuire and Bavoil 2013 (peeling/reference/algorithms.md 18): equations
+// 7 to 9 by the distance from the eye, equation 10 by the window depth; constant: 1.
 enum class Weight : std::uint8_t { eq7, eq8, eq9, eq10, constant };
 
 // How the fragments behind those that are composited in order are shown (algorithms.md 21.3).

@@ -2,8 +2,8 @@
 //
 // Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n as average_text-inl.h computes
 //          them. Where n or sums.a is not above 0, C is the background. Alpha: 1 - t (1 - background alpha).
-// Source   Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8. The test for sums.a = 0 is an
-//          addition.
+// Source   Bavoil and Myers 2008, "Weighted Average"; peeling/reference/algorithms.md 7, erratum E8. The test for
+//          sums.a = 0 is an addition.
 // Tests    tests/peeling/programs/programs_test.cpp
 #pragma once
 #include "peeling/programs/programs.h"

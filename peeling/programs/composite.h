@@ -1,5 +1,5 @@
 // peeling/programs/composite.h - composites all fragments of a pixel over its background in binary64: the true colour,
-// with which the audit compares (audit.md 1).
+// with which the audit compares (peeling/reference/audit.md 1).
 #pragma once
 #include <array>
 #include <span>

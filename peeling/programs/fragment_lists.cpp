@@ -45,7 +45,7 @@ class Filing {
 
   private:
     // The algorithm's key must be less than the surface's; for a float key the target contains the float's bits
-    // (algorithms.md 0.1).
+    // (peeling/reference/algorithms.md 0.1).
     [[nodiscard]] bool is_visible(const FragmentBatch& in, std::size_t i) const {
         const std::uint32_t opaque = opaque_[in.pixel[i]];
         return by_shader_z_ ? in.shader_z[i] < std::bit_cast<float>(opaque) : in.code[i] < opaque;

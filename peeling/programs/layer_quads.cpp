@@ -8,9 +8,9 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-// OVER, far to near (algorithms.md 2). A pixel without such a layer has alpha 0, which leaves the target unchanged, and
-// the opaque depth, by which the trace recognises it. Only the trace reads the depths; without one they are bound as
-// textures instead of loads.
+// OVER, far to near (peeling/reference/algorithms.md 2). A pixel without such a layer has alpha 0, which leaves the
+// target unchanged, and the opaque depth, by which the trace recognises it. Only the trace reads the depths; without
+// one they are bound as textures instead of loads.
 void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
         PassState state;

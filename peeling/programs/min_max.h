@@ -133,7 +133,7 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
 // The layers that a dual peel composites during the peel, as separate images, if the frame keeps layers. After a peel
 // its fragments are drawn again, those at the near end and those at the far end separately, with the fragments' own
 // colours, not premultiplied. Fragments tied at a depth are one layer, MAX of each channel. This is not a pass of the
-// emulated device and not counted (algorithms.md 5.5).
+// emulated device and not counted (peeling/reference/algorithms.md 5.5).
 class DualLayers {
   public:
     explicit DualLayers(pipeline::Region& region) : region_{region} {

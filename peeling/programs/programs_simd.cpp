@@ -1,6 +1,6 @@
 // peeling/programs/programs_simd.cpp - the lane loops of programs.h and min_max.h, inlined (flatten) and compiled once
-// per instruction set, over whole vectors: the arrays of a batch are padded for them.
-// How kernels are written: kernels.md. Tests: tests/peeling/programs/programs_test.cpp
+// per instruction set, over whole vectors: the arrays of a batch are padded for them. How kernels are written:
+// rasterizer/reference/kernels.md. Tests: tests/peeling/programs/programs_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/programs/programs_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -30,7 +30,8 @@ inline namespace strict {
     return frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
 }
 
-// A fragment's window depth under either depth order: `shader_z` is the key that orders fragments (depth.md 11.2).
+// A fragment's window depth under either depth order: `shader_z` is the key that orders fragments
+// (rasterizer/reference/depth.md 11.2).
 [[nodiscard]] inline float window_z(const pipeline::Frame& frame, float shader_z) noexcept {
     return is_reversed(frame) ? rasterizer::depth_key(shader_z) : shader_z;
 }

@@ -39,7 +39,7 @@ void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragme
     }
 }
 
-// keys-and-counts.md 2.2.
+// peeling/reference/keys-and-counts.md 2.2.
 void apply(TiePolicy policy, FragmentOrder& by_key) {
     const auto same_key = [](std::uint64_t a, std::uint64_t b) { return depth_of(a) == depth_of(b); };
     switch (policy) {

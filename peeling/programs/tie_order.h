@@ -1,5 +1,5 @@
 // peeling/programs/tie_order.h - sorts a pixel's fragments into the order in which a tie policy composites them.
-// keys-and-counts.md 2.2. Tests: tests/peeling/audit/audit_test.cpp
+// peeling/reference/keys-and-counts.md 2.2. Tests: tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // peeling/programs/tie_policy.h - the rule that says which fragments of equal key are composited, and in which order.
-// keys-and-counts.md 2.2.
+// peeling/reference/keys-and-counts.md 2.2.
 #pragma once
 #include <cstdint>
 #include <string_view>

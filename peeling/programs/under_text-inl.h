@@ -7,7 +7,7 @@
 //          through (alpha colour), with the near fragment's alpha and colour. Alpha: 1 - through (1 - alpha). The last
 //          quad: front + through behind. Every operation is rounded, in this order. `Lanes` broadcasts a constant to
 //          all lanes; `Value` is a binary32 value or a vector of them.
-// Source   algorithms.md 0.4 and 5 (Bavoil and Myers 2008, "Dual Depth Peeling").
+// Source   peeling/reference/algorithms.md 0.4 and 5 (Bavoil and Myers 2008, "Dual Depth Peeling").
 template <class Lanes, class Value>
 [[gnu::always_inline]] constexpr Value let_through(Lanes lanes, Value front_alpha) {
     return lanes.all(1.0f) - front_alpha;

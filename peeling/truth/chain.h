@@ -10,7 +10,7 @@
 //                      exact: every fragment, in binary64
 //          store       opaque surfaces, layers and image in the colour format; exact: not rounded (blended: binary32)
 //          A chain without an exact link gives the result of depth_units; with all links exact it is the truth.
-// Source   audit.md 14.
+// Source   peeling/reference/audit.md 14.
 // Tests    tests/peeling/truth/chain_test.cpp, truth_test.cpp
 #pragma once
 #include <array>

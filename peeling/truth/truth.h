@@ -4,7 +4,7 @@
 // Rule     A pixel's opaque surface is the nearest of the opaque fragments (LESS); the transparent fragments in front
 //          of it are composited, sorted nearest first, and at equal depth the first submitted first. blend: D = alpha c
 //          + (1 - alpha) D from the far end. If a link stores codes, the results are the values of those codes.
-// Source   audit.md 14.
+// Source   peeling/reference/audit.md 14.
 // Tests    tests/peeling/truth/truth_test.cpp, chain_test.cpp
 #pragma once
 #include "peeling/truth/chain_list.h"

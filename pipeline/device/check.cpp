@@ -10,7 +10,7 @@
 namespace strata::pipeline {
 namespace {
 
-// The description and the extension of a Refusal, and the profile's field (devices.md 9.1).
+// The description and the extension of a Refusal, and the profile's field (pipeline/reference/devices.md 9.1).
 struct FeatureRule {
     Feature feature;
     std::string_view words, extension;

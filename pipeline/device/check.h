@@ -4,7 +4,7 @@
 // Rule     Every feature has one rule in check.cpp: description, extension, and the profiles that have it. A Refusal
 //          names those profiles. Fixed-function state that no algorithm here needs (fog, colour sum, dither, logic op)
 //          is rejected on every profile.
-// Source   devices.md 5 to 7, 9 and 10.
+// Source   pipeline/reference/devices.md 5 to 7, 9 and 10.
 // Tests    tests/pipeline/device/check_test.cpp
 #pragma once
 #include <optional>

@@ -1,6 +1,6 @@
 // pipeline/device/compare.h - the eight comparison functions, selected once outside the loop (GL 2.1 4.1.4 to 4.1.6).
 // Operands keep their order: `passes<less>(a, b)` is a < b. A NaN passes only `notequal` and `always`
-// (fragment-stages.md 1.2).
+// (pipeline/reference/fragment-stages.md 1.2).
 #pragma once
 #include <cstdint>
 #include <type_traits>

@@ -88,7 +88,8 @@ DeviceProfile ideal() {
     return p;
 }
 
-// Mesa's software rasterizers, for comparison with Mesa itself: the fields set here are measured (mesa-rasterizers.md).
+// Mesa's software rasterizers, for comparison with Mesa itself: the fields set here are measured
+// (pipeline/reference/mesa-rasterizers.md).
 DeviceProfile mesa() {
     DeviceProfile p = geforce8_dx101();
     p.raster.clip = ClipVolume::view_volume;

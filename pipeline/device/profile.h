@@ -13,7 +13,7 @@
 
 namespace strata::pipeline {
 
-// The alpha test compares 8-bit codes always, or only on 8-bit targets (fragment-stages.md 3).
+// The alpha test compares 8-bit codes always, or only on 8-bit targets (pipeline/reference/fragment-stages.md 3).
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
 // The rounding of an 8-bit blend (fragment-stages.md 8.2). nearest: the exact sum, half up. truncate: the exact sum,
 // truncated. each_product: each product separately. unrounded_source: everything in binary32, with a source that is not
@@ -27,10 +27,12 @@ enum class BlendStorage : std::uint8_t { target, cached_tiles };
 enum class MinMaxNan : std::uint8_t { other_operand, propagate, destination };
 // Whether binary32 blending flushes operands and results below 2^-126 to zero (fragment-stages.md 9.1).
 enum class DenormalRule : std::uint8_t { flush, keep };
-// The contents of 24-bit depth buffers: 24-bit codes, or the binary32 of a D32F buffer (depth.md 2.10).
+// The contents of 24-bit depth buffers: 24-bit codes, or the binary32 of a D32F buffer (rasterizer/reference/depth.md
+// 2.10).
 enum class Depth24 : std::uint8_t { codes, binary32 };
 // The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by linear interpolations, as codes
-// or in binary32 (texturing.md 3). It also affects nearest lookups and pass-through coordinates (devices.md 4).
+// or in binary32 (pipeline/reference/texturing.md 3). It also affects nearest lookups and pass-through coordinates
+// (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, single_lerps };
 // The corner of the image at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT);
 // lower_left as OpenGL draws into framebuffer objects without that call. All rules apply in memory order (devices.md

@@ -103,8 +103,8 @@ constexpr std::string_view unweighted = "[A] of 8-bit colour weights, which this
 constexpr std::string_view webgl = "[M] Chromium 156 answers so in WebGL 2";
 constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
-// Sources: [S] a specification, [M] measured, [A] our assumption (devices.md); then the page and section of the
-// specification.
+// Sources: [S] a specification, [M] measured, [A] our assumption (pipeline/reference/devices.md); then the page and
+// section of the specification.
 constexpr std::array fields{
     integer<&Rules::subpixel_bits>(
         "raster.subpixel_bits", {4, 12, 4},

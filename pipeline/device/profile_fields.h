@@ -25,7 +25,7 @@ struct ProfileField {
     int (*value)(const DeviceProfile&) = nullptr;
     void (*set)(DeviceProfile&, int) = nullptr;
     // The sources for geforce3; for geforce8 and geforce8_dx101; for ideal; for Mesa's profiles; and for swiftshader.
-    // devices.md explains the marks.
+    // pipeline/reference/devices.md explains the marks.
     std::array<std::string_view, 5> source;
 };
 

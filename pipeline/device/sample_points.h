@@ -1,6 +1,6 @@
 // pipeline/device/sample_points.h - the sample positions within a pixel.
 //
-// Source   fragment-stages.md 13.1.
+// Source   pipeline/reference/fragment-stages.md 13.1.
 // Tests    tests/pipeline/device/sample_points_test.cpp
 #pragma once
 #include <array>

@@ -19,7 +19,7 @@ struct AlphaTest {
 };
 
 // Operations on the stored 8 bits: incr and decr saturate at 255 and 0, the _wrap variants wrap around
-// (fragment-stages.md 5).
+// (pipeline/reference/fragment-stages.md 5).
 enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
 
 // The test passes if (ref & func_mask) FUNC (stored & func_mask), the reference on the left (GL 2.1 4.1.5). The stored

@@ -10,7 +10,7 @@
 
 namespace strata::pipeline {
 
-// The formulas of the rows are in vertices.md 2.
+// The formulas of the rows are in pipeline/reference/vertices.md 2.
 enum class VertexPath : std::uint8_t {
     // Every product and every sum rounded to binary32: the default.
     separate,

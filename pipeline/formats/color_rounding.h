@@ -15,7 +15,8 @@ struct ColorRounding {
 };
 
 // How the samples of a pixel are combined to one colour: the mean of 8-bit codes, half up; or a sum in binary32, sample
-// by sample, times 1/n, rounded like a program's colour. Float formats always use the latter (fragment-stages.md 13.3).
+// by sample, times 1/n, rounded like a program's colour. Float formats always use the latter
+// (pipeline/reference/fragment-stages.md 13.3).
 enum class ResolveRule : std::uint8_t { codes_half_up, single };
 
 }  // namespace strata::pipeline

@@ -3,7 +3,7 @@
 // Rule     XXH3-128, seed 0, of: the format's name in ASCII, a zero byte, u32 width, height and samples, then the codes
 //          in the order of Image: UNORM8 and stencil u8, half u16, binary32 and every depth format (D16 too) u32; all
 //          little-endian.
-// Source   formats.md 8
+// Source   pipeline/reference/formats.md 8
 // Tests    tests/scenes/digest_test.cpp, against a buffer serialized independently
 #include <xxhash.h>
 

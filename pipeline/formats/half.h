@@ -9,7 +9,7 @@
 //          It rounds to nearest even; larger values and infinity become 131008. A NaN becomes -131008: arithmetic does
 //          not define the sign of a NaN, and x86 generates negative ones. Below 2^-14 the significand is truncated to
 //          24 bits after the shift and then rounded.
-// Source   formats.md 3 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
+// Source   pipeline/reference/formats.md 3 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
 // Tests    tests/pipeline/formats/half_test.cpp: all 65,536 halves; all 2^32 floats under both roundings
 #pragma once
 #include <algorithm>

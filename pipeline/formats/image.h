@@ -50,7 +50,7 @@ struct Image {
 
 // XXH3-128 in lower-case hexadecimal (high 64 bits first) of: the format's name in ASCII, a zero byte, u32 width, u32
 // height, u32 samples, then the codes in the order above: u8 for UNORM8 and stencil, u16 for halves, u32 for binary32
-// and every depth format; all little-endian (formats.md 8).
+// and every depth format; all little-endian (pipeline/reference/formats.md 8).
 [[nodiscard]] std::string digest(const Image& image);
 
 }  // namespace strata::pipeline

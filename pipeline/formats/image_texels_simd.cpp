@@ -1,7 +1,7 @@
 // pipeline/formats/image_texels_simd.cpp - image_texels.h, compiled once per instruction set. A vector is 16 bytes, one
 // pixel of codes: images have no greater alignment, and non-temporal stores are combined into cache lines whatever
-// their width.
-// How kernels are written: kernels.md. Tests: tests/pipeline/formats/image_texels_test.cpp
+// their width. How kernels are written: rasterizer/reference/kernels.md. Tests:
+// tests/pipeline/formats/image_texels_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/formats/image_texels_simd.cpp"
 #include "hwy/foreach_target.h"

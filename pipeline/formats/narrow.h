@@ -4,9 +4,9 @@
 //          colours with zeros in the low bits, alpha as a7 << 1 | a7 >> 6, and 255 if there is no alpha. A target
 //          stores its codes as they are read back, so storing them again does not change them. With 16 bits per pixel
 //          the source colours are truncated to these bits before blending too; source alpha is not.
-// Source   formats.md 4, chip-fragment.md 5: 16 captures and 16 sets of corners. The truncation of the source follows
-//          from the capture R5G6B5_Add_SrcA_1-SrcA: with it all pixels are equal, without it 11,524 differ. For
-//          surfaces with only 5-bit channels it is assumed.
+// Source   pipeline/reference/formats.md 4, chip-fragment.md 5: 16 captures and 16 sets of corners. The truncation of
+//          the source follows from the capture R5G6B5_Add_SrcA_1-SrcA: with it all pixels are equal, without it 11,524
+//          differ. For surfaces with only 5-bit channels it is assumed.
 // Tests    tests/pipeline/formats/narrow_test.cpp
 #pragma once
 #include <cstdint>

@@ -4,7 +4,7 @@
 // Rule     ResolveRule::codes_half_up: the mean of 8-bit codes, rounded half up, stored as the format stores codes.
 //          ResolveRule::single, and float formats with either rule: the sum in binary32 in sample order, times 1/n,
 //          stored like a program's colour. Depth: the nearest of the samples.
-// Source   fragment-stages.md 13.3.
+// Source   pipeline/reference/fragment-stages.md 13.3.
 // Tests    tests/pipeline/formats/resolve_test.cpp
 #pragma once
 #include "pipeline/formats/color_rounding.h"

@@ -2,7 +2,7 @@
 //
 // Rule     Code k is e = k / 255; linear = e / 12.92 up to 0.04045, above that ((e + 0.055) / 1.055)^2.4, the exact
 //          value rounded once to binary32.
-// Source   IEC 61966-2-1:1999 section 5.2; formats.md 6 (tables, never the C library's pow).
+// Source   IEC 61966-2-1:1999 section 5.2; pipeline/reference/formats.md 6 (tables, never the C library's pow).
 // Tests    tests/scenes/numbers/srgb_test.cpp recomputes every entry with 50 digits
 #pragma once
 #include <array>

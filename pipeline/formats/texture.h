@@ -9,7 +9,7 @@ namespace strata::pipeline {
 // two_d takes coordinates 0..1, rectangle takes texel coordinates (NV_texture_rectangle).
 enum class TextureTarget : std::uint8_t { two_d, rectangle };
 enum class TextureFilter : std::uint8_t { nearest, linear };
-// The wrap mode of texels outside the image (texturing.md 2.3); rectangle textures always clamp.
+// The wrap mode of texels outside the image (pipeline/reference/texturing.md 2.3); rectangle textures always clamp.
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 // Four 8-bit channels per texel, row 0 at t = 0 (glTF's top row), straight alpha, in the frame's encoded colour space.

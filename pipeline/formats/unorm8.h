@@ -3,7 +3,7 @@
 // Rule     To UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product. UnormRounding::product_even
 //          and product_even_wide: 255 x rounded to binary32, and that to the nearest even code. From UNORM8: k / 255,
 //          rounded once; with the other two roundings as in unorm8_product.h.
-// Source   formats.md 2 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
+// Source   pipeline/reference/formats.md 2 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
 // Numbers  255 x has at most 32 significant bits: exact in binary64. If adding 1/2 rounds, x is far from every half
 //          code.
 // Tests    tests/pipeline/formats/unorm8_test.cpp: all 256 codes; all 2^32 floats

@@ -2,7 +2,8 @@
 //
 // Rule     UnormRounding::product_even: k * f32(1 / 255), rounded; differs from k / 255 for 126 of the 256 codes.
 //          product_even_wide: through 16 bits, 257 k * f32(1 / 65535), rounded; differs for 8 codes.
-// Source   formats.md 2.3; measured on llvmpipe (a front target that dual peeling reads back) and on SwiftShader.
+// Source   pipeline/reference/formats.md 2.3; measured on llvmpipe (a front target that dual peeling reads back) and on
+//          SwiftShader.
 // Tests    tests/pipeline/formats/unorm8_test.cpp, tests/pipeline/region/region_test.cpp
 #pragma once
 #include "pipeline/formats/unorm8.h"

@@ -2,7 +2,7 @@
 // by the pass's selection.
 //
 // Rule     The rules of FragmentSelection (frame/selection.h), with planes of one entry per pixel instead of targets.
-// Source   execution.md 7.1.
+// Source   pipeline/reference/execution.md 7.1.
 // Tests    tests/pipeline/fragments/find_fragments_test.cpp; tests/peeling/selection_test.cpp
 #pragma once
 #include <array>

@@ -1,5 +1,5 @@
-// pipeline/fragments/record_rows_simd.cpp - record_rows.h, compiled once per instruction set.
-// How kernels are written: kernels.md. Tests: tests/pipeline/fragments/record_rows_test.cpp
+// pipeline/fragments/record_rows_simd.cpp - record_rows.h, compiled once per instruction set. How kernels are written:
+// rasterizer/reference/kernels.md. Tests: tests/pipeline/fragments/record_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/fragments/record_rows_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -1,5 +1,5 @@
-// pipeline/fragments/sort_levels_simd.cpp - sort_levels.h, compiled once per instruction set.
-// How kernels are written: kernels.md. Tests: tests/pipeline/fragments/sort_levels_test.cpp
+// pipeline/fragments/sort_levels_simd.cpp - sort_levels.h, compiled once per instruction set. How kernels are written:
+// rasterizer/reference/kernels.md. Tests: tests/pipeline/fragments/sort_levels_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/fragments/sort_levels_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -8,7 +8,7 @@
 //          last.
 // Numbers  8 bytes per entry, the same number of levels for each pixel of a block as its longest list, and 12 bytes per
 //          pixel. Lists are sorted only if no key is a NaN and no stored code of a float buffer is negative.
-// Source   execution.md 7.1.
+// Source   pipeline/reference/execution.md 7.1.
 // Tests    tests/pipeline/fragments/sorted_lists_test.cpp
 #pragma once
 #include <cstdint>

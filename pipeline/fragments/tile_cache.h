@@ -7,7 +7,7 @@
 //          target's format. A fetched value is the value of its code; a blended value is neither rounded nor, on 8-bit
 //          targets, converted to a code, but clamped to 0..1 before and after the blend. At the end of a pass all tiles
 //          are written back.
-// Source   fragment-stages.md 9.5; mesa-rasterizers.md 3.5.
+// Source   pipeline/reference/fragment-stages.md 9.5; mesa-rasterizers.md 3.5.
 // Numbers  A value is written back only if a fragment was blended at it since it was fetched, so that no other value
 //          changes. In frames of more than 5 x 10 tiles, tiles share slots: a region smaller than the frame then throws
 //          NeedsFrame at the first pixel that is blended twice, because fragments outside the region may cause the

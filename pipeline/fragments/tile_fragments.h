@@ -7,7 +7,7 @@
 // Layout   One array per value; the channels of a colour are stored together, because passes fetch fragments at
 //          scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the
 //          number of depths per pixel.
-// Source   execution.md 5.3 and 7.1.
+// Source   pipeline/reference/execution.md 5.3 and 7.1.
 // Tests    tests/pipeline/fragments/tile_fragments_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <array>

@@ -4,7 +4,7 @@
 // Rule     A tile is halved across its longer side until each part fits or is a single pixel. A part fits if its
 //          fragments (Replay::bytes_per_fragment) and their sorted entries do. Parts take the position of their tile in
 //          the order. If a region's memory is less than two chunks of a store, nothing is split.
-// Source   execution.md 5.3.
+// Source   pipeline/reference/execution.md 5.3.
 // Tests    tests/pipeline/fragments/tile_parts_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include <array>

@@ -1,6 +1,6 @@
 // pipeline/frame/check_pass.cpp - two kinds of rejection. A pass that no device could run is a programming error:
-// std::logic_error (devices.md 9.3). A pass for which this profile lacks something is an outcome: Refused (devices.md
-// 9.2).
+// std::logic_error (pipeline/reference/devices.md 9.3). A pass for which this profile lacks something is an outcome:
+// Refused (devices.md 9.2).
 #include "pipeline/frame/check_pass.h"
 
 #include <algorithm>

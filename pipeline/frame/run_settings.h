@@ -9,7 +9,7 @@ namespace strata::pipeline {
 // (pipeline/region/executor.h).
 enum class Execution : std::uint8_t { literal, replay };
 
-// How occlusion queries end a peel (keys-and-counts.md 3.1).
+// How occlusion queries end a peel (peeling/reference/keys-and-counts.md 3.1).
 enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
 struct Termination {
     TerminationRule rule = TerminationRule::exact;

@@ -6,7 +6,7 @@
 //          decide the result, those outside because they die or write the stored values. The program does not use
 //          primitive indices, and tallies nothing outside. `Instruments::check_selections` also visits every fragment
 //          and compares.
-// Source   execution.md 7.1.
+// Source   pipeline/reference/execution.md 7.1.
 // Tests    tests/peeling/selection_test.cpp, execution_test.cpp
 #pragma once
 #include <array>

@@ -17,7 +17,7 @@ using Reg = CombinerRegister;
 
 constexpr std::int32_t one = combiner_one;
 
-// Bias, scale and clamp of a rounded result (combiners.md 2.2).
+// Bias, scale and clamp of a rounded result (pipeline/reference/combiners.md 2.2).
 [[nodiscard]] CombinerScaling scaling_of(const CombinerPortion& p) noexcept {
     const std::int32_t bias = p.bias == CombinerBias::by_negative_half ? combiner_half : 0;
     switch (p.scale) {

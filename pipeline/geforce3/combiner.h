@@ -5,9 +5,9 @@
 //          products) and A B + C D or a choice between the two, then bias (- 128), scale, clamp to [-255, 255];
 //          separately for colours and for alpha. The final stage gives A B + (1 - A) C + D as colours and G as alpha,
 //          clamped to [0, 255].
-// Source   NV_register_combiners; combiners.md 1 to 3; chip-fragment.md 9 (bias, scales, inverts, MUX and sums as
-//          measured). Sums of products are exact and rounded once, to nearest: an odd divisor has no ties. That
-//          rounding is an assumption wherever two factors are fractions.
+// Source   NV_register_combiners; pipeline/reference/combiners.md 1 to 3; chip-fragment.md 9 (bias, scales, inverts,
+//          MUX and sums as measured). Sums of products are exact and rounded once, to nearest: an odd divisor has no
+//          ties. That rounding is an assumption wherever two factors are fractions.
 // Numbers  |A B + C D| <= 2 * 255^2, three times that for dot products: far below 2^31.
 // Tests    tests/pipeline/geforce3/combiner_test.cpp
 #pragma once

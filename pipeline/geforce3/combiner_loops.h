@@ -1,7 +1,7 @@
 // pipeline/geforce3/combiner_loops.h - the loops of the register combiners over the fragments of a batch, for
 // combiner.cpp: one source, vectorized by the compiler for every instruction set.
 //
-// Rule     combiners.md 2 and 3, in units of 1/255. Every loop writes `count` values of `to`.
+// Rule     pipeline/reference/combiners.md 2 and 3, in units of 1/255. Every loop writes `count` values of `to`.
 // Numbers  Registers are -255 to 255, the colour sum is up to 510: sums of products are below 2^20.
 // Tests    tests/pipeline/geforce3/combiner_test.cpp, on every instruction set
 #pragma once

@@ -1,6 +1,6 @@
 // pipeline/geforce3/combiner_loops_simd.cpp - combiner_loops.h, compiled once per instruction set; that header defines
-// the meaning.
-// How kernels are written: kernels.md. Tests: tests/pipeline/geforce3/combiner_test.cpp
+// the meaning. How kernels are written: rasterizer/reference/kernels.md. Tests:
+// tests/pipeline/geforce3/combiner_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/geforce3/combiner_loops_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once per instruction set

@@ -49,7 +49,7 @@ struct TexEnv {
 [[nodiscard]] Combiners texture_environment(std::span<const TexEnv> units);
 
 // The combiners of shadow-map peeling: colour is unchanged, alpha becomes (1 - comparison) times alpha. `unit` has the
-// comparison as luminance or intensity. combiners.md 4.2: published ports of Everitt's demo.
+// comparison as luminance or intensity. pipeline/reference/combiners.md 4.2: published ports of Everitt's demo.
 [[nodiscard]] Combiners peel_combiners(std::size_t unit);
 
 }  // namespace strata::pipeline

@@ -48,7 +48,7 @@ void divide(const StageRun& run, std::size_t component, Lanes<float>& out) noexc
         out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.machine));
 }
 
-// One division: signed codes reach at most 32767/32768 (texture-shader.md 4).
+// One division: signed codes reach at most 32767/32768 (pipeline/reference/texture-shader.md 4).
 float hilo_component(std::uint16_t k, bool is_signed) noexcept {
     return is_signed ? static_cast<float>(static_cast<std::int16_t>(k)) / 32768.0f : static_cast<float>(k) / 65535.0f;
 }

@@ -10,8 +10,8 @@
 //          depth range, which includes NaN and zero divisors, the fragment dies (with depth clamp it is clamped). A
 //          HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 - LO^2)); as a colour it is 0. A stage that is not
 //          consistent is NONE: (0, 0, 0, 0).
-// Source   NV_texture_shader 3.8.13; texture-shader.md 1 to 7; chip-geometry.md 4. Binary32 in the written order is
-//          assumed.
+// Source   NV_texture_shader 3.8.13; pipeline/reference/texture-shader.md 1 to 7; rasterizer/reference/chip-geometry.md
+//          4. Binary32 in the written order is assumed.
 // Tests    tests/pipeline/geforce3/texture_shader_test.cpp
 #pragma once
 #include <array>

@@ -62,7 +62,7 @@ bool replaces_depth(const ShaderOps& ops) noexcept {
     return false;
 }
 
-// Coordinates that no operation uses are not interpolated (texture-shader.md 8).
+// Coordinates that no operation uses are not interpolated (pipeline/reference/texture-shader.md 8).
 rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept {
     constexpr unsigned s = 1, t = 2, r = 4, q = 8;
     unsigned mask = 0;

@@ -1,5 +1,5 @@
 // pipeline/region/executor.cpp - both executions in one class: literal execution has a single region, whose own counts
-// are the frame's (execution.md 4, 5 and 8).
+// are the frame's (pipeline/reference/execution.md 4, 5 and 8).
 #include "pipeline/region/executor.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 //          triangles, one of each size runs for the others of that size, if the frame promises that their results are
 //          equal (Frame::alike_where_blank). Counters are those of literal execution. A frame that needs to be whole
 //          (Frame::needs_frame, or a lookup that leaves its region) runs literally, whatever was requested.
-// Source   execution.md 4, 5 and 8.
+// Source   pipeline/reference/execution.md 4, 5 and 8.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once
 #include <functional>

@@ -41,7 +41,8 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
       machine_{machine_of(region, path.shader)},
       combiners_{path.combiners},
       results_{std::make_unique<ShaderResults>()} {
-    // Depth replace is a stage of NV_texture_shader: a profile without it has no texture shader at all (devices.md 6).
+    // Depth replace is a stage of NV_texture_shader: a profile without it has no texture shader at all
+    // (pipeline/reference/devices.md 6).
     if (auto lacking = check(region.profile(), Feature::depth_replace))
         throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
 }

@@ -4,7 +4,7 @@
 // Rule     The state of a pass is a value; `apply` adds to it what the path needs. Coordinates come with the draw list
 //          (PrepareOptions::units) or with the caller's TriangleSoup. A replaced depth is used instead of the
 //          rasterizer's in depth units, stencil and depth test.
-// Source   fragment-stages.md 1 (order); texture-shader.md 1; combiners.md 2 and 3.
+// Source   pipeline/reference/fragment-stages.md 1 (order); texture-shader.md 1; combiners.md 2 and 3.
 // Tests    tests/pipeline/region/fragment_path_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <memory>

@@ -1,5 +1,5 @@
 // pipeline/region/region.cpp - assembles a region from its parts, and draws the opaque scene before the body starts
-// (execution.md 1.1).
+// (pipeline/reference/execution.md 1.1).
 #include "pipeline/region/region.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 //          consists of targets, stages, source and loop (region_shared.h describes their dependencies). The
 //          executor reads its results from RegionStatistics (region_statistics.h); optimized paths use RegionShortcuts
 //          (region_shortcuts.h).
-// Source   execution.md 1 and 4.
+// Source   pipeline/reference/execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include <cstdint>

@@ -42,8 +42,8 @@ bool Loop::any(Count count, Idle idle) {
     return answer;
 }
 
-// Both limits count geometry passes of the whole algorithm (keys-and-counts.md 3.2). Every region has made the same
-// number at this point, so all of them stop together.
+// Both limits count geometry passes of the whole algorithm (peeling/reference/keys-and-counts.md 3.2). Every region has
+// made the same number at this point, so all of them stop together.
 bool Loop::limit_reached(int passes) const {
     const int fixed = shared_.frame.termination.rule == TerminationRule::fixed ? shared_.frame.termination.passes : 0;
     const int after = shared_.statistics.geometry_passes + passes;

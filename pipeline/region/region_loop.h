@@ -1,7 +1,7 @@
 // pipeline/region/region_loop.h - a region's iterations, queries and termination, and the layers that it keeps. The
 // frame's counterpart is executor.cpp.
 //
-// Source   execution.md 4; keys-and-counts.md 3.
+// Source   pipeline/reference/execution.md 4; peeling/reference/keys-and-counts.md 3.
 // Tests    tests/pipeline/region/executor_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include "pipeline/frame/pass.h"

@@ -42,7 +42,8 @@ bool Source::draws_rows(const PassState& state, const PreparedDraw& list) {
     return is_plain && !is_recorded;
 }
 
-// LESS with a write is the only depth pass that rows implement; every other uses batches (execution.md 7).
+// LESS with a write is the only depth pass that rows implement; every other uses batches
+// (pipeline/reference/execution.md 7).
 bool Source::depth_suits_rows(const PassState& state) {
     const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
     return is_nearest && targets_.is_one_sample(state.depth_target) && draws_rows(state, *shared_.frame.transparent);

@@ -1,5 +1,6 @@
 // pipeline/region/region_selected.cpp - geometry passes that visit only the fragments that a selection keeps: only they
-// go through the stages (execution.md 7.1). Literal execution never uses this path, which is tested against it.
+// go through the stages (pipeline/reference/execution.md 7.1). Literal execution never uses this path, which is tested
+// against it.
 #include <algorithm>
 
 #include "pipeline/fragments/find_fragments.h"

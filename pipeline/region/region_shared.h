@@ -33,7 +33,7 @@ struct RegionShared {
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return place.rect; }
     // Literal execution: the frame is one region.
     [[nodiscard]] bool is_frame() const noexcept { return place.extent == Extent::frame; }
-    // True if depths outside the depth range have codes (depth.md 2.9).
+    // True if depths outside the depth range have codes (rasterizer/reference/depth.md 2.9).
     [[nodiscard]] bool wraps_depths() const noexcept {
         return profile().raster.depth_limits == rasterizer::DepthLimits::wrap;
     }

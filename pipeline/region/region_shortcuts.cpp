@@ -1,5 +1,5 @@
 // pipeline/region/region_shortcuts.cpp - access to a region's fragments outside its passes, and target words for
-// kernels (execution.md 7). Such access is not a pass and is not counted.
+// kernels (pipeline/reference/execution.md 7). Such access is not a pass and is not counted.
 #include "pipeline/region/region_shortcuts.h"
 
 #include <algorithm>

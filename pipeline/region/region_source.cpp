@@ -69,7 +69,7 @@ void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
 }
 
 // Codes outside the depth range are ordered differently from keys: if one occurs, the frame is drawn literally
-// (execution.md 5.4).
+// (pipeline/reference/execution.md 5.4).
 void Source::require_range(const FragmentBatch& batch) const {
     const rasterizer::DepthFormat format = shared_.frame.key_request().format;
     const auto is_beyond = [&](std::uint32_t code) { return rasterizer::is_beyond_range(code, format); };

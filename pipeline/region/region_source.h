@@ -2,7 +2,7 @@
 // record, from the selected part of the record, or as rows that are written directly to the targets.
 //
 // Rule     Literal execution rasterizes in every pass; all other paths are tested against it.
-// Source   execution.md 5 and 7.
+// Source   pipeline/reference/execution.md 5 and 7.
 // Tests    tests/peeling/execution_test.cpp, selection_test.cpp, tests/pipeline/region/needs_of_tiles_test.cpp
 #pragma once
 #include <memory>

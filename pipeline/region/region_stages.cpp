@@ -1,6 +1,6 @@
 // pipeline/region/region_stages.cpp - the stages of a batch from the rasterizer to the render targets, in OpenGL's
 // order: texture and MASK, (the fragment program), alpha test, depth units, stencil test, depth test, query, blending
-// (fragment-stages.md 1).
+// (pipeline/reference/fragment-stages.md 1).
 #include "pipeline/region/region_stages.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first batch,
 //          close_cache after the last.
-// Source   fragment-stages.md 1.
+// Source   pipeline/reference/fragment-stages.md 1.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include <functional>

@@ -1,4 +1,5 @@
-// pipeline/region/region_targets.cpp - creates, clears, copies and reads a region's targets (execution.md 1.1).
+// pipeline/region/region_targets.cpp - creates, clears, copies and reads a region's targets
+// (pipeline/reference/execution.md 1.1).
 #include "pipeline/region/region_targets.h"
 
 #include <algorithm>

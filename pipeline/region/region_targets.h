@@ -3,7 +3,7 @@
 //
 // Rule     Targets have the same indices in every region of a frame, because the body creates them in the same order.
 //          Clears fill the region: scissor and write masks belong to passes.
-// Source   execution.md 1.1; formats.md 5.
+// Source   pipeline/reference/execution.md 1.1; formats.md 5.
 // Tests    tests/pipeline/region/region_test.cpp, region_rarities_test.cpp
 #pragma once
 #include <cstdint>
@@ -31,7 +31,7 @@ class Targets {
     // True if it is 1 everywhere, as before the first opaque triangle.
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
     // True if its depths are within the depth range, as those of sorted fragments are: codes outside have no order
-    // (depth.md 2.9).
+    // (rasterizer/reference/depth.md 2.9).
     [[nodiscard]] bool has_ordered_surface() const;
     void note_written(Target target) noexcept { opaque_depth_is_cleared_ &= target != opaque_depth_; }
 

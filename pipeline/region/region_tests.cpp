@@ -1,5 +1,5 @@
 // pipeline/region/region_tests.cpp - the tests of a batch's fragments at one sample: depth units, stencil, depth
-// (fragment-stages.md 4 to 6).
+// (pipeline/reference/fragment-stages.md 4 to 6).
 #include <algorithm>
 
 #include "pipeline/frame/pass_counters.h"
@@ -52,7 +52,7 @@ std::uint64_t Stages::test_depth_and_stencil(const PassState& state, const Fragm
         if (depth != nullptr && state.depth.write)
             scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
-    // The compared code may be wider than the stored one (depth.md 2.9).
+    // The compared code may be wider than the stored one (rasterizer/reference/depth.md 2.9).
     if (shared_.wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
             depth->depth_plane(sample).words[batch.pixel[i]] &= rasterizer::max_code(depth_format(depth->format()));

@@ -1,5 +1,6 @@
 // pipeline/region/surface.cpp - a surface is a frame of one region whose list of triangles changes from draw to draw
-// (execution.md 12). It uses the region's own stages, so that the rules of a stage have one implementation.
+// (pipeline/reference/execution.md 12). It uses the region's own stages, so that the rules of a stage have one
+// implementation.
 #include "pipeline/region/surface.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // Rule     eight_bit: round(255 alpha) FUNC round(255 ref), integers, both clamped. Otherwise alpha FUNC ref in
 //          binary32 without clamping: a NaN alpha passes only `notequal` and `always`. With several targets the alpha
 //          of colour 0 is tested.
-// Source   fragment-stages.md 3 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A, chip-fragment.md 2; binary32 for
-//          float targets: ARB_color_buffer_float).
+// Source   pipeline/reference/fragment-stages.md 3 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A,
+//          chip-fragment.md 2; binary32 for float targets: ARB_color_buffer_float).
 // Tests    tests/pipeline/stages/alpha_test_test.cpp
 #pragma once
 #include <cstdint>

@@ -4,7 +4,7 @@
 //          have separate terms. Without an alpha channel, destination alpha is 1. With blending off the source replaces
 //          the destination, converted once. The arithmetic of 8-bit targets is in blend_unorm8.h, that of fp16 and
 //          binary32 targets in blend_float.h.
-// Source   fragment-stages.md 8 and 9 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
+// Source   pipeline/reference/fragment-stages.md 8 and 9 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
 // Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once per instruction set; the others first
 //          fill two arrays of factors.
 // Tests    tests/pipeline/stages/blend_unorm8_test.cpp, tests/pipeline/stages/blend_float_test.cpp,

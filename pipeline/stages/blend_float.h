@@ -6,8 +6,8 @@
 //          become zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, depending on the profile),
 //          two give 0x7fffffff; max(-0,+0) = +0, min = -0; MinMaxNan::destination: d unless s is less, or greater.
 //          SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
-// Source   fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is
-//          assumed.
+// Source   pipeline/reference/fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the
+//          order of roundings is assumed.
 // Tests    tests/pipeline/stages/blend_float_test.cpp
 #pragma once
 #include <bit>
@@ -21,7 +21,7 @@
 namespace strata::pipeline {
 inline namespace strict {
 
-// The NaN of G80's arithmetic (numbers.md 5.1): quiet, with positive sign and all other bits set.
+// The NaN of G80's arithmetic (rasterizer/reference/numbers.md 5.1): quiet, with positive sign and all other bits set.
 inline constexpr std::uint32_t canonical_nan = 0x7fffffff;
 
 [[nodiscard]] constexpr bool is_nan_bits(std::uint32_t bits) noexcept { return (bits & 0x7fffffffu) > 0x7f800000u; }

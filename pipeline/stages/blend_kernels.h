@@ -21,8 +21,8 @@ struct BlendOperands {
     bool is_alpha = false;
 };
 
-// The factor of lane i, by the table of fragment-stages.md 8.1. `s` and `d` are the channel's own values, so for alpha
-// src_color means the alpha.
+// The factor of lane i, by the table of pipeline/reference/fragment-stages.md 8.1. `s` and `d` are the channel's own
+// values, so for alpha src_color means the alpha.
 template <class Arithmetic, BlendFactor f>
 [[nodiscard]] inline float factor(const BlendOperands& in, std::size_t i) noexcept {
     using enum BlendFactor;

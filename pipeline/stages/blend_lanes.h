@@ -171,7 +171,8 @@ void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile)
     profile.denormals == flush ? by.template operator()<flush>() : by.template operator()<keep>();
 }
 
-// With blending off the colour is only converted: nothing is flushed, and NaN keeps its sign (fragment-stages.md 9.2).
+// With blending off the colour is only converted: nothing is flushed, and NaN keeps its sign
+// (pipeline/reference/fragment-stages.md 9.2).
 template <class Halves = PlainHalves>
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
            ColorCodes& codes, std::size_t count) noexcept {

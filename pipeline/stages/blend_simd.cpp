@@ -1,6 +1,6 @@
 // pipeline/stages/blend_simd.cpp - blending, one source for every instruction set: the loops of blend_lanes.h inlined
-// (flatten) and compiled per instruction set over whole vectors, because the arrays of a batch have room for them.
-// How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
+// (flatten) and compiled per instruction set over whole vectors, because the arrays of a batch have room for them. How
+// kernels are written: rasterizer/reference/kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/blend_simd.cpp"
 #include "hwy/foreach_target.h"

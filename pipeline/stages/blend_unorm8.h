@@ -6,7 +6,7 @@
 //          their sum is clamped. Signed equations: clamp(d +- s', 0, 255), where s' is the source code as two's
 //          complement. BlendRounding::unrounded_source does not use codes: FloatArithmetic blends the clamped source
 //          with the values of codes (blend_lanes.h).
-// Source   fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 captures (chip-fragment.md 1).
+// Source   pipeline/reference/fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 captures (chip-fragment.md 1).
 // Numbers  Products <= 65025, sums within +-130050. The kernels store these integers as binary32 values, which
 //          represent all of them and every operation on them exactly: vector units multiply four floats at once, but
 //          not four 32-bit integers.

@@ -72,8 +72,8 @@ class ColorPlanes {
     HWY_INLINE static std::uint32_t bits_of(float v) { return std::bit_cast<std::uint32_t>(v); }
     HWY_INLINE std::uint32_t bits(std::size_t i, std::size_t c) const { return bits_of(value_[i][c]); }
 
-    // The FilterPlane of each channel. Products with 1 / w are in binary32, as for every attribute (attributes.md 1.1);
-    // slopes and errors of all four channels are computed at once.
+    // The FilterPlane of each channel. Products with 1 / w are in binary32, as for every attribute
+    // (rasterizer/reference/attributes.md 1.1); slopes and errors of all four channels are computed at once.
     HWY_INLINE void find_planes(bool is_exact) {
         inverse_w_ = FilterPlane{plane_of(w_), is_exact};
         for (std::size_t i = 0; i < 3; ++i)

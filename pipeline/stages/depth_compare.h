@@ -4,7 +4,7 @@
 // Rule     The fragment's reference depth, quantized like a depth write unless `quantizes` is false, is behind if it is
 //          greater than the stored code raised by `ulps` codes plus `absolute`. Without an epsilon and with a quantized
 //          reference this is a comparison of codes. An unquantized reference is clamped to [0,1] first.
-// Source   fragment-stages.md 6.2; keys-and-counts.md 4.2.
+// Source   pipeline/reference/fragment-stages.md 6.2; peeling/reference/keys-and-counts.md 4.2.
 // Tests    tests/pipeline/stages/depth_compare_test.cpp
 #pragma once
 #include <algorithm>
@@ -32,7 +32,7 @@ struct DepthCompare {
     CompareEpsilon epsilon{};
     // The compared depth is computed by another path than the stored one.
     bool has_reference = false;
-    // The profile's raster.quantize_reference (depth.md 6.2).
+    // The profile's raster.quantize_reference (rasterizer/reference/depth.md 6.2).
     bool quantizes = true;
 
     // True if only the fragment's own code is compared: no reference array is needed.

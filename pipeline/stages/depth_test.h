@@ -4,8 +4,8 @@
 //          are compared as floats, because a buffer cleared without clamping may contain negative values, values above
 //          1 and NaN (which passes only `notequal` and `always`); -0 equals +0. Test off: every fragment passes and no
 //          depth is written. The version that reads and writes a plane directly is test_depth of lane_words.h.
-// Source   fragment-stages.md 6 (D3D 11.3 17.11; GL 2.1 4.1.6; NV_depth_buffer_float); integer compare measured,
-//          chip-fragment.md 4.
+// Source   pipeline/reference/fragment-stages.md 6 (D3D 11.3 17.11; GL 2.1 4.1.6; NV_depth_buffer_float); integer
+//          compare measured, chip-fragment.md 4.
 // Tests    tests/pipeline/stages/depth_test_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <bit>

@@ -1,8 +1,8 @@
 // pipeline/stages/stages_simd.cpp - the stages between program and blending, one source for every instruction set. The
 // definitions are namespace scalar of lane_words.h, convert.h, alpha_test.h and stencil_lanes.h. Where a plain loop
 // vectorizes, the kernel is that loop, inlined (flatten) and compiled per instruction set; gather, scatter and counts
-// are written with Highway.
-// How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
+// are written with Highway. How kernels are written: rasterizer/reference/kernels.md. Tests:
+// tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/stages_simd.cpp"
 #include <algorithm>

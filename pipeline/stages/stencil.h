@@ -4,7 +4,8 @@
 //          the fragment is dropped. If it passes, the depth result selects `depth_fail` (dropped) or `pass`; a disabled
 //          depth test counts as passed. INCR and DECR saturate; REPLACE writes the whole reference; write_mask affects
 //          only the update.
-// Source   fragment-stages.md 5 (GL 2.1 4.1.5; EXT_stencil_two_side; EXT_stencil_wrap); measured, chip-fragment.md 4.
+// Source   pipeline/reference/fragment-stages.md 5 (GL 2.1 4.1.5; EXT_stencil_two_side; EXT_stencil_wrap); measured,
+//          chip-fragment.md 4.
 // Tests    tests/pipeline/stages/stencil_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <cstdint>

@@ -70,7 +70,7 @@ class StoredColors<Unorm8Rules<blend, to_code, storage>> {
     HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
 
     // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is
-    // clamped to 255^2; the shifts divide by 255 and round as in fragment-stages.md 8.2.
+    // clamped to 255^2; the shifts divide by 255 and round as in pipeline/reference/fragment-stages.md 8.2.
     HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
         using enum BlendRounding;
         const Signed di;

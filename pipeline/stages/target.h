@@ -14,7 +14,7 @@ using rasterizer::FragmentBatch;
 using rasterizer::Lanes;
 
 // The values of a clear: a colour, converted to the target's format like a source colour; a depth, clamped to [0,1]
-// unless the profile stores it unclamped (formats.md 5.5); a stencil value.
+// unless the profile stores it unclamped (pipeline/reference/formats.md 5.5); a stencil value.
 struct ClearValue {
     Rgba color{0, 0, 0, 0};
     float depth = 1.0f;

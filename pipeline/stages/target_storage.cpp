@@ -9,7 +9,7 @@
 
 namespace strata::pipeline {
 
-// The conversion of a write without blending (formats.md 7).
+// The conversion of a write without blending (pipeline/reference/formats.md 7).
 std::array<std::uint32_t, 4> color_codes(Format format, ColorRounding rounding, const Rgba& color) {
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {

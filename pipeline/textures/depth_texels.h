@@ -4,7 +4,7 @@
 // Rule     A region has only its own rectangle of a screen-sized texture. A lookup inside it reads the same value as
 //          literal execution; a lookup outside throws NeedsFrame, and the executor runs the frame literally. OpenGL's
 //          window is y up: row 0 of a copied depth texture is the last row of memory (`bottom_up`).
-// Source   execution.md 5.4; GL 1.2.1 3.8.2 (CopyTexImage: the lower left pixel is texel 0, 0).
+// Source   pipeline/reference/execution.md 5.4; GL 1.2.1 3.8.2 (CopyTexImage: the lower left pixel is texel 0, 0).
 // Tests    tests/pipeline/region/fragment_path_test.cpp
 #pragma once
 #include <cstdint>

@@ -27,7 +27,8 @@ void compare_nearest(const Lookup& at, const Lanes<std::uint32_t>& r, float fail
         result[i] = passed(r[i], at.texel(at.s.first[i], at.t.first[i])) ? 1.0f : fail;
 }
 
-// The results are filtered, not the depths: each texel gives 1 or the fail value first (texturing.md 4.2).
+// The results are filtered, not the depths: each texel gives 1 or the fail value first (pipeline/reference/texturing.md
+// 4.2).
 void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
                     std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i) {

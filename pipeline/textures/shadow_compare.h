@@ -7,8 +7,8 @@
 //          [0,1], or in buffer units (0..2^n - 1, D16F: 0..511.9375) on devices whose vertex depth is. D32F: floats are
 //          compared without a clamp; NaN passes only `notequal` and `always`. Linear: each of four texels gives 1 or
 //          the fail value, then the bilinear sum of texel_address.h with 8-bit fractions.
-// Source   texturing.md 4; measured on NV2A (R truncated like a depth write, 192 of 192 captures). The linear filter is
-//          an assumption.
+// Source   pipeline/reference/texturing.md 4; measured on NV2A (R truncated like a depth write, 192 of 192 captures).
+//          The linear filter is an assumption.
 // Tests    tests/pipeline/textures/shadow_compare_test.cpp
 #pragma once
 #include <array>

@@ -11,7 +11,8 @@ CoordinateUnits shadow_units(const ShadowLight& light, const Matrix& camera_view
                              const DeviceProfile& profile) {
     const double n = state.depth_near, f = state.depth_far;
     const bool symmetric = state.clip_depth == rasterizer::ClipDepth::minus_one_to_one;
-    // From the light's clip space to texture coordinates 0..1 and to its depth range, as in vertices.md 4.4.
+    // From the light's clip space to texture coordinates 0..1 and to its depth range, as in
+    // pipeline/reference/vertices.md 4.4.
     const Matrix to_window = product(translation(0.5, 0.5, symmetric ? (f + n) * 0.5 : n),
                                      scaling(0.5, 0.5, symmetric ? (f - n) * 0.5 : f - n));
     const Matrix rows = product(to_window, product(light.projection, light.view));

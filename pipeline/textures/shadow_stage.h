@@ -6,7 +6,8 @@
 //          is in shadow: its red, green and blue are multiplied by the result of the comparison (MODULATE by a
 //          LUMINANCE result), which is `ambient` if it fails. Outside the light's view the comparison uses the map's
 //          border texels.
-// Source   Williams 1978 and Everitt 2001, "Shadow Mapping"; texturing.md 6. The comparison is shadow_compare.h's.
+// Source   Williams 1978 and Everitt 2001, "Shadow Mapping"; pipeline/reference/texturing.md 6. The comparison is
+//          shadow_compare.h's.
 // Tests    tests/peeling/shadow_light_test.cpp
 #pragma once
 #include "pipeline/textures/shadow_compare.h"

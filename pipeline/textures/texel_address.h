@@ -6,8 +6,8 @@
 //          multiple of 1/256; its integer part is the first texel, its fraction the second one's weight. Repeat and
 //          mirrored repeat wrap the texel index, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp.
 //          NaN is treated as 0, values beyond +-2^31 as +-2^31.
-// Source   texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle). The results for NaN and the bound are
-//          assumed; floats beyond 2^31 are even integers, so wrapping is not affected.
+// Source   pipeline/reference/texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle). The results for NaN
+//          and the bound are assumed; floats beyond 2^31 are even integers, so wrapping is not affected.
 // Numbers  coordinate * size * 256: 24 + 15 significant bits, below 2^55: exact in binary64 and in 64-bit integers.
 // Tests    tests/pipeline/textures/texture_sample_test.cpp
 #pragma once

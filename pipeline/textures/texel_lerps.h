@@ -6,7 +6,7 @@
 //          8, weight p & 255 of the next one; codes a, b become a + floor((w (b - a) + 128) / 256). single_lerps: v =
 //          f32(u - 1/2), with u clamped to [1/2, size - 1/2] under clamp to edge; texel floor(v), weight w = v -
 //          floor(v); values a, b become f32(a + f32(w f32(b - a))). A code's value is f32(code f32(1 / 255)).
-// Source   texturing.md 2.5 and 3.4.
+// Source   pipeline/reference/texturing.md 2.5 and 3.4.
 // Tests    tests/pipeline/textures/texel_lerps_test.cpp
 #pragma once
 #include <array>

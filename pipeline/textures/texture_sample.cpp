@@ -75,7 +75,7 @@ void sample_bilinear_unorm8(const Lookup& lookup, ColorLanes& rgba, std::size_t 
 }
 
 // texture_filter unorm8 after sRGB decoding: the binary32 result is rounded to 8 bits here, its only rounding
-// (texturing.md 3.2).
+// (pipeline/reference/texturing.md 3.2).
 void round_to_unorm8(ColorLanes& rgba, std::size_t count) noexcept {
     for (Lanes<float>& channel : rgba)
         for (std::size_t i = 0; i < count; ++i) channel[i] = from_unorm8(to_unorm8(channel[i]));

@@ -4,7 +4,7 @@
 //          summed bilinearly in binary32. `unorm8`: the exact sum of the 8-bit texels is rounded once to 8 bits, half
 //          up; with sRGB decoding the binary32 result is rounded to 8 bits instead, also that of a nearest lookup.
 //          Alpha is never decoded. Linear interpolations: texel_lerps.h.
-// Source   texturing.md 2 and 3.
+// Source   pipeline/reference/texturing.md 2 and 3.
 // Numbers  unorm8: texel * weight <= 255 * 65536 and the weights add up to 65536: below 2^24 including the rounding
 //          half.
 // Tests    tests/pipeline/textures/texture_sample_test.cpp

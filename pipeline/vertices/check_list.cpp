@@ -10,7 +10,8 @@
 namespace strata::pipeline {
 namespace {
 
-// The limit of the largest profile; texel addresses are valid up to 2^15 texels per side (texturing.md 1).
+// The limit of the largest profile; texel addresses are valid up to 2^15 texels per side
+// (pipeline/reference/texturing.md 1).
 constexpr int greatest_size_px = 16384;
 
 void check_indices(const Requirements& list, const Mesh& mesh, std::size_t number) {

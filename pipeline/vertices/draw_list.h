@@ -90,7 +90,8 @@ struct DrawList {
     std::vector<Instance> instances;  // in submission order
 };
 
-// A camera: both matrices stored by columns, and the path by which positions are transformed (vertices.md 2).
+// A camera: both matrices stored by columns, and the path by which positions are transformed
+// (pipeline/reference/vertices.md 2).
 struct View {
     // World to eye, and eye to clip.
     Matrix view = identity;

@@ -1,5 +1,5 @@
 // pipeline/vertices/matrix.h - the product of two matrices a b in binary64, with a fixed order of summation
-// (vertices.md 1.1).
+// (pipeline/reference/vertices.md 1.1).
 #pragma once
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/numerics.h"

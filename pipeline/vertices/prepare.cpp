@@ -22,7 +22,7 @@ namespace strata::pipeline {
 namespace {
 
 // The determinant of the upper 3 x 3. Its sign tells whether an instance is mirrored, which exchanges facing
-// (vertices.md 6).
+// (pipeline/reference/vertices.md 6).
 double linear_determinant(const Matrix& m) {
     const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
@@ -188,7 +188,8 @@ double far_w(const Matrix& p) {
     return p[2][3] * z + p[3][3];
 }
 
-// Units of a w buffer per unit of clip w (depth.md 4.8): the driver scales the far plane's w to depth 1.
+// Units of a w buffer per unit of clip w (rasterizer/reference/depth.md 4.8): the driver scales the far plane's w to
+// depth 1.
 float w_scale_of(const View& view, const rasterizer::RasterState& state) {
     if (state.w_scale != 0.0f) return state.w_scale;
     const double far = far_w(view.projection);

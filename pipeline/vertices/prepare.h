@@ -5,7 +5,7 @@
 //          transformed by the view's vertex path (vertex_transform.h); nv20 also has its own division by w. Lighting is
 //          two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye, per
 //          vertex in binary32, on the frame's colour values.
-// Source   vertices.md 1.2, 5 and 6.
+// Source   pipeline/reference/vertices.md 1.2, 5 and 6.
 // Tests    tests/pipeline/vertices/prepare_test.cpp
 #pragma once
 #include <functional>

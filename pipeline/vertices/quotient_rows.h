@@ -5,7 +5,8 @@
 //          the depth range (if clip-space z starts at 0: f - n and n), times (view * model), all in binary64; row r is
 //          then scaled to the units of vertex z (2^n - 1 in buffer units), q is the last row. Each vertex is
 //          transformed by its view's vertex path.
-// Source   Everitt 2001, Listing 2; algorithms.md 3.2; vertices.md 3: rows include the factor 2^n - 1.
+// Source   Everitt 2001, Listing 2; peeling/reference/algorithms.md 3.2; pipeline/reference/vertices.md 3: rows include
+//          the factor 2^n - 1.
 // Tests    tests/pipeline/vertices/vertex_transform_test.cpp
 #pragma once
 #include "pipeline/vertices/draw_list.h"

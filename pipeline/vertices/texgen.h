@@ -6,7 +6,7 @@
 //          own: s and t of its mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix is applied. Planes,
 //          texture matrix and modelview are multiplied in binary64 and rounded once to binary32 (assumed: drivers may
 //          do so); positions are transformed by the view's vertex path, like those to clip space (vertex_transform.h).
-// Source   GL 1.2.1 2.10.2 and 2.10.4; vertices.md 4.
+// Source   GL 1.2.1 2.10.2 and 2.10.4; pipeline/reference/vertices.md 4.
 // Tests    tests/pipeline/vertices/texgen_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <array>

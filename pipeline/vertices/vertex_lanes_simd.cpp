@@ -1,5 +1,5 @@
-// pipeline/vertices/vertex_lanes_simd.cpp - vertex_lanes.h, compiled once per instruction set.
-// How kernels are written: kernels.md. Tests: tests/pipeline/vertices/prepare_test.cpp
+// pipeline/vertices/vertex_lanes_simd.cpp - vertex_lanes.h, compiled once per instruction set. How kernels are written:
+// rasterizer/reference/kernels.md. Tests: tests/pipeline/vertices/prepare_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/vertices/vertex_lanes_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -9,8 +9,8 @@
 //            double: like separate in binary64 with matrices that are not rounded; the result is rounded once.
 //            toward_zero: like separate, with every product and sum truncated toward zero.
 //            nv20: one sum of three products and m3 by rasterizer/base/nv20_arithmetic.h.
-// Source   vertices.md 2 (separate); numbers.md 4 (nv20); the others are assumed: arithmetic that compilers and drivers
-//          use.
+// Source   pipeline/reference/vertices.md 2 (separate); rasterizer/reference/numbers.md 4 (nv20); the others are
+//          assumed: arithmetic that compilers and drivers use.
 // Tests    tests/pipeline/vertices/vertex_transform_test.cpp
 #pragma once
 #include <array>

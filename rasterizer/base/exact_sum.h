@@ -24,7 +24,8 @@ inline namespace strict {
 }
 
 // An exact sum. Terms increase in magnitude and do not overlap, so the last one decides the sign. The capacity is 40
-// terms; three products of an integer and two binary64 numbers plus one more product need 32 (numbers.md 3.3).
+// terms; three products of an integer and two binary64 numbers plus one more product need 32
+// (rasterizer/reference/numbers.md 3.3).
 class ExactSum {
   public:
     // Carries x through the terms from the smallest to the largest. The rounding error of each step is kept as a term.

@@ -2,7 +2,7 @@
 //
 // Rule     Every public entry point and every worker thread computes with round to nearest even, denormals kept and
 //          exceptions masked, whatever the host program has set, and restores the caller's environment.
-// Source   numbers.md 2.1; a library built with fast-math sets flush-to-zero when it is loaded.
+// Source   rasterizer/reference/numbers.md 2.1; a library built with fast-math sets flush-to-zero when it is loaded.
 // Tests    tests/rasterizer/base/float_environment_test.cpp
 #pragma once
 #include <cstdint>

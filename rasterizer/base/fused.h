@@ -2,7 +2,7 @@
 //
 // Rule     The product of two binary32 numbers is exact in binary64. The sum is rounded to odd in binary64, so the
 //          conversion to binary32 is the only rounding that affects the result.
-// Source   numbers.md 3.4.
+// Source   rasterizer/reference/numbers.md 3.4.
 // Tests    tests/rasterizer/set_up/window_test.cpp; tests/rasterizer/values/float_planes_test.cpp compares with
 //          std::fma.
 #pragma once

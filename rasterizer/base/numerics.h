@@ -5,7 +5,8 @@
 //          fused multiply-add, no excess precision, no reassociation. Headers with inline arithmetic use the inline
 //          namespace `strict`, so that the linker cannot merge their functions with those of a program compiled under
 //          other rules.
-// Source   numbers.md 1.1 to 1.3; ISO C++ <cfenv>; the build target strata::numerics carries the flags.
+// Source   rasterizer/reference/numbers.md 1.1 to 1.3; ISO C++ <cfenv>; the build target strata::numerics carries the
+//          flags.
 // Tests    tests/rasterizer/base/numerics_test.cpp
 #pragma once
 #include <cfloat>

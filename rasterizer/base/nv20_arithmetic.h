@@ -6,8 +6,8 @@
 //          below its last bit. Reciprocal: seed s = round(8192 / (64.5 + i)), where i is the 6 leading fraction bits,
 //          then two Newton-Raphson steps in integer arithmetic, each truncated. Powers of two are exact. Truncation is
 //          toward zero throughout.
-// Source   numbers.md 4: NV_vertex_program 2.14.1.11, and the model of envytools, which was checked against hardware.
-//          Assumed: results beyond the largest finite number become that number.
+// Source   rasterizer/reference/numbers.md 4: NV_vertex_program 2.14.1.11, and the model of envytools, which was
+//          checked against hardware. Assumed: results beyond the largest finite number become that number.
 // Numbers  m is the 24-bit mantissa, s the seed, s' the result of the first Newton step. s m < 2^31 and (2^37 - s' m)
 //          s' < 2^51, so 64 bits suffice. The relative error of the reciprocal is at most 2^-22.
 // Tests    tests/rasterizer/base/nv20_arithmetic_test.cpp

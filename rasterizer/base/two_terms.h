@@ -19,7 +19,7 @@ struct TwoTerms {
     return {sum, b - (sum - a)};
 }
 
-// a + b for any order of magnitudes (numbers.md 3.1).
+// a + b for any order of magnitudes (rasterizer/reference/numbers.md 3.1).
 [[nodiscard]] constexpr TwoTerms two_sum(double a, double b) noexcept {
     const double sum = a + b;
     const double b_seen = sum - a;

@@ -7,7 +7,7 @@
 //          PerspectiveColor::edge_products (assumed): p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64,
 //          truncated to 24 bits; or weight_products (assumed): p_i = b_i (1/w_i) truncated to 24 bits, normalized with
 //          a reciprocal truncated to 28 bits.
-// Source   attributes.md 2.2 to 2.5; chip-depth.md 8; chip-float-depth.md 7.
+// Source   rasterizer/reference/attributes.md 2.2 to 2.5; chip-depth.md 8; chip-float-depth.md 7.
 // Tests    tests/rasterizer/chip/color_weights_test.cpp
 #pragma once
 #include <array>

@@ -4,7 +4,8 @@
 //          power of two, else (1 / S)(1 - d 2^-32) truncated to m bits; b = e' r truncated to 24 bits.
 //          WeightRule::area: r = 1 / A truncated to m bits, A the exact area; b = e r truncated to 24 bits. The unit of
 //          e may be any power of two.
-// Source   depth.md 4.4; chip-float-depth.md 1; the last bit of r is not certain (chip-depth.md 4).
+// Source   rasterizer/reference/depth.md 4.4; chip-float-depth.md 1; the last bit of r is not certain (chip-depth.md
+//          4).
 // Numbers  cut_edges in binary64: e' is exact, e' r has at most 24 + 30 bits and is exact up to 29 bits of r; S, 1 / S
 //          and its product with 1 - d 2^-32 are rounded (S is exact if its addends' exponents are within 29). area: e
 //          <= A < 2^58, r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits in 64 bits if e is below 2^34.

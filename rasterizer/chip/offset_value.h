@@ -3,7 +3,7 @@
 // Rule     v = trunc(value, 24); with offset v = trunc(v + o, 24), o = trunc(trunc(slope * factor, 24) + bias, 24),
 //          slope truncated to 24 bits. trunc(x, 24) truncates toward zero to 24 bits; everything is in the buffer's own
 //          units. The slope of a z buffer is the larger of |dz/dx| and |dz/dy| of the triangle, per pixel.
-// Source   coverage.md 9.3, chip-float-depth.md 2.
+// Source   rasterizer/reference/coverage.md 9.3, chip-float-depth.md 2.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once
 #include "rasterizer/base/two_terms.h"

@@ -5,7 +5,7 @@
 //          |e'_i| q_i, each truncated to a multiple of 2^(ex - 28), where ex is the largest of their exponents; r of S
 //          as in cut_weight.h; p_i = |e'_i| q_i truncated to 25 bits; b_i = p_i r truncated to 24 bits; the remainder
 //          vertex (that of colours) takes 1 - (b' + b'').
-// Source   chip-float-depth.md 4.1 and 7; the last bits of p, q or r are not certain (4.4 there).
+// Source   rasterizer/reference/chip-float-depth.md 4.1 and 7; the last bits of p, q or r are not certain (4.4 there).
 // Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded. A corner's edge
 //          value and its w have the same sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes suffice.
 //          |1 / w| is at least 2^-126 and at most 2^126 (signs of w) and |e'| is below 2^58: nothing overflows.

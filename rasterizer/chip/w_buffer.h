@@ -5,8 +5,8 @@
 //          bits, offset added (offset_value.h). w_i are binary32, times the pass's scale, rounded once. The slope of
 //          the offset is |w(P) - w(Q)|, where P and Q are two adjacent pixels along the steeper axis: one number per
 //          triangle (WSlope).
-// Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the positions of P and Q are not certain
-//          there.
+// Source   rasterizer/reference/depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the positions of P and
+//          Q are not certain there.
 // Numbers  Differences and products are in binary64: exact except for the remainder's product, which is rounded.
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once

@@ -1,9 +1,9 @@
 // rasterizer/chip/window_z.h - window depth as NV2A (GeForce3 class) computes it, for every depth format.
 //
-// Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the reference;
-//          the others add b_j (z_j - z_R), each truncated toward zero to 2^(ex - 28), where ex is the largest exponent
-//          of the three terms; the sum is truncated to 24 bits, offset added (offset_value.h). z are binary32 in buffer
-//          units; z and differences below 2^-126 are 0.
+// Rule     rasterizer/reference/depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2)
+//          is the reference; the others add b_j (z_j - z_R), each truncated toward zero to 2^(ex - 28), where ex is the
+//          largest exponent of the three terms; the sum is truncated to 24 bits, offset added (offset_value.h). z are
+//          binary32 in buffer units; z and differences below 2^-126 are 0.
 // Source   measured on hardware: chip-depth.md 1, chip-float-depth.md 1 to 3.
 // Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other has the same effect as any z below
 //          2^-24 of it; times 24 bits of weight gives 109 bits. Nearly all differences have 29 bits or fewer, and their

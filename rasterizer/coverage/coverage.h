@@ -29,7 +29,7 @@ class TriangleEdges {
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), 0) {}
     // For a triangle with negative w at the corners of `negative_w` (bit i). Their edges are negated, so that the
     // covered pixels are again those where no edge value is negative; the tie rule of such a side is inverted
-    // (coverage.md 5.8). For coverage only: `at` does not return the negated values.
+    // (rasterizer/reference/coverage.md 5.8). For coverage only: `at` does not return the negated values.
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::uint8_t negative_w) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), negative_w) {}
 

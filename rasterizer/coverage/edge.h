@@ -2,8 +2,8 @@
 //
 // Rule     A centre is inside if all three edge functions are positive. A centre exactly on an edge belongs to the
 //          triangle if the tie rule names that edge: by default a top edge (horizontal, interior below) or a left edge.
-// Source   coverage.md 5.3: D3D 11.3 3.4.2.1; measured on NV2A (chip-geometry.md 1.5). OpenGL 2.1 3.5.1 only requires
-//          that exactly one of two triangles sharing the edge covers the centre.
+// Source   rasterizer/reference/coverage.md 5.3: D3D 11.3 3.4.2.1; measured on NV2A (chip-geometry.md 1.5). OpenGL 2.1
+//          3.5.1 only requires that exactly one of two triangles sharing the edge covers the centre.
 // Numbers  |coordinate| <= 2^27 subpixels (2^15 pixels at n = 12): differences <= 2^28, products <= 2^56, E <= 2^57.
 // Tests    tests/rasterizer/coverage/edge_test.cpp
 #pragma once

@@ -6,7 +6,7 @@
 //          slope). The rows from the lowest y to the middle corner come first, then those from there to the highest y.
 //          Nothing is drawn if 1 / area is not finite. int truncates toward zero; every operation is rounded to
 //          binary32.
-// Source   mesa-rasterizers.md 3.1 and 3.2.
+// Source   pipeline/reference/mesa-rasterizers.md 3.1 and 3.2.
 // Numbers  Positions are within the guard band of +-2^15 pixels, but slopes are unbounded: x is clamped to the box
 //          before the conversion to an integer.
 // Tests    tests/rasterizer/coverage/float_spans_test.cpp
@@ -123,7 +123,7 @@ class FloatSpans {
 }
 
 // Triangles whose boxes have at most this many pixels in each direction are rasterized during set-up, to find the box
-// of their covered pixels (coverage.md 7.1).
+// of their covered pixels (rasterizer/reference/coverage.md 7.1).
 inline constexpr int seen_size = 12;
 // The bounding box of the covered pixels within `box`; empty if there are none.
 [[nodiscard]] inline Rect covered_box(const FloatSpans& spans, const Rect& box) {

@@ -1,5 +1,5 @@
 // rasterizer/coverage/small_triangles_simd.cpp - the kernels of small_triangles.h, compiled once per instruction set;
-// that header defines their meaning. How kernels are written: kernels.md. Tests:
+// that header defines their meaning. How kernels are written: rasterizer/reference/kernels.md. Tests:
 // tests/rasterizer/walk/tile_rasterizer_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/coverage/small_triangles_simd.cpp"

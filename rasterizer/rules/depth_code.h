@@ -5,7 +5,7 @@
 //          unsigned integers. D16F: depth 1 is its greatest value, 511.9375; the mantissa is truncated to 12 bits and
 //          an exponent field of 0 is flushed to 0, whatever the rounding rule. D24F: depth 1 is 1e30; binary32 without
 //          its sign, mantissa truncated to 16 bits, values below 2^-126 flushed to 0. The conversions are in
-//          depth_text-inl.h. Under DepthLimits::wrap nothing is clamped (depth.md 2.9).
+//          depth_text-inl.h. Under DepthLimits::wrap nothing is clamped (rasterizer/reference/depth.md 2.9).
 // Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F and
 //          D24F: chip-float-depth.md 3.
 // Numbers  Scaling is in binary64: a product of 24 by 24 bits is exact, while binary32 cannot represent halves of a

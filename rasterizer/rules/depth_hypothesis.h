@@ -3,7 +3,7 @@
 //
 // Rule     Defaults are measured on hardware ([M]) or assumed ([A]). RasterRules contains one DepthHypothesis, on which
 //          everything computed from depths depends; depth_hypotheses (hypotheses.h) lists the alternatives.
-// Source   depth.md 8; chip-depth.md 1, 3 and 4.
+// Source   rasterizer/reference/depth.md 8; chip-depth.md 1, 3 and 4.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp
 #pragma once
 #include <cstdint>

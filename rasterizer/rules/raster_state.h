@@ -36,7 +36,7 @@ enum class CullFace : std::uint8_t { none, front, back, front_and_back };
 // The winding of front faces as seen in the window with y up (GL 2.1 2.14.1).
 enum class FrontFace : std::uint8_t { counter_clockwise, clockwise };
 
-// glPolygonOffset: o = m * factor + r * units (GL 2.1 3.5.5; coverage.md 9).
+// glPolygonOffset: o = m * factor + r * units (GL 2.1 3.5.5; rasterizer/reference/coverage.md 9).
 struct PolygonOffset {
     bool enabled = false;
     float factor = 0.0f, units = 0.0f;

@@ -10,7 +10,7 @@
 
 namespace strata::rasterizer {
 
-// Rounding of window x and y to multiples of 1/2^n pixel (coverage.md 4.1).
+// Rounding of window x and y to multiples of 1/2^n pixel (rasterizer/reference/coverage.md 4.1).
 enum class Snap : std::uint8_t { toward_zero, nearest_even };
 
 // The sides of a triangle that own a centre exactly on them, in y-down memory order (edge.h).

@@ -64,7 +64,7 @@ void Clipper::add_guard_band(const RasterState& state, const RasterRules& rules)
     add_guard(0.5 * v.height(), y_sign * (v.y0 + 0.5 * v.height()), false);
 }
 
-// The order of the planes decides which corners result (coverage.md 2.8).
+// The order of the planes decides which corners result (rasterizer/reference/coverage.md 2.8).
 void Clipper::add_view_volume(bool clips_z) noexcept {
     add({-1, 0, 0, 1, 0, Kind::other});
     add({1, 0, 0, 1, 0, Kind::other});

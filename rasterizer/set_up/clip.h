@@ -9,8 +9,8 @@
 //          near, far and the user's, in binary32; the new corner starts from the end that is nearer to the plane.
 //          view_volume_depth_first: near, far, -x = w, x = w, y = w, -y = w and the user's; corner = (dO I - dI O) (1 /
 //          (dO - dI)), each operation rounded.
-// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The bound on w is assumed: it keeps 1 / w and u / w
-//          finite.
+// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; rasterizer/reference/coverage.md 2. The bound on w is assumed: it
+//          keeps 1 / w and u / w finite.
 // Tests    tests/rasterizer/set_up/clip_test.cpp
 #pragma once
 #include <array>

@@ -15,7 +15,7 @@ namespace strata::rasterizer {
 namespace {
 
 // Divides vertices or triangles into chunks. The chunks depend only on the count, so no result depends on the number of
-// threads (numbers.md 2.2). A large mesh has at most 64, because each has its own memory.
+// threads (rasterizer/reference/numbers.md 2.2). A large mesh has at most 64, because each has its own memory.
 class Chunks {
   public:
     explicit Chunks(std::size_t count)

@@ -97,7 +97,7 @@ struct SetupTriangle {
 
 // Exact counts of the dropped triangles by reason; `first_non_finite` is a source triangle. A source triangle is
 // counted in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped` counts
-// those that were clipped and not found outside (coverage.md 7.1).
+// those that were clipped and not found outside (rasterizer/reference/coverage.md 7.1).
 struct SetupCounters {
     std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, uncovered = 0, non_finite = 0;
     std::uint32_t first_non_finite = 0;

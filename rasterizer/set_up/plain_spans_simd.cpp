@@ -5,7 +5,7 @@
 //          order.
 // Numbers  Positions are finite, and so are x and slopes of the lanes that are used (find_shapes): MIN and MAX get no
 //          NaN, and 0 of either sign converts to the same integer.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
+// How kernels are written: rasterizer/reference/kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_spans_simd.cpp"
 #include <limits>

@@ -1,6 +1,6 @@
 // rasterizer/set_up/plain_triangles_simd.cpp - plain_triangles.h for coverage by edge functions, compiled once per
-// instruction set.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
+// instruction set. How kernels are written: rasterizer/reference/kernels.md. Tests:
+// tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_triangles_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once per instruction set

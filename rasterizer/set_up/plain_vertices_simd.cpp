@@ -1,6 +1,6 @@
 // rasterizer/set_up/plain_vertices_simd.cpp - Highway kernel for plain_vertices.h: sets up vertices that need neither
-// clipping nor special cases, compiled once per instruction set.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
+// clipping nor special cases, compiled once per instruction set. How kernels are written:
+// rasterizer/reference/kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
 #include <bit>

@@ -7,7 +7,7 @@
 //          the exponent of the largest of |z0|, |z1 - z0 + n| and |z2 - z0 + n|, n being the value to which the depth
 //          range maps 0. NV2A's own sum is in offset_value.h. z and o are in vertex z units; |o| <= 2^64: larger
 //          offsets have the same effect.
-// Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A uses that max).
+// Source   rasterizer/reference/coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A uses that max).
 // Numbers  binary64, each operation rounded; a difference of coordinates is exact, so m is within 2^-49 of the true
 //          slope.
 // Tests    tests/rasterizer/set_up/polygon_offset_test.cpp

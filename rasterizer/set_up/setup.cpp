@@ -201,7 +201,8 @@ int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
     return is_negative ? -turn : turn;
 }
 
-// Window z of the corners plus polygon offset: an exact sum, or with the roundings of stepped planes (coverage.md 9.4).
+// Window z of the corners plus polygon offset: an exact sum, or with the roundings of stepped planes
+// (rasterizer/reference/coverage.md 9.4).
 std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept {
     const auto& [a, b, c] = corner;
     const std::array p{a->p, b->p, c->p};

@@ -5,7 +5,7 @@
 //          (degenerate), facing by the sign of the snapped area (culled), no pixel centre of the viewport in its
 //          bounding box (outside, if this holds for all pieces), a tiny triangle that covers no pixel of its box
 //          (uncovered).
-// Source   coverage.md 6, 7 and 11; D3D 11.3 15.11 (facing after snapping).
+// Source   rasterizer/reference/coverage.md 6, 7 and 11; D3D 11.3 15.11 (facing after snapping).
 // Tests    tests/rasterizer/set_up/setup_test.cpp
 #pragma once
 #include <array>

@@ -5,7 +5,7 @@
 //          times 1 / area. least_corner: the sides p0 - p2 and p1 - p2; o is added to z of each corner, which is then
 //          clamped to the range of z. Otherwise: p0 - p1 and p2 - p0, with corners 0 and 1 exchanged if the snapped
 //          triangle is clockwise in memory order; o is added to the plane's value at each fragment.
-// Source   coverage.md 9.4; mesa-rasterizers.md 1.3.
+// Source   rasterizer/reference/coverage.md 9.4; pipeline/reference/mesa-rasterizers.md 1.3.
 // Tests    tests/rasterizer/set_up/polygon_offset_test.cpp
 #pragma once
 #include <algorithm>

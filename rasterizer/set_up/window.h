@@ -7,7 +7,7 @@
 //          are half a pixel smaller, which is added back to snapped positions. z is mapped to n..f, or to n..f times
 //          2^n - 1 with scale and offset pre-multiplied (buffer units; the unit of a float depth buffer is 1). x and y
 //          are truncated or rounded to 1/2^n.
-// Source   GL 2.1 2.11.1; coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
+// Source   GL 2.1 2.11.1; rasterizer/reference/coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
 // Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the conversion
 //          to binary32 is the only rounding.
 // Tests    tests/rasterizer/set_up/window_test.cpp

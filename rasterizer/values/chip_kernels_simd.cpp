@@ -1,5 +1,5 @@
 // rasterizer/values/chip_kernels_simd.cpp - the kernels of chip_lanes.h, compiled once per instruction set. How kernels
-// are written: kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
+// are written: rasterizer/reference/kernels.md. Tests: tests/rasterizer/values/chip_lanes_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/chip_kernels_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once per instruction set

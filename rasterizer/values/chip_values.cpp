@@ -41,9 +41,9 @@ bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcep
     return chip_.may_leave_range(t.z);
 }
 
-// ZClip::per_fragment compares NV2A's own value with the range if NV2A computes one (depth.md 5.2): the w buffer's,
-// else window z, whichever path is stored. Otherwise shader_z is compared (assumed): a value that rounds to n or f is
-// inside.
+// ZClip::per_fragment compares NV2A's own value with the range if NV2A computes one (rasterizer/reference/depth.md
+// 5.2): the w buffer's, else window z, whichever path is stored. Otherwise shader_z is compared (assumed): a value that
+// rounds to n or f is inside.
 void FragmentValues::drop_outside_depth_range(const SetupTriangle& t, const TriangleLanes& lanes, int first,
                                               FragmentBatch& batch, WeightLanes& weights) const noexcept {
     Lanes<double> value;

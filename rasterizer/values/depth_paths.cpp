@@ -7,7 +7,8 @@
 namespace strata::rasterizer {
 namespace {
 
-// True if planes are divided: if every w is 1, the division would not change a bit (attributes.md 1.3).
+// True if planes are divided: if every w is 1, the division would not change a bit (rasterizer/reference/attributes.md
+// 1.3).
 [[nodiscard]] bool has_w(const std::array<float, 3>& inverse_w) noexcept {
     return !(inverse_w[0] == 1.0f && inverse_w[1] == 1.0f && inverse_w[2] == 1.0f);
 }

@@ -6,7 +6,7 @@
 //          x1 y2 - x2 y1, where corners 1 and 2 are relative to corner 0, at the positions of rules.plane_origin; z =
 //          (z0 + dz/dx (x - x0)) + dz/dy (y - y0) at the pixel's centre, in pixels, every operation rounded to
 //          binary32. PlaneAnchor::window_corner moves the plane to x0 = y0 = 0 first.
-// Source   depth.md 4; the form of float32_plane is assumed, it is in common use.
+// Source   rasterizer/reference/depth.md 4; the form of float32_plane is assumed, it is in common use.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp
 #pragma once
 #include <array>

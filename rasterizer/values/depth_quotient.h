@@ -3,7 +3,7 @@
 // Rule     Comparison (4): R = ((r/w) / (1/w)) / ((q/w) / (1/w)). Each of the three planes is rounded to the
 //          interpolants' bits, each of the three divisions is a rounded operation by DivideRule. Depth replace and
 //          shadow comparison both use these functions, so the two paths agree in every bit.
-// Source   Everitt 2001, (4); depth.md 4.5, 4.6 and 6.
+// Source   Everitt 2001, (4); rasterizer/reference/depth.md 4.5, 4.6 and 6.
 // Numbers  Truncation of 1/d: the product of two binary32 is exact in binary64, so it shows on which side of 1/d the
 //          rounded reciprocal is.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp

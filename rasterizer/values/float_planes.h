@@ -7,7 +7,7 @@
 //          order of y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from there +
 //          dx, then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0) dy), with
 //          the plane from ordered_planes.h.
-// Source   mesa-rasterizers.md 2.4 and 3.3.
+// Source   pipeline/reference/mesa-rasterizers.md 2.4 and 3.3.
 // Numbers  Pixel coordinates are below 2^16, so they are exact. If the area rounds to 0, no slope is finite: NaN and
 //          infinities result.
 // Tests    tests/rasterizer/values/float_planes_test.cpp
@@ -45,7 +45,8 @@ struct FloatPlane {
     float origin = 0.0f, dx = 0.0f, dy = 0.0f;
     // For greatest_w: the position of the origin, and how row y of memory is counted: row_base + row_step y.
     float x0 = 0.0f, y0 = 0.0f, row_base = 0.0f, row_step = 1.0f;
-    // Added to pixel coordinates: the position of the sample relative to the origin (coverage.md 12.2).
+    // Added to pixel coordinates: the position of the sample relative to the origin (rasterizer/reference/coverage.md
+    // 12.2).
     float right = 0.0f, down = 0.0f;
 
     [[nodiscard]] constexpr float at(PlaneRule rule, int x, int y) const noexcept {

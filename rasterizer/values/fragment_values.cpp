@@ -84,8 +84,8 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_reversed_ = geometry.state.depth_order == DepthOrder::greater;
-    // Keys of reversed depth are limited to the depth range (depth.md 2.9); the formats without a sign have no codes
-    // outside it.
+    // Keys of reversed depth are limited to the depth range (rasterizer/reference/depth.md 2.9); the formats without a
+    // sign have no codes outside it.
     to_code_.wraps = rules_.depth_limits == DepthLimits::wrap && depth.path == DepthPath::float32 && !is_reversed_ &&
                      !geometry.state.depth_clamp && (to_code_.is_fixed() || is_float);
     if (rules_.depth_limits == DepthLimits::zero_to_one && depth.path == DepthPath::float32 && !is_reversed_ &&

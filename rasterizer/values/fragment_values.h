@@ -9,7 +9,7 @@
 //          weights: color_weights.h; coordinates by truncated weights: cut_coordinates.h. depth_replace drops a
 //          fragment whose depth is outside the depth range (with depth clamp: clamps it), after the clip of window z.
 //          The reference is a second depth of the same fragment, for the depth test.
-// Source   depth.md 3 and 4; attributes.md 1 to 3.
+// Source   rasterizer/reference/depth.md 3 and 4; attributes.md 1 to 3.
 // Tests    tests/rasterizer/values/fragment_values_test.cpp
 #pragma once
 #include <array>

@@ -1,5 +1,5 @@
 // rasterizer/values/lane_kernels_simd.cpp - the kernels of lane_kernels.h, compiled once per instruction set; that
-// header defines their meaning. How kernels are written: kernels.md. Tests:
+// header defines their meaning. How kernels are written: rasterizer/reference/kernels.md. Tests:
 // tests/rasterizer/walk/tile_rasterizer_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/lane_kernels_simd.cpp"

@@ -8,7 +8,7 @@
 //          D, dy = (x1 (z2 - z0) - x2 (z1 - z0)) D, C = z0 r + n, z_k = z (1 / w), r and n of the depth range.
 //          Attributes: sides times w, plane = (u0 M0 + u1 M1) + u2 M2. Value at pixel (i, j): (i - x0) dx + (C + (j -
 //          y0) dy). Each operation is rounded; operands and results below 2^-126 are zeros.
-// Source   swiftshader-rasterizer.md 2.
+// Source   pipeline/reference/swiftshader-rasterizer.md 2.
 // Numbers  Pixel coordinates are below 2^16, so they are exact. If the sides have no area, the slopes are 0.
 // Tests    tests/rasterizer/values/ordered_planes_test.cpp
 #pragma once

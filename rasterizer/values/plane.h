@@ -3,7 +3,7 @@
 // Rule     V = N (e0 v0 + e1 v1 + e2 v2) / (A D), exact, then one rounding: to binary32 (nearest even), or to a code
 //          floor(V) or floor(V + 1/2). e_i are the edge values, A is their sum; N and D convert one depth unit to
 //          another.
-// Source   depth.md 3. The filter is that of exact geometric predicates (Shewchuk 1997).
+// Source   rasterizer/reference/depth.md 3. The filter is that of exact geometric predicates (Shewchuk 1997).
 // Numbers  Filter: b_i = e_i r with r = 1/A, v = w0 + (b1 (w1 - w0) + b2 (w2 - w0)), w_i = v_i N / D, all in binary64.
 //          With u = 2^-53 and M = max |w_i|: w_i is within 2u M; a difference within 6u M and at most 2M; b_i within 4u
 //          b_i (rounded e, A, 1/A, product) plus, for A > 2^53, 4u absolute (e is stepped along the span in binary64);

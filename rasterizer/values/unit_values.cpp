@@ -4,7 +4,7 @@
 //          the vertex, exact plane rounded once, divided by the plane of 1/w rounded once. Under another
 //          DepthHypothesis they are interpolated as depth_paths.h does r and q; where cut_coordinates.h applies, by its
 //          rule. Nothing is divided by q here: the texture shader decides which operation does.
-// Source   attributes.md 1.1 and 3.4 (GL 2.1 equation 3.8).
+// Source   rasterizer/reference/attributes.md 1.1 and 3.4 (GL 2.1 equation 3.8).
 // Tests    tests/rasterizer/values/unit_values_test.cpp
 #include <cassert>
 

@@ -1,5 +1,5 @@
-// rasterizer/walk/depth_rows_simd.cpp - draw_float_rows of rows.h, compiled once per instruction set.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/rows_test.cpp
+// rasterizer/walk/depth_rows_simd.cpp - draw_float_rows of rows.h, compiled once per instruction set. How kernels are
+// written: rasterizer/reference/kernels.md. Tests: tests/rasterizer/walk/rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/depth_rows_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once per instruction set

@@ -3,7 +3,7 @@
 //
 // Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops fragments outside the depth range, for
 //          triangles that have a corner outside it (chip_values.cpp). Corners that are not narrow run lane by lane.
-// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/window_z_rows_test.cpp
+// How kernels are written: rasterizer/reference/kernels.md. Tests: tests/rasterizer/walk/window_z_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/window_z_rows_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once per instruction set

@@ -1,9 +1,9 @@
 // scenes/files/image_io.h - writes finished targets to PNG and EXR files and reads them back, bit for bit.
 //
 // Rule     The file's ending selects the format: .png has 8-bit colours that are not premultiplied, .exr everything.
-//          images.md 2 and 3 list channels, parts, attributes and the conversion to 8 bits. The same call writes the
-//          same bytes, without time, host or path. A file is written under a temporary name and renamed; if that fails,
-//          SystemError is thrown and there is no file.
+//          scenes/reference/images.md 2 and 3 list channels, parts, attributes and the conversion to 8 bits. The same
+//          call writes the same bytes, without time, host or path. A file is written under a temporary name and
+//          renamed; if that fails, SystemError is thrown and there is no file.
 // Source   images.md 2 to 6; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files by
 //          default.
 // Tests    tests/scenes/files/png_test.cpp, exr_test.cpp, deep_exr_test.cpp

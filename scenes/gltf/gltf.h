@@ -10,7 +10,7 @@
 
 namespace strata::scenes {
 
-// Limits of one file's expanded contents; scenes.md 9.7.
+// Limits of one file's expanded contents; scenes/reference/scenes.md 9.7.
 struct GltfLimits {
     std::uint64_t elements = std::uint64_t{1}
                              << 22;  // vertices and indices, in addition to 16 per byte of the file and its buffers

@@ -5,7 +5,8 @@
 //          colour and every texel, whatever the file contains. A material is unlit if it or SceneOptions says so. Wrap
 //          modes and the magnification filter come from the sampler (default: repeat, linear); the minification filter
 //          is ignored.
-// Source   glTF 2.0, 3.8.4 (samplers), 3.9.2, 3.9.4 (alpha coverage); KHR_materials_unlit; scenes.md 10.4 and 10.5.
+// Source   glTF 2.0, 3.8.4 (samplers), 3.9.2, 3.9.4 (alpha coverage); KHR_materials_unlit; scenes/reference/scenes.md
+//          10.4 and 10.5.
 // Tests    tests/scenes/gltf/gltf_material_test.cpp
 #pragma once
 #include <map>

@@ -2,7 +2,8 @@
 //
 // Rule     Binary64 with a fixed order of + - * /; of the C library only floor is used, which is exact. The error is
 //          below 0.501 units in the last place. Angles up to 10^6 radians; beyond that, and for NaN, the result is NaN.
-// Source   scenes.md 8: the C library's functions differ between processors. double_double.h names its sources.
+// Source   scenes/reference/scenes.md 8: the C library's functions differ between processors. double_double.h names its
+//          sources.
 // Cost     About a microsecond per call: for cameras, procedural scenes and colour factors, never for fragments.
 // Tests    tests/scenes/numbers/elementary_test.cpp against MPFR
 #pragma once

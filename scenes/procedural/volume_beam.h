@@ -1,8 +1,9 @@
 // scenes/procedural/volume_beam.h - a stack of alpha-modulated planes crossed by a conical shell, after Carr et al.,
 // Figure 1.
 //
-// Rule     scenes.md 3, in binary64, each vertex rounded once to binary32. Mesh 0 is the planes in drawing order, mesh
-//          1 the cone. Both are two-sided and BLEND (the cone's alpha is 1; `--alpha` makes it transparent).
+// Rule     scenes/reference/scenes.md 3, in binary64, each vertex rounded once to binary32. Mesh 0 is the planes in
+//          drawing order, mesh 1 the cone. Both are two-sided and BLEND (the cone's alpha is 1; `--alpha` makes it
+//          transparent).
 // Tests    tests/scenes/procedural/volume_beam_test.cpp
 #pragma once
 #include "scenes/scene.h"

@@ -1,5 +1,5 @@
-// Tests that a device whose 24-bit depth buffers hold binary32 (depth.md 2.10) draws the same as with a 32-bit float
-// buffer.
+// Tests that a device whose 24-bit depth buffers hold binary32 (rasterizer/reference/depth.md 2.10) draws the same as
+// with a 32-bit float buffer.
 #include <catch2/catch.hpp>
 
 #include "pipeline/region/surface.h"

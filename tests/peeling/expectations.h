@@ -16,7 +16,7 @@ namespace strata::testing {
 // Which execution tests draw the algorithm: those of single loops, those with queries inside an iteration, those of
 // lists of objects.
 enum class Kind { loop, partial_order, objects };
-// The least capable devices on which an algorithm runs: devices.md 10.
+// The least capable devices on which an algorithm runs: pipeline/reference/devices.md 10.
 enum class Devices {
     everything,
     programmable,

@@ -1,5 +1,6 @@
-// Tests Everitt 2001, Listing 2, entered as printed, matrix for matrix, with its slips corrected (errata.md 1): the
-// depths that its state stores and compares, against the depth paths of the peeling algorithms.
+// Tests Everitt 2001, Listing 2, entered as printed, matrix for matrix, with its slips corrected
+// (peeling/reference/errata.md 1): the depths that its state stores and compares, against the depth paths of the
+// peeling algorithms.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -78,7 +79,8 @@ FragmentPath stages(Target map) {
     return path;
 }
 
-// With the coordinates that the depth path uses; attributes.md 3.3 states how many codes differ with the chip's own.
+// With the coordinates that the depth path uses; rasterizer/reference/attributes.md 3.3 states how many codes differ
+// with the chip's own.
 const DeviceProfile& device_of_paths() {
     static const DeviceProfile device = [] {
         DeviceProfile geforce3 = *find_profile("geforce3");

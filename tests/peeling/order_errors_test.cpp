@@ -1,5 +1,5 @@
-// Tests the cause that is reported for an audit's order errors, against a table of the causes in keys-and-counts.md
-// 7.3.
+// Tests the cause that is reported for an audit's order errors, against a table of the causes in
+// peeling/reference/keys-and-counts.md 7.3.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>

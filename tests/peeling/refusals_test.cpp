@@ -1,4 +1,5 @@
-// Tests which device runs which algorithm, against the table of devices.md 10, and the message of every rejection.
+// Tests which device runs which algorithm, against the table of pipeline/reference/devices.md 10, and the message of
+// every rejection.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -141,7 +141,7 @@ void check_scene(const FragmentScene& given, const Machine& machine, strata::pee
     if (machine.profile == "ideal") check_accuracy(scene, result);
 }
 
-// Every combination that devices.md 10 allows.
+// Every combination that pipeline/reference/devices.md 10 allows.
 std::vector<Machine> machines() {
     std::vector<Machine> all{{"geforce3", "depth_units"},
                              {"geforce3", "shadow_map"},

@@ -1,5 +1,5 @@
-// Tests blends whose source is not rounded to a code (fragment-stages.md 8.2) against real numbers. Direct3D allows
-// this, and devices do it.
+// Tests blends whose source is not rounded to a code (pipeline/reference/fragment-stages.md 8.2) against real numbers.
+// Direct3D allows this, and devices do it.
 #include <catch2/catch.hpp>
 #include <cmath>
 

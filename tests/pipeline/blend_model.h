@@ -1,6 +1,6 @@
 // tests/pipeline/blend_model.h - random blend states, and the expected result of one fragment on an 8-bit target in
-// integers, written from GL 2.1 4.1.8 and fragment-stages.md 8.1 and 8.2. blend_float_test.cpp has the float
-// counterpart.
+// integers, written from GL 2.1 4.1.8 and pipeline/reference/fragment-stages.md 8.1 and 8.2. blend_float_test.cpp has
+// the float counterpart.
 #pragma once
 #include <algorithm>
 #include <array>

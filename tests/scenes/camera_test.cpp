@@ -1,5 +1,5 @@
 // Checks look_at and the perspective projection on known points (eye, centre, frustum corners), and orbit_view against
-// the formula of scenes.md 7.2 with 60 digits.
+// the formula of scenes/reference/scenes.md 7.2 with 60 digits.
 #include "scenes/camera.h"
 
 #include <boost/math/constants/constants.hpp>

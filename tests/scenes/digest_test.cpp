@@ -1,4 +1,5 @@
-// Tests digests against the bytes of formats.md 8, serialized here field by field, with the one-shot XXH3_128bits.
+// Tests digests against the bytes of pipeline/reference/formats.md 8, serialized here field by field, with the one-shot
+// XXH3_128bits.
 #include <xxhash.h>
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // peeling/algorithms/fixed_passes/adaptive.cpp - adaptive transparency: pass 1 approximates the transmittance of every
 // pixel as a step function of depth with k nodes, pass 2 weights each fragment by the transmittance in front of it.
-// Salvi, Montgomery and Lefohn 2011, "Adaptive Transparency", sections 3 and 4; algorithms.md 19.2.
+// Salvi, Montgomery and Lefohn 2011, "Adaptive Transparency", sections 3 and 4; peeling/reference/algorithms.md 19.2.
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), float targets that blend.
 // Passes     2. Exact if no pixel has more than k visible fragments and no two of them have equal depths. Of equal

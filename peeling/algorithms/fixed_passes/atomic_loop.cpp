@@ -1,6 +1,7 @@
 // peeling/algorithms/fixed_passes/atomic_loop.cpp - pass 1 finds the k nearest depths of every pixel by atomic minimum,
 // pass 2 stores the colours of the fragments with these depths; all other fragments form the tail. Kubisch 2014
-// (atomic_loop); Maule et al. 2013 (hybrid_transparency: a core of k, the rest averaged); algorithms.md 21.
+// (atomic_loop); Maule et al. 2013 (hybrid_transparency: a core of k, the rest averaged);
+// peeling/reference/algorithms.md 21.
 //
 // Needs      unordered access with atomics; float targets that blend for the tails that are sums.
 // Passes     2. Exact if no pixel has more than k visible fragments. Fragments of equal depth share an entry, which

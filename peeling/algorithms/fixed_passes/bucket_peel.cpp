@@ -1,6 +1,6 @@
 // peeling/algorithms/fixed_passes/bucket_peel.cpp - divides the depth range of every pixel into 16 equal buckets and
 // composites the nearest and the farthest fragment of each. Liu et al. 2009, "Efficient Depth Peeling via Bucket Sort",
-// sections 3 and 4; algorithms.md 24.
+// sections 3 and 4; peeling/reference/algorithms.md 24.
 //
 // Needs      float MAX blending, eight render targets, separate alpha blending. GeForce8 has all of these.
 // Passes     6: one for the bounds of depth, one for the buckets, four for colours. Fragments of equal depth are

@@ -1,6 +1,6 @@
 // peeling/algorithms/fixed_passes/k_buffer.cpp - keeps four fragments per pixel sorted by depth during one pass; a
 // fifth causes the nearest to be composited. Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2;
-// algorithms.md 14.
+// peeling/reference/algorithms.md 14.
 //
 // Needs      STRATA_ordered_rmw (real devices had read-modify-write hazards here), six float render targets.
 // Passes     1. Correct if no fragment is preceded by more than four deeper visible ones. Of equal depths the first

@@ -1,6 +1,6 @@
 // peeling/algorithms/fixed_passes/linked_list.cpp - stores every visible fragment in a list of its pixel, as long as
 // nodes are left, and sorts and composites the lists after the pass. Yang et al. 2010, "Real-Time Concurrent Linked
-// List Construction on the GPU"; algorithms.md 20.
+// List Construction on the GPU"; peeling/reference/algorithms.md 20.
 //
 // Needs      unordered access with atomics.
 // Passes     1. Of equal depths the first submitted is in front. Exact unless nodes run out, which is reported.

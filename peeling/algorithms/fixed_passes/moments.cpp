@@ -1,6 +1,6 @@
 // peeling/algorithms/fixed_passes/moments.cpp - pass 1 sums power moments of the absorbance over depth, pass 2 weights
 // each fragment by the transmittance in front of it that the moments imply. Muenstermann et al. 2018, "Moment-Based
-// Order-Independent Transparency", sections 3 and 4; algorithms.md 22.
+// Order-Independent Transparency", sections 3 and 4; peeling/reference/algorithms.md 22.
 //
 // Needs      binary32 additive blending, up to three render targets.
 // Passes     2. An approximation: the transmittance of all fragments together is exact except for rounding, its

@@ -1,6 +1,6 @@
 // peeling/algorithms/fixed_passes/multi_layer.cpp - keeps k layers per pixel, sorted by depth, during one pass; a
 // fragment that does not fit makes the two farthest merge. Salvi and Vaidyanathan 2014, "Multi-Layer Alpha Blending";
-// algorithms.md 19.
+// peeling/reference/algorithms.md 19.
 //
 // Needs      STRATA_ordered_rmw (rasterizer ordered views, fragment shader interlock), a float target for depths.
 // Passes     1. Exact if no pixel has more than k visible fragments, or if all are submitted front to back. Of equal

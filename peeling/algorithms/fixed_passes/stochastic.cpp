@@ -1,6 +1,7 @@
 // peeling/algorithms/fixed_passes/stochastic.cpp - pass 1 stores the nearest depth of every sample, where a fragment
 // covers samples chosen at random; pass 2 weights each fragment by the share of samples in which nothing is in front of
-// it. Enderton et al. 2010, "Stochastic Transparency", sections 3 and 4 (alpha correction); algorithms.md 23.
+// it. Enderton et al. 2010, "Stochastic Transparency", sections 3 and 4 (alpha correction);
+// peeling/reference/algorithms.md 23.
 //
 // Needs      float MAX blending, and targets with different blends in one pass.
 // Passes     2. An approximation: its expected value is exact before the alpha correction. Exact if no pixel has more

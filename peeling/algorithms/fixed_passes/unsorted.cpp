@@ -1,5 +1,5 @@
 // peeling/algorithms/fixed_passes/unsorted.cpp - OVER in submission order: the baseline; with triangles sorted by
-// centroid, the painter's algorithm. algorithms.md 1.
+// centroid, the painter's algorithm. peeling/reference/algorithms.md 1.
 //
 // Needs      nothing.
 // Passes     1.

@@ -1,5 +1,5 @@
 // peeling/algorithms/fixed_passes/weighted_average.cpp - one pass; every colour of a pixel is replaced by the average
-// weighted by alpha. Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8.
+// weighted by alpha. Bavoil and Myers 2008, "Weighted Average"; peeling/reference/algorithms.md 7, erratum E8.
 //
 // Needs      fp16 additive blending, two render targets.
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.

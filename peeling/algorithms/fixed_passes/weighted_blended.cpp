@@ -1,5 +1,6 @@
 // peeling/algorithms/fixed_passes/weighted_blended.cpp - one pass: the colour of a pixel is the average of its
-// fragments, weighted by alpha and depth. McGuire and Bavoil 2013, sections 3 and 4; algorithms.md 18.
+// fragments, weighted by alpha and depth. McGuire and Bavoil 2013, sections 3 and 4; peeling/reference/algorithms.md
+// 18.
 //
 // Needs      fp16 additive blending, two render targets; weighted_blended needs different blends in them,
 //            weighted_blended_shared one blend with separate factors for alpha.

@@ -1,5 +1,5 @@
-// peeling/algorithms/fixed_passes/weighted_sum.cpp - one pass; the order-dependent terms of OVER are ignored.
-// Bavoil and Myers 2008, "Weighted Sum" (after Meshkin 2007); algorithms.md 8.
+// peeling/algorithms/fixed_passes/weighted_sum.cpp - one pass; the order-dependent terms of OVER are ignored. Bavoil
+// and Myers 2008, "Weighted Sum" (after Meshkin 2007); peeling/reference/algorithms.md 8.
 //
 // Needs      fp16 additive blending.
 // Passes     1. An approximation: the background's weight 1 - sum a goes negative where alphas add up to more than 1,

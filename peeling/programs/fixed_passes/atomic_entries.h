@@ -5,7 +5,7 @@
 // Rule     After the first pass a pixel's entries are its k least depth codes in ascending order, whatever the
 //          submission order. Fragments of equal codes share an entry, which keeps the colour of the last one submitted
 //          (EqualCodes::share), or take an entry each, in submission order (EqualCodes::apart).
-// Source   algorithms.md 21.
+// Source   peeling/reference/algorithms.md 21.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // Rule     The bucket of depth d is trunc((d - near) / (far - near) 16), limited to 0..15, and 0 if near = far. near
 //          and far are the least and the greatest depth of the pixel. Under reversed depth 1 - d takes the place of d.
-// Source   algorithms.md 24; Liu et al. 2009.
+// Source   peeling/reference/algorithms.md 24; Liu et al. 2009.
 // Tests    tests/peeling/algorithms/bucket_peel_test.cpp
 #pragma once
 #include "peeling/programs/region_programs.h"

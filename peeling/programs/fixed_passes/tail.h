@@ -5,7 +5,7 @@
 //          the frame's colour format. average: their colour is that of weighted_average; weighted: that of
 //          weighted_blended. The sums of the last two are stored as halves, or as binary32 if the frame's colour format
 //          is rgba32f.
-// Source   algorithms.md 21.3.
+// Source   peeling/reference/algorithms.md 21.3.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once
 #include "peeling/programs/algorithm_options.h"

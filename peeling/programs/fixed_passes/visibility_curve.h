@@ -4,7 +4,7 @@
 // Rule     Steps (nodes) are sorted by depth; `through` is the transmittance from a node's depth on. If there are k +
 //          1, the node is removed whose removal changes the area under the curve least. Binary32, each operation
 //          rounded.
-// Source   algorithms.md 19.2; Salvi et al. 2011.
+// Source   peeling/reference/algorithms.md 19.2; Salvi et al. 2011.
 // Tests    tests/peeling/algorithms/multi_layer_test.cpp
 #pragma once
 #include <array>

@@ -4,7 +4,7 @@
 // Rule     Weights by equations 7 to 10, each operation rounded to binary32. Pixel = (sums / weights) (1 - t) +
 //          background t, where t is the product of (1 - alpha) of all fragments; the background if the sum of weights
 //          is not above 0.
-// Source   algorithms.md 18. The test of the sum of weights replaces the least divisor of the paper.
+// Source   peeling/reference/algorithms.md 18. The test of the sum of weights replaces the least divisor of the paper.
 // Tests    tests/peeling/algorithms/weighted_blended_test.cpp
 #pragma once
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Tests atomic_loop, hybrid_transparency and the tail of front_to_back, with each kind of tail, against sorted lists in
-// real numbers. algorithms.md 21.
+// real numbers. peeling/reference/algorithms.md 21.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

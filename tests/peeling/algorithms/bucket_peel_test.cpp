@@ -1,4 +1,4 @@
-// Tests bucket_peel against buckets of sorted depths in real numbers. algorithms.md 24.
+// Tests bucket_peel against buckets of sorted depths in real numbers. peeling/reference/algorithms.md 24.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <map>

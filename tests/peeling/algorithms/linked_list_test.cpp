@@ -1,4 +1,4 @@
-// Tests linked_list and its limits of nodes against lists in real numbers. algorithms.md 20.
+// Tests linked_list and its limits of nodes against lists in real numbers. peeling/reference/algorithms.md 20.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

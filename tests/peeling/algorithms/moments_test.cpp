@@ -1,5 +1,5 @@
 // Tests moments: its logarithm and exponential against Boost.Multiprecision, its bounds against distributions of
-// points, and pictures against the exact A-buffer. algorithms.md 22.
+// points, and pictures against the exact A-buffer. peeling/reference/algorithms.md 22.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,5 @@
-// Tests multi_layer and adaptive against lists of layers and of steps in real numbers. algorithms.md 19.
+// Tests multi_layer and adaptive against lists of layers and of steps in real numbers. peeling/reference/algorithms.md
+// 19.
 #include <catch2/catch.hpp>
 #include <list>
 

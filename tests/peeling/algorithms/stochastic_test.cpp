@@ -1,5 +1,5 @@
 // Tests stochastic: its hash in 64-bit integers, its masks by counting, and its pictures against samples in real
-// numbers. algorithms.md 23.
+// numbers. peeling/reference/algorithms.md 23.
 #include <catch2/catch.hpp>
 #include <cmath>
 

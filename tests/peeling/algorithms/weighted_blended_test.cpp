@@ -1,5 +1,5 @@
 // Tests both forms of weighted_blended against equations 6 to 10 of McGuire and Bavoil 2013 in binary64, and the
-// distance from the eye against the projection. algorithms.md 18.
+// distance from the eye against the projection. peeling/reference/algorithms.md 18.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>

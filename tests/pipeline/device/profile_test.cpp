@@ -1,4 +1,5 @@
-// Tests the built-in profiles and the table of their fields against values written by hand from devices.md.
+// Tests the built-in profiles and the table of their fields against values written by hand from
+// pipeline/reference/devices.md.
 #include "pipeline/device/profile.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Tests surfaces without alpha or with fewer bits per channel (formats.md 4).
+// Tests surfaces without alpha or with fewer bits per channel (pipeline/reference/formats.md 4).
 #include "pipeline/formats/narrow.h"
 
 #include <catch2/catch.hpp>

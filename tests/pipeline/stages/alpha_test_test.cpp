@@ -65,7 +65,7 @@ TEST_CASE("a mask cutoff of 0.5 keeps exactly the 8-bit alphas from 128 up") {
     for (int k = 0; k < 256; ++k) CHECK(passes_one(cutoff, true, static_cast<float>(k) / 255.0f) == (k >= 128));
 }
 
-// chip-fragment.md 2: 8-bit alphas against 7F, sixteen hardware captures.
+// pipeline/reference/chip-fragment.md 2: 8-bit alphas against 7F, sixteen hardware captures.
 TEST_CASE("alphas 7E and 7F and 80 against 7F pass as in the hardware captures") {
     const auto outcome = [](CompareFunc func) {
         std::string passed;

@@ -240,8 +240,8 @@ TEST_CASE("OVER gives the rational value rounded half up for every source and de
     CHECK(wrong == 0);
 }
 
-// chip-fragment.md 1.2: one rounding of the exact sum. Rounding each product separately does not reproduce 152 of 239
-// captures.
+// pipeline/reference/chip-fragment.md 1.2: one rounding of the exact sum. Rounding each product separately does not
+// reproduce 152 of 239 captures.
 TEST_CASE("the sum is rounded once and not each product") {
     const Blend halves{true,
                        {BlendEquation::add, BlendFactor::constant_color, BlendFactor::constant_color},

@@ -118,7 +118,7 @@ TEST_CASE("every operation gives its value for every stored value and mask") {
     CHECK(wrong == 0);
 }
 
-// chip-fragment.md 4, Stencil_func: pass when 7F FUNC stored.
+// pipeline/reference/chip-fragment.md 4, Stencil_func: pass when 7F FUNC stored.
 TEST_CASE("the reference is the left operand as in sixteen hardware captures where LESS passes if stored is above 7F") {
     const auto drawn = [](CompareFunc func) {
         std::string result;

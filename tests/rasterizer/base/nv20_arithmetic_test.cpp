@@ -1,5 +1,5 @@
-// Tests NV20's arithmetic against rationals (rational.h) truncated by the rules of numbers.md 4, and against big
-// integers for the Newton steps.
+// Tests NV20's arithmetic against rationals (rational.h) truncated by the rules of rasterizer/reference/numbers.md 4,
+// and against big integers for the Newton steps.
 #include "rasterizer/base/nv20_arithmetic.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
-// Tests the colour weights of the NV2A against attributes.md 2.2, 2.4 and the remainder rule of attributes.md 2.3 in
-// rational arithmetic.
+// Tests the colour weights of the NV2A against rasterizer/reference/attributes.md 2.2, 2.4 and the remainder rule of
+// attributes.md 2.3 in rational arithmetic.
 #include "rasterizer/chip/color_weights.h"
 
 #include <catch2/catch.hpp>

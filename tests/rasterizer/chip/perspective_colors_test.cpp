@@ -187,9 +187,9 @@ TEST_CASE("weights at or next to a multiple of 1/256 fall on the correct side fo
     CHECK(not_whole > cases / 20);
 }
 
-// The upper side of Depth_buffer_fixed_function's wide quad (chip-geometry.md 5.4) passes through pixel centres between
-// two corners of w = 135.666...; at every third pixel 256 b is an integer. The capture has these codes of green and
-// blue there.
+// The upper side of Depth_buffer_fixed_function's wide quad (rasterizer/reference/chip-geometry.md 5.4) passes through
+// pixel centres between two corners of w = 135.666...; at every third pixel 256 b is an integer. The capture has these
+// codes of green and blue there.
 TEST_CASE("weights that are integers on a side of equal w give the codes of the capture") {
     const std::array<float, 3> w{386.0f / 3.0f + 7.0f, 386.0f / 3.0f + 7.0f, 200.0f};
     const std::array<float, 3> inverse{1.0f / w[0], 1.0f / w[1], 1.0f / w[2]};

@@ -1,5 +1,5 @@
-// Tests w buffers of the NV2A against depth.md 4.8 in rational arithmetic, with the roundings to 53 bits that the rule
-// has; coverage is decided by a comparison of signs at every centre.
+// Tests w buffers of the NV2A against rasterizer/reference/depth.md 4.8 in rational arithmetic, with the roundings to
+// 53 bits that the rule has; coverage is decided by a comparison of signs at every centre.
 #include "rasterizer/chip/w_buffer.h"
 
 #include <catch2/catch.hpp>

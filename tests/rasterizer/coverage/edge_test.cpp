@@ -1,4 +1,5 @@
-// Tests the corner cases of coverage.md 11. The expected pixels are those printed there, in window positions, y down.
+// Tests the corner cases of rasterizer/reference/coverage.md 11. The expected pixels are those printed there, in window
+// positions, y down.
 #include "rasterizer/coverage/edge.h"
 
 #include <catch2/catch.hpp>

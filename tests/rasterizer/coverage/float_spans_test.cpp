@@ -1,5 +1,5 @@
-// Tests float spans against mesa-rasterizers.md 3.1 and 3.2 in rational arithmetic, each operation rounded to binary32
-// by definition, pixel by pixel.
+// Tests float spans against pipeline/reference/mesa-rasterizers.md 3.1 and 3.2 in rational arithmetic, each operation
+// rounded to binary32 by definition, pixel by pixel.
 #include "rasterizer/coverage/float_spans.h"
 
 #include <catch2/catch.hpp>

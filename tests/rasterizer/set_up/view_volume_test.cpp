@@ -1,5 +1,5 @@
-// Tests clipping at the view volume against the algorithm of mesa-rasterizers.md 1.2 in rational arithmetic, each
-// operation rounded to binary32 by definition.
+// Tests clipping at the view volume against the algorithm of pipeline/reference/mesa-rasterizers.md 1.2 in rational
+// arithmetic, each operation rounded to binary32 by definition.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/set_up/clip.h"

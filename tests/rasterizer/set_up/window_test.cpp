@@ -54,8 +54,8 @@ TEST_CASE("positions are truncated toward zero or rounded to the nearest subpixe
 
 namespace {
 
-// swiftshader-rasterizer.md 1.1: rounded to nearest, ties to even, in subpixels from the centre of the first pixel of
-// the lowest row.
+// pipeline/reference/swiftshader-rasterizer.md 1.1: rounded to nearest, ties to even, in subpixels from the centre of
+// the first pixel of the lowest row.
 [[nodiscard]] Integer from_lowest_centre(float c, float w, int start, int size, int bits) {
     const Rounded divided = Rounded{c} * (Rounded{1} / Rounded{w});
     const Rounded scale{static_cast<float>(size) / 2}, middle{static_cast<float>(start) + static_cast<float>(size) / 2};

@@ -1,5 +1,5 @@
 // Tests texture coordinates by truncated weights against the rule of cut_coordinates.h in rational arithmetic; the
-// remainder of attributes.md 2.3 is a table of ties.
+// remainder of rasterizer/reference/attributes.md 2.3 is a table of ties.
 #include "rasterizer/values/cut_coordinates.h"
 
 #include <catch2/catch.hpp>

@@ -25,8 +25,8 @@ struct CornerOfPlane {
 };
 using CornersOfPlane = std::array<CornerOfPlane, 3>;
 
-// Written directly from mesa-rasterizers.md 2.4. With samples the origin is the pixel's corner, and i and j are not
-// integers (2.11).
+// Written directly from pipeline/reference/mesa-rasterizers.md 2.4. With samples the origin is the pixel's corner, and
+// i and j are not integers (2.11).
 [[nodiscard]] Rounded reciprocal_area(CornersOfPlane c, bool clockwise, bool fuses, float i, float j,
                                       float centre = 0.5f) {
     if (clockwise) std::swap(c[0], c[1]);

@@ -1,5 +1,5 @@
-// Tests attributes against rationals (rational.h) with the roundings of attributes.md 1.1 written out: product, plane,
-// plane of 1/w, quotient.
+// Tests attributes against rationals (rational.h) with the roundings of rasterizer/reference/attributes.md 1.1 written
+// out: product, plane, plane of 1/w, quotient.
 #include "rasterizer/values/fragment_values.h"
 
 #include <catch2/catch.hpp>

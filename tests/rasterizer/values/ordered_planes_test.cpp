@@ -1,5 +1,5 @@
-// Tests ordered planes against swiftshader-rasterizer.md 1.1, 1.4 and 2, computed from the given vertices with each
-// operation in rationals and rounded once.
+// Tests ordered planes against pipeline/reference/swiftshader-rasterizer.md 1.1, 1.4 and 2, computed from the given
+// vertices with each operation in rationals and rounded once.
 #include "rasterizer/values/ordered_planes.h"
 
 #include <bit>

@@ -1,4 +1,5 @@
-// Tests deep EXR files by a round trip of random fragments, and digests against the bytes of images.md 5.
+// Tests deep EXR files by a round trip of random fragments, and digests against the bytes of scenes/reference/images.md
+// 5.
 #include <xxhash.h>
 
 #include <bit>

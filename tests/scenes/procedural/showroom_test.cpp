@@ -1,5 +1,5 @@
-// Tests the showroom against the table of scenes.md 12: corners that a separate division projects are at the pixels and
-// depths that it states.
+// Tests the showroom against the table of scenes/reference/scenes.md 12: corners that a separate division projects are
+// at the pixels and depths that it states.
 #include "scenes/procedural/showroom.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Tests the volume beam against the formulas of scenes.md 3 in 60 decimal digits.
+// Tests the volume beam against the formulas of scenes/reference/scenes.md 3 in 60 decimal digits.
 #include "scenes/procedural/volume_beam.h"
 
 #include <boost/math/constants/constants.hpp>
