@@ -1,5 +1,5 @@
-// peeling/algorithms/coherent_stencil.cpp - coherent layer peeling A: runs of fragments in order, found by counting in
-// the stencil buffer. Carr, Mech and Miller 2008, section 5; peeling/reference/algorithms.md 10.
+// peeling/algorithms/coherent_stencil.cpp - coherent layer peeling A: sequences of fragments in order, found by
+// counting in the stencil buffer. Carr, Mech and Miller 2008, section 5; peeling/reference/algorithms.md 10.
 //
 // Needs      an 8-bit stencil buffer, a depth buffer that programs can read, separate alpha blending.
 // Passes     6 per iteration, and 1 that finds nothing left; ascending ceil(n/128) iterations, descending ceil(n/2) for

@@ -22,7 +22,7 @@ struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
 };
 
-// Collects codes in a buffer, so that the hash receives long runs of bytes.
+// Collects codes in a buffer, so that the hash receives many bytes at once.
 class Hash {
   public:
     Hash() : state_{XXH3_createState()} {

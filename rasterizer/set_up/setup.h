@@ -38,7 +38,7 @@ struct SourceTriangle {
     const TriangleRun* run = nullptr;
 };
 
-// The vertex to which the indices of a run are relative.
+// The vertex to which the indices of a TriangleRun are relative.
 [[nodiscard]] inline std::uint32_t first_vertex(const TriangleRun& run) noexcept {
     return run.lent != nullptr ? run.first_vertex : 0;
 }

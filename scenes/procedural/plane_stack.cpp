@@ -28,7 +28,7 @@ void add_plane(pipeline::Mesh& mesh, const PlaneStack& stack, int i, const pipel
     }
     // Vertices per row: one more than squares.
     const auto width = static_cast<std::uint32_t>(cells) + 1;
-    // Both triangles of a square run counterclockwise seen from +z and share the diagonal from a to d.
+    // Both triangles of a square are counterclockwise seen from +z and share the diagonal from a to d.
     for (std::uint32_t row = 0; row + 1 < width; ++row)
         for (std::uint32_t column = 0; column + 1 < width; ++column) {
             const std::uint32_t a = first + row * width + column, b = a + 1, c = a + width, d = c + 1;

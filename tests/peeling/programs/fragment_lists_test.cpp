@@ -38,7 +38,7 @@ PixelRange expected_range(const std::vector<std::uint32_t>& coverage, std::uint3
 
 }  // namespace
 
-TEST_CASE("a range is the longest run of whole rows or of pixels of one row whose fragments fit") {
+TEST_CASE("a range is the largest number of whole rows or of pixels of one row whose fragments fit") {
     Random random{501};
     std::size_t wrong = 0;
     for (int round = 0; round < 400; ++round) {

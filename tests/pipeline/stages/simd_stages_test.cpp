@@ -36,8 +36,8 @@ int any_count(Random& random) { return counts[below(random, counts.size())]; }
 
 constexpr std::size_t plane_pixels = 300;
 
-// Distinct pixels: one run, runs of some length with gaps between them, a run up to the last pixel of the plane with a
-// few missing, or random order.
+// Distinct pixels: consecutive pixels, groups of consecutive pixels with gaps between them, the pixels up to the
+// plane's last with a few missing, or random order.
 CodeLanes any_pixels(Random& random) {
     CodeLanes pixel{};
     const std::uint32_t kind = below(random, 5), start = below(random, 45), run = 1 + below(random, 40);

@@ -62,7 +62,7 @@ using strata::rasterizer::Rect;
 
 }  // namespace
 
-TEST_CASE("each run of a soup names its instance and material and its indices are vertices of its own mesh") {
+TEST_CASE("each triangle run of a soup names its instance and material and its indices are vertices of its own mesh") {
     DrawList list = squares_of(six_materials());
     list.materials[2].double_sided = false;
     list.instances[3].model[0][0] = -1;

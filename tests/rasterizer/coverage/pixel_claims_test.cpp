@@ -13,7 +13,7 @@ using HeldPixels = std::set<std::array<unsigned, 2>>;  // row, column
 
 }  // namespace
 
-TEST_CASE("a run of a row is claimed exactly if the batch has none of its pixels across every border of 32") {
+TEST_CASE("neighbouring pixels of a row are claimed exactly if the batch has none of them across every border of 32") {
     Random random{681};
     std::uint64_t wrong = 0, refused = 0, granted = 0;
     for (const int width : {1, 31, 32, 33, 64, 100}) {

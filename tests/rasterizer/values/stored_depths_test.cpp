@@ -28,7 +28,7 @@ constexpr std::array depth_ranges{DepthRange{0, 1}, DepthRange{0.25f, 0.75f}, De
         .convert_to<std::uint32_t>();
 }
 
-// Triangles of 14 x 14 pixels whose depths, and quotients r/q, run from -0.4 to 1.4 of the buffer.
+// Triangles of 14 x 14 pixels whose depths, and quotients r/q, range from -0.4 to 1.4 of the buffer.
 [[nodiscard]] Geometry deep_triangles(std::uint64_t seed, const RasterRules& rules, DepthFormat format,
                                       const DepthRange& range, double units, int outside = 3) {
     Random random{seed};
