@@ -11,7 +11,7 @@ namespace {
 
 // Optimal string alignment, row by row; names are truncated to 64 letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    // This bounds time and memory: the name may be any text of a file.
+    // The limit bounds time and memory, because the name may be any text of a file.
     a = a.substr(0, 64);
     b = b.substr(0, 64);
     std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));

@@ -41,13 +41,13 @@ inline constexpr std::array<Link, 7> links{{{"transform", &Chain::transform},
 inline constexpr Chain exact_chain{};
 inline constexpr Chain machine_chain{false, false, false, false, false, false, false};
 
-// The first `count` links exact, the others as on the device.
+// The chain whose first `count` links are exact; the others are as on the device.
 [[nodiscard]] constexpr Chain exact_up_to(std::size_t count) noexcept {
     Chain chain = machine_chain;
     for (std::size_t i = 0; i < count; ++i) chain.*links[i].is_exact = true;
     return chain;
 }
-// That link exact, all others as on the device.
+// The chain in which only `link` is exact; the others are as on the device.
 [[nodiscard]] constexpr Chain exact_alone(std::size_t link) noexcept {
     Chain chain = machine_chain;
     chain.*links[link].is_exact = true;

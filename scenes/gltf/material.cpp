@@ -97,7 +97,7 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     const auto& factor = m.pbrMetallicRoughness.baseColorFactor;
     for (std::size_t i = 0; i < 4; ++i) made.front[i] = static_cast<float>(factor[i]);
     const JsonAt at = c_.document.at("materials", material);
-    // Neither vertex colours nor textures can raise it.
+    // Neither vertex colours nor textures can raise the material's alpha.
     if (made.alpha_mode == AlphaMode::mask && made.front[3] < made.alpha_cutoff)
         c_.warnings.add(at.place().pointer, "its alpha is below its cutoff: nothing of it is drawn");
     if (made.alpha_mode == AlphaMode::blend && made.front[3] == 0)

@@ -1,5 +1,5 @@
-// Fragments that the alpha test removes (MASK) leave no trace: pictures, diagnostics and audits are those of the scene
-// without their triangles. fragment-stages.md 2.
+// Tests that fragments which the alpha test removes (glTF's MASK) change nothing: pictures, diagnostics and audits must
+// be those of a scene in which their triangles have no area (pipeline/reference/fragment-stages.md 2).
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -20,12 +20,13 @@ using strata::pipeline::DrawList;
 constexpr float cutoff = 0.5f;
 
 struct MaskedLists {
-    DrawList masked;   // with fragments that the test removes, others that it keeps, and surfaces that it does not see
-    DrawList without;  // no test: triangles of fragments that it would remove are points, the others as in `masked`
+    DrawList masked;   // with fragments that the test removes, fragments that it keeps, and surfaces without a test
+    DrawList without;  // no test; triangles of removed fragments have no area, the others are as in `masked`
     std::size_t removed = 0;
 };
 
-// In rounds, as draw_list submits: first the surfaces without a test, then the others. Triangles keep their numbers.
+// The order of submission is that of draw_list: round k has each pixel's fragment k, first those without a test, then
+// the others. Both lists have the same triangle numbers.
 MaskedLists masked_lists(const FragmentScene& scene, unsigned seed) {
     std::mt19937 random{seed};
     MaskedLists lists;
@@ -56,7 +57,7 @@ MaskedLists masked_lists(const FragmentScene& scene, unsigned seed) {
     return lists;
 }
 
-// What an algorithm may be asked for beside its usual options: those with lists, entries and tails overflow.
+// The algorithm's default options, and options under which its lists, entries or tails overflow.
 std::vector<AlgorithmOptions> choices_of(const std::string& algorithm) {
     std::vector<AlgorithmOptions> choices(1);
     const auto add = [&](auto&& change) { change(choices.emplace_back()); };
@@ -74,7 +75,7 @@ std::vector<AlgorithmOptions> choices_of(const std::string& algorithm) {
 
 }  // namespace
 
-TEST_CASE("fragments that the alpha test removes leave no trace in any algorithm, in every way of running") {
+TEST_CASE("fragments that the alpha test removes leave no trace in any algorithm and in every execution") {
     const FragmentScene scene = eighths_scene(71, 6);
     const MaskedLists lists = masked_lists(scene, 72);
     REQUIRE(lists.removed > 100);
@@ -83,7 +84,7 @@ TEST_CASE("fragments that the alpha test removes leave no trace in any algorithm
         for (const AlgorithmOptions& choice : choices_of(algorithm.name))
             for (const Running& running : all_ways_of_running) {
                 RenderOptions options = eighths_options(scene);
-                options.alpha = 1.0f;  // what is not transparent is drawn so too, after its test
+                options.alpha = 1.0f;  // masked materials become transparent, too, after their test
                 options.algorithm = choice;
                 running.apply(options);
                 const Machine machine{"ideal", algorithm.name};

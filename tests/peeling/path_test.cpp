@@ -5,7 +5,7 @@
 #include "tests/peeling/rendering.h"
 #include "tests/pipeline/frames.h"
 
-// The model's short names have a namespace of their own.
+// A separate namespace: models of several tests use the same short names, and a unity build joins their files.
 namespace strata::testing::path_model {
 namespace {
 

@@ -12,7 +12,7 @@
 #include "tests/support/color_machine.h"
 #include "tests/support/random_numbers.h"
 
-// The model's short names have a namespace of their own.
+// A separate namespace: models of several tests use the same short names, and a unity build joins their files.
 namespace strata::peeling::block_passes_model {
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "tests/pipeline/fragments/recorded_fragments.h"
 
-// The model's short names have a namespace of their own.
+// A separate namespace: models of several tests use the same short names, and a unity build joins their files.
 namespace strata::testing::find_fragments_model {
 namespace {
 

@@ -9,7 +9,7 @@
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "tests/rasterizer/scene.h"
 
-// The model's short names have a namespace of their own.
+// A separate namespace: models of several tests use the same short names, and a unity build joins their files.
 namespace strata::testing::record_rows_model {
 namespace {
 

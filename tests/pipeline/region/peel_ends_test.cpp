@@ -7,7 +7,7 @@
 #include "tests/pipeline/region/put_pixel.h"
 #include "tests/pipeline/region/random_walk.h"
 
-// The short names of the bodies have a namespace of their own.
+// A separate namespace: bodies of several tests have the same short names, and a unity build joins their files.
 namespace strata::testing::peel_ends {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "pipeline/textures/texture_sample.h"
 #include "tests/pipeline/stage_values.h"
 
-// The model's short names have a namespace of their own.
+// A separate namespace: models of several tests use the same short names, and a unity build joins their files.
 namespace strata::testing::lerps_model {
 namespace {
 
