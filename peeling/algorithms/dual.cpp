@@ -6,10 +6,10 @@
 //            are merged into one layer.
 // Invariant  before a peel, min_max = (-near, far) of the depths that remain, front = the layers nearer than `near`
 //            (alpha = 1 - transmittance), back = the layers beyond `far` over the background.
-// By default these passes are the definition and do not run: in replay execution, on rgba8 and float targets,
+// Replay     by default these passes define the result but do not run: in replay execution, on rgba8 and float targets,
 //            peeling/loops/dual_resolve.cpp computes their result from each pixel's sorted fragments.
-//            tests/peeling/execution_test.cpp and sequences_test.cpp show that bits, counters, queries and trace are
-//            equal. The passes run where the resolve declines (conditions: dual_resolve.cpp).
+//            tests/peeling/execution_test.cpp and sequences_test.cpp show that bits, passes, queries and trace are
+//            equal. The passes run where dual_resolve.cpp cannot be used (its head states the conditions).
 #include <algorithm>
 #include <utility>
 
