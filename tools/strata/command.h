@@ -1,4 +1,5 @@
-// tools/strata/command.h - a subcommand: its options, and what runs once they are parsed. Each has a file of its own.
+// tools/strata/command.h - declares the subcommands of the program: options, and the function that runs after parsing.
+// Each subcommand has its own source file.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -6,14 +7,14 @@
 
 namespace strata::tools {
 
-// A subcommand as main() sees it. `app` belongs to the root.
+// A subcommand as main() uses it. `app` belongs to the root command.
 struct Command {
     CLI::App* app = nullptr;
-    // Runs with the parsed options and answers the exit status. A failure is an exception.
+    // Runs with the parsed options and returns the exit status. Failures are thrown as exceptions.
     std::function<int()> run;
 };
 
-// Each adds its subcommand to the root. The options live as long as the Command.
+// Each function adds its subcommand to the root. The options live as long as the Command.
 [[nodiscard]] Command add_render(CLI::App& root);
 [[nodiscard]] Command add_layers(CLI::App& root);
 [[nodiscard]] Command add_passes(CLI::App& root);
@@ -30,7 +31,7 @@ struct Command {
 [[nodiscard]] Command add_man(CLI::App& root);
 [[nodiscard]] Command add_completions(CLI::App& root);
 
-// The end of a --help: examples that run as printed, one a line, then the exit statuses.
+// The end of a --help text: examples that run as printed, one per line, then the exit statuses.
 [[nodiscard]] inline std::string footer(const std::string& examples) {
     return "Examples:\n" + examples +
            "Exit status: 0 done, 2 bad input or usage, 3 the system failed, 130 interrupted.";

@@ -1,4 +1,5 @@
-// tools/strata/compare.cpp - strata compare: how a candidate differs from a reference, by kinds of mistakes.
+// tools/strata/compare.cpp - strata compare: compares a candidate with a reference picture, a golden pack or a scene,
+// and reports the differences or a verdict.
 #include "tools/oracle/compare.h"
 
 #include <algorithm>
@@ -26,21 +27,21 @@ namespace strata::tools {
 
 namespace {
 
-// The command line.
+// The options of the command line.
 struct CompareOptions {
     std::string reference, candidate;
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
     std::optional<oracle::AlphaForm> alpha_form{};
     oracle::Background background{};  // empty: read from the pictures
-    std::string algorithm;            // of packs; empty: all
+    std::string algorithm;            // only for packs; empty: all algorithms
     std::string heat, side, junit, report;
     bool json = false, exact = false;
-    RunOptions run{};  // of a scene
+    RunOptions run{};  // only if the reference is a scene
 };
 
-// A scene or a pack is asked whether a picture is right. Pictures are told what differs, and so is a user who wants the
-// bits or forgives some.
+// True if the result is a verdict (right or wrong apart from rounding): the reference is a scene or a pack, and neither
+// --exact nor --tolerance is given. Otherwise the result is a list of differences.
 bool asks_for_verdict(const CompareOptions& options) {
     return is_scene(options.reference) && !options.exact && options.tolerances == oracle::Tolerances{};
 }
@@ -51,7 +52,7 @@ void write_png(const std::string& path, const pipeline::Image& image) {
     if (!path.empty()) scenes::write_image(path, {.color = image});
 }
 
-// The algorithm that is asked for alone, or all.
+// Returns the requested algorithm alone, or all of them if none is requested.
 std::vector<oracle::PackPictures> chosen(std::vector<oracle::PackPictures> all, const std::string& algorithm) {
     if (algorithm.empty()) return all;
     std::vector<std::string> names;
@@ -63,14 +64,15 @@ std::vector<oracle::PackPictures> chosen(std::vector<oracle::PackPictures> all, 
     return all;
 }
 
-// "heat.png" with several algorithms: "heat.dual.png".
+// Inserts the algorithm's name before the ending if there are several: "heat.png" becomes "heat.dual.png".
 std::string path_of(const std::string& path, const std::string& algorithm, bool is_only) {
     if (path.empty() || is_only) return path;
-    const std::size_t dot = path.rfind('.');  // check_outputs has seen an ending
+    const std::size_t dot = path.rfind('.');  // check_outputs has checked that there is an ending
     return path.substr(0, dot) + "." + algorithm + path.substr(dot);
 }
 
-// Of each algorithm that both have its picture; where that is alike, the first pass that is not.
+// Draws the maps of each algorithm that both folders contain: of the final picture, or, if it is equal, of the first
+// pass that differs.
 void draw_folders(const CompareOptions& options, const std::vector<oracle::PackPictures>& reference,
                   const std::vector<oracle::PackPictures>& candidate,
                   const std::vector<oracle::PackComparison>& found) {
@@ -99,7 +101,7 @@ std::vector<std::string> names_of_targets(const std::vector<oracle::PackPictures
     return names_of_targets(all);
 }
 
-// A pack and the folder of a port: the end and the passes of every algorithm that both have.
+// Compares a pack with a port's output folder: the final picture and all passes of every algorithm that both contain.
 int compare_folders(const CompareOptions& options) {
     if (!options.background.empty())
         throw CLI::ValidationError(
@@ -117,8 +119,8 @@ int compare_folders(const CompareOptions& options) {
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }
 
-// A pack stands for the picture of its only algorithm, or of the one that is asked for; a scene for the one that is
-// drawn of it.
+// The reference picture: of a pack, the picture of its only or requested algorithm; of a scene, the picture that the
+// algorithm renders; otherwise the file itself.
 oracle::Picture reference_of(const CompareOptions& options) {
     if (!is_scene(options.reference)) return oracle::read_picture(options.reference, options.layout);
     if (!scenes::is_pack(options.reference))
@@ -130,7 +132,7 @@ oracle::Picture reference_of(const CompareOptions& options) {
     return std::move(all[0].picture);
 }
 
-// What a verdict does not write yet.
+// Rejects the outputs that a verdict does not support.
 void check_without_files(const CompareOptions& options) {
     for (const auto& [name, path] :
          {std::pair{"--heat", &options.heat}, {"--side", &options.side}, {"--junit", &options.junit}})
@@ -138,7 +140,7 @@ void check_without_files(const CompareOptions& options) {
             throw CLI::ValidationError(std::string(name) + " needs --exact, or a picture as the reference");
 }
 
-// Files first: what stands on standard output has been written.
+// Files are written first, so they exist once the text appears on standard output.
 int compare(const CompareOptions& options) {
     check_outputs({{"--heat", options.heat, {".png"}},
                    {"--side", options.side, {".png"}},
@@ -165,10 +167,12 @@ int compare(const CompareOptions& options) {
     return found.accepted ? 0 : 1;
 }
 
-// Options of a scene fit no picture but --background, which is the reference's there.
+// Rejects options of a scene if the reference is a picture, except --background, which then is the background of the
+// reference.
 void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pictures, CompareOptions& options) {
     if (app.count("--background") > 0) {
-        const pipeline::Rgba& color = *options.run.background;  // as the reference's values are
+        const pipeline::Rgba& color =
+            *options.run.background;  // in the same colour space and alpha form as the reference's values
         options.background = {color[0], color[1], color[2]};
         if (color[3] < 1) options.background.push_back(color[3]);
     }

@@ -12,7 +12,7 @@ namespace strata::tools {
 namespace {
 
 std::string file_name(std::string path) {
-    while (path.size() > 1 && path.back() == '/') path.pop_back();  // "mine/" is a folder, too
+    while (path.size() > 1 && path.back() == '/') path.pop_back();  // "mine/" also names a folder
     return std::filesystem::path(path).filename().string();
 }
 
@@ -40,8 +40,8 @@ std::string count_of(const oracle::Comparison& found) {
            (found.accepted ? ", which the tolerance allows." : ".");
 }
 
-// A sentence for the picture, for the layers and for the passes of an algorithm; what differs in a picture is in its
-// tables.
+// Adds one sentence each for the picture, the layers and the passes of an algorithm. The tables show the differences
+// within a picture.
 void add_findings(PlainPage& page, const oracle::PackComparison& c) {
     if (!c.is_there) return page.paragraph("Not compared: the candidate has nothing of it.");
     std::vector<std::string> sentences;

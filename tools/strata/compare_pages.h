@@ -1,7 +1,8 @@
-// tools/strata/compare_pages.h - what compare leaves beside its text: pages of --report, and the verdicts in colours.
+// tools/strata/compare_pages.h - the outputs of compare besides its plain text: the page of --report, and verdicts in
+// colours.
 //
-// Rule     A page holds what is printed, as a sentence and tables, and reference, candidate and heat map of each
-//          picture compared; no path of this machine.
+// Rule     A page contains the printed text as sentences and tables, and the reference, the candidate and the heat map
+//          of each compared picture. It contains no path of this machine.
 // Tests    tests/tools/compare_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace strata::tools {
 
-// Paths of the command line.
+// The paths as given on the command line.
 struct ComparedPaths {
     std::string reference, candidate;
 };
@@ -21,21 +22,22 @@ struct ComparedPaths {
 [[nodiscard]] PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference,
                                 const oracle::Picture& candidate, const oracle::Comparison& found);
 
-// How far apart two pictures are, with a legend in codes, and which kind is where.
+// Adds a heat map of the differences with a legend in codes, and a map of the kinds of differences.
 void add_heat_map(PlainPage& page, const oracle::Comparison& found);
-// Targets, kinds and known mistakes as tables; "12 of 640 pixels differ, by at most 3 codes."
+// Adds tables of targets, kinds and known mistakes, and a sentence such as "12 of 640 pixels differ, by at most 3
+// codes."
 void add_tables(PlainPage& page, const oracle::Comparison& found);
 [[nodiscard]] std::string sentence_of(const oracle::Comparison& found);
 
-// Of a pack and a folder: what an algorithm's pictures show. The end, or, where that is alike, the first pass that is
-// not.
+// The pictures of one algorithm that the page of a pack shows: the final ones, or, if those are equal, the first pass
+// that differs.
 struct ShownPair {
     const oracle::Picture& reference;
     const oracle::Picture& candidate;
     const oracle::Comparison& comparison;
-    std::string what;  // "" for the end, ", after pass 3"
+    std::string what;  // "" for the final picture, or ", after pass 3"
 };
-// Empty if the candidate has nothing of the algorithm, or no picture and no pass that differs.
+// Empty if the candidate has no file of the algorithm, or neither a picture nor a pass that differs.
 [[nodiscard]] std::optional<ShownPair> shown_pair(const std::vector<oracle::PackPictures>& reference,
                                                   const std::vector<oracle::PackPictures>& candidate,
                                                   const oracle::PackComparison& found);
@@ -43,8 +45,8 @@ struct ShownPair {
                                 const std::vector<oracle::PackPictures>& candidate,
                                 const std::vector<oracle::PackComparison>& found);
 
-// The printed text; where standard output shows colours, the verdict of each line that is not indented is green if it
-// is "equal", yellow if differences are accepted, red if it is "different".
+// Returns the printed text with colour codes if standard output shows colours. The verdict of each unindented line is
+// green if it is "equal", yellow if the differences are accepted, and red if it is "different".
 [[nodiscard]] std::string with_painted_verdicts(const std::string& text);
 
 }  // namespace strata::tools

@@ -61,7 +61,7 @@ namespace {
 
 using oracle::verdict::EditMap;
 
-// Colours of edits by their number; more than these are never told.
+// Colours of the kinds of edits, by their index; they repeat after the last one.
 constexpr std::array<std::uint8_t, 3> edit_colors[] = {{230, 80, 60},  {70, 140, 230},  {240, 200, 60},
                                                        {80, 190, 100}, {190, 100, 210}, {70, 200, 210}};
 constexpr std::array<std::uint8_t, 3> unexplained_color = {255, 255, 255};
@@ -81,8 +81,8 @@ pipeline::Image drawn(const EditMap& map) {
     return image;
 }
 
-// The command of the first scene of the suite that tells the explanations apart; "" if there is none, or one
-// explanation alone.
+// Returns the command of the first scene of the suite on which the explanations give different pictures; "" if there is
+// no such scene, or fewer than two explanations.
 std::string telling_command(const oracle::verdict::Verdict& found) {
     std::vector<std::vector<oracle::verdict::Rule>> rules;
     for (const oracle::verdict::Checked& c : found.explanations)
@@ -100,7 +100,7 @@ std::string counted(std::uint64_t pixels, const std::string& what) {
     return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
 }
 
-// The profile by whose rules the verdict holds, as the document's last key.
+// Returns the JSON verdict with the name of the profile, under whose rules it holds, as its last key.
 std::string with_profile(const std::string& verdict, const pipeline::DeviceProfile& profile) {
     nlohmann::ordered_json document = nlohmann::ordered_json::parse(verdict);
     document["profile"] = profile.name;

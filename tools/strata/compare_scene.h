@@ -1,5 +1,5 @@
-// tools/strata/compare_scene.h - compare with a scene as the reference: is a picture of it right, whatever formats and
-// roundings its port has?
+// tools/strata/compare_scene.h - compares a candidate with a scene: is the picture right, apart from the formats and
+// the rounding of the port that rendered it?
 #pragma once
 #include <optional>
 #include <string>
@@ -10,26 +10,26 @@
 
 namespace strata::tools {
 
-// Whether `reference` names a scene and no picture: a built-in one, a pack, or a file that holds a model.
+// True if `reference` names a scene rather than a picture: a built-in scene, a pack, or the file of a model.
 [[nodiscard]] bool is_scene(const std::string& reference);
 
 struct SceneQuestion {
-    RunOptions run{};       // of the scene; the size is the candidate's
-    std::string algorithm;  // empty: any that is exact
+    RunOptions run{};       // of the scene; width and height are replaced by the candidate's
+    std::string algorithm;  // empty: any exact algorithm
     bool json = false;
-    std::string report;  // empty: none
+    std::string report;  // path of the page; empty: none
 };
 
-// The candidate's colours. InputError if it has none.
+// The candidate's colour target. Throws InputError if it has none.
 [[nodiscard]] const oracle::Target& colors_of(const oracle::Picture& candidate);
-// The scene at the candidate's size.
+// Opens the scene at the candidate's size.
 [[nodiscard]] Session open_at_size(SceneQuestion& question, const oracle::Target& target);
 
-// The picture that the algorithm draws, dual where none is named: in the candidate's size, with a depth where it has
-// one.
+// Renders the scene with the algorithm (dual if none is named) at the candidate's size; with a depth target if the
+// candidate has one.
 [[nodiscard]] oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& candidate);
 
-// Writes the report, and prints the verdict. 0: right, 1: not.
+// Prints the verdict and writes the report. Returns 0 if the picture is right, 1 if not.
 [[nodiscard]] int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate);
 
 }  // namespace strata::tools

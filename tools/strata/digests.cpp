@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 using Digests = std::vector<scenes::FileDigest>;
 
-// Of codes that no target of ours has, or of one channel: the hash over a name, the size and the codes (images.md 5).
+// The digest of a target that images.md 5 does not define, or of one channel: a hash over name, size and codes.
 std::string digest_of(const oracle::Target& target, int first, int count, const std::string& name) {
     pipeline::ValueDigest digest{name};
     digest.add(static_cast<std::uint32_t>(target.width));
@@ -36,7 +36,7 @@ std::string format_of(const oracle::Target& target) {
     return channels[std::clamp(target.channels, 1, 4) - 1] + "/" + std::string(oracle::name(target.code));
 }
 
-// A digest a channel.
+// One digest per channel.
 Digests channels_of(const std::string& file) {
     Digests digests;
     for (const oracle::Target& target : oracle::read_picture(file).targets)
@@ -49,15 +49,16 @@ Digests channels_of(const std::string& file) {
     return digests;
 }
 
-// Whether a PNG's header says 8 bits a channel and colours (PNG 11.2.2: of the colour type bit 1). Anything else says
-// no.
+// True if the PNG header gives 8 bits per channel and colours (PNG 11.2.2: bit 1 of the colour type). False for any
+// other file.
 bool has_8_bit_colors(const std::string& file) {
     std::array<char, 26> header{};
     std::ifstream{file, std::ios::binary}.read(header.data(), header.size());
     return header[24] == 8 && (header[25] & 2) != 0;
 }
 
-// A PNG of grey, or of 16 bits a channel, is no target of ours: its own codes are hashed.
+// The digests of a file's targets. A PNG of grey or with 16 bits per channel is not a format of this program's targets,
+// so its codes are hashed as they are.
 Digests digests_of(const std::string& file) {
     if (scenes::image_file(file) == scenes::ImageFile::png && !has_8_bit_colors(file)) {
         const oracle::Target target = oracle::read_picture(file).targets.at(0);
@@ -68,7 +69,7 @@ Digests digests_of(const std::string& file) {
     return scenes::digests_of(file);
 }
 
-// Nothing for a file that cannot be read; standard error then has the reason.
+// Empty for a file that cannot be read; the reason is then printed on standard error.
 std::optional<Digests> digests_or_reason(const std::string& file, bool channels) {
     try {
         return channels ? channels_of(file) : digests_of(file);

@@ -1,4 +1,5 @@
-// tools/strata/digests.h - one string a target, equal exactly if the bits are: what strata info prints of each file.
+// tools/strata/digests.h - digests of pictures, as strata info prints them: one string per target, equal exactly if all
+// bits are equal.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,14 +9,14 @@
 
 namespace strata::tools {
 
-// A row and an object a target, in the order of the files.
+// One row and one JSON object per target, in the order of the files.
 struct FileDigests {
     nlohmann::ordered_json document;
     Table table;
-    bool all_read = true;  // else standard error has the reason
+    bool all_read = true;  // false: some files could not be read, with the reasons on standard error
 };
 
-// `channels`: a digest a channel instead of one a target.
+// `channels`: one digest per channel instead of one per target.
 [[nodiscard]] FileDigests digests_of_files(const std::vector<std::string>& files, bool channels);
 
 }  // namespace strata::tools

@@ -1,4 +1,4 @@
-// tools/strata/explain.cpp - strata explain: what happened at one pixel, in every pass of one or more algorithms.
+// tools/strata/explain.cpp - strata explain: prints what every pass of one or more algorithms did at one pixel.
 #include <memory>
 
 #include "scenes/files/atomic_file.h"
@@ -17,7 +17,7 @@ struct Pixel {
     int x = 0, y = 0;
 };
 
-// The command line.
+// The options of the command line.
 struct ExplainOptions {
     RunOptions run;
     std::optional<Pixel> pixel;
@@ -25,7 +25,7 @@ struct ExplainOptions {
     bool json = false;
 };
 
-// "X,Y", from 0.
+// Parses "X,Y", in pixels from 0.
 std::optional<Pixel> to_pixel(std::string_view text) {
     const auto parts = split(text, ',');
     if (parts.size() != 2) return std::nullopt;

@@ -1,4 +1,5 @@
-// tools/strata/golden.cpp - strata golden: a pack of everything that a port needs and must produce, written or checked.
+// tools/strata/golden.cpp - strata golden: writes or checks a golden pack, which contains all inputs of a port and all
+// results that it must produce.
 #include "tools/oracle/pack/golden.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ namespace strata::tools {
 
 namespace {
 
-// The command line.
+// The options of the command line.
 struct GoldenOptions {
     RunOptions run;
     std::string check;
@@ -43,7 +44,7 @@ int check(const std::string& path, Simd simd) {
     return faults.empty() ? 0 : 1;
 }
 
-// Algorithms that the profile refuses are left out with their reason.
+// Algorithms that the profile cannot run are left out; their reasons are reported.
 oracle::Golden golden_of(RunOptions& options) {
     Session session = open_session(options);
     oracle::Golden golden{.scene = std::move(session.scene),
@@ -65,7 +66,7 @@ oracle::Golden golden_of(RunOptions& options) {
     return golden;
 }
 
-// "pack: 41 files, 212 KiB, of 2 algorithms".
+// Prints the summary, such as "pack: 41 files, 212 KiB, of 2 algorithms".
 void say_written(const std::string& folder, const std::string& what) {
     if (is_quiet()) return;
     std::uintmax_t files = 0, bytes = 0;
@@ -75,7 +76,7 @@ void say_written(const std::string& folder, const std::string& what) {
                       folder, files, (bytes + 1023) / 1024, what, folder));
 }
 
-// The whole suite, or the scene of it that is named.
+// Writes all scenes of the suite, or only the named one.
 int write_suite(const GoldenOptions& options) {
     std::vector<const oracle::SuiteScene*> scenes;
     for (const oracle::SuiteScene& scene : oracle::suite())
@@ -91,7 +92,7 @@ int write_suite(const GoldenOptions& options) {
     return 0;
 }
 
-// The suite's scenes bring their own options.
+// Rejects options of a scene with --suite, because the suite's scenes have their own.
 void check_alone(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options())
         if (const std::string name = option->get_name(); option->count() > 0 && !is_message_option(*option) &&

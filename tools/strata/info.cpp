@@ -1,4 +1,4 @@
-// tools/strata/info.cpp - strata info: what a picture says of itself, first of all the command that made it, and its
+// tools/strata/info.cpp - strata info: prints the metadata of a picture, first the command that rendered it, and its
 // digests.
 #include <fmt/format.h>
 
@@ -19,10 +19,10 @@ namespace strata::tools {
 
 namespace {
 
-// The command line.
+// The options of the command line.
 struct InfoOptions {
     std::vector<std::string> files;
-    std::string expected;  // a digest
+    std::string expected;  // the digest that the file must have; empty: any
     bool json = false, digests = false, channels = false;
 };
 
@@ -33,7 +33,8 @@ std::optional<std::string> to_digest(std::string_view text) {
     return is_digest ? std::optional(std::string(text)) : std::nullopt;
 }
 
-// The command that made the picture and what else fits a line; a picture of another program says nothing of the kind.
+// The command that rendered the picture, and all other attributes that fit on one line. Pictures of other programs have
+// no command.
 std::string said_by(const std::string& file) {
     const scenes::Attributes attributes = scenes::read_attributes(file);
     const auto command = attributes.find("command");
@@ -45,7 +46,7 @@ std::string said_by(const std::string& file) {
     return text;
 }
 
-// A file that says nothing of itself because it cannot be read has a sentence from the digests.
+// The text of all files that have digests. For any other file the reason has already been printed.
 std::string text_of(const InfoOptions& options, const FileDigests& digests) {
     std::string text;
     for (const std::string& file : options.files) {

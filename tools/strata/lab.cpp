@@ -35,7 +35,7 @@ const Experiment* experiment(std::string_view name) {
     return found == experiments.end() ? nullptr : found;
 }
 
-// Empty where the system does not say which file this program is.
+// Empty if the system does not report the path of this program's file.
 std::filesystem::path lab_program() {
     std::error_code failed;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);

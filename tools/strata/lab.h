@@ -1,8 +1,9 @@
-// tools/strata/lab.h - the experiments: commands of the program strata-lab, which `strata NAME` runs.
+// tools/strata/lab.h - starts the experiments, which are commands of the program strata-lab, for `strata NAME`.
 //
-// Rule     Building strata compiles no experiment. It knows their names and what they do; `strata cost ...` becomes
-//          `strata-lab cost ...`, the same process, with the file strata-lab beside its own. What needs every option of
-//          every command (completions, all manual pages) is the lab's to write, too, where it is there.
+// Rule     Building strata does not compile the experiments. It knows only their names and descriptions; `strata cost
+//          ...` becomes `strata-lab cost ...` in the same process, with the file strata-lab from strata's own folder.
+//          If strata-lab exists, it also writes the completions and manual pages, which need every option of every
+//          command.
 // Tests    tests/tools/lab_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
@@ -12,14 +13,14 @@
 
 namespace strata::tools {
 
-// Adds the command of that name with its description.
+// Adds the experiment of that name with its description.
 CLI::App* add_lab_command(CLI::App& root, std::string_view name);
 
-// Are these words for the lab? `words` begin with a command or with options of messages.
+// True if strata-lab must handle these words. `words` begin with a command or with message options.
 [[nodiscard]] bool is_for_lab(const std::vector<std::string>& words);
 
-// Runs strata-lab in this process; only a failure returns: SystemError, with the command that builds it if it is not
-// there.
+// Replaces this process with strata-lab; returns only by an exception: SystemError, which names the command that builds
+// strata-lab if it is missing.
 [[noreturn]] void run_lab(const std::vector<std::string>& words);
 
 }  // namespace strata::tools

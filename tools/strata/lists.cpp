@@ -1,4 +1,4 @@
-// tools/strata/lists.cpp - strata list: the algorithms, profiles and scenes that there are to choose from.
+// tools/strata/lists.cpp - strata list: lists the available algorithms, profiles and scenes.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -22,14 +22,14 @@ using nlohmann::ordered_json;
 
 enum class Listed : std::uint8_t { algorithms, profiles, scenes };
 
-// The command line; of an empty name all are listed.
+// The options of the command line; with an empty name all entries are listed.
 struct ListOptions {
     Listed what = Listed::algorithms;
     std::string name;
     bool json = false;
 };
 
-// Where a paper is to be had.
+// The web address of a paper.
 struct PaperLink {
     std::string_view paper, link;
 };
@@ -42,7 +42,8 @@ std::string link_of(const std::string& paper) {
     return found == paper_links.end() ? "" : std::string(found->link);
 }
 
-// Of those whose name is asked for: that one. `field` is the name's.
+// The entries of `all`, or only the requested one; `name_of_one` returns an entry's name. Throws CLI::ValidationError
+// for an unknown name.
 template <class Range, class Name>
 auto chosen(const Range& all, const ListOptions& options, const std::string& what, Name name_of_one) {
     std::vector<std::ranges::range_value_t<Range>> found;
@@ -57,7 +58,7 @@ auto chosen(const Range& all, const ListOptions& options, const std::string& wha
     return found;
 }
 
-// Built-in profiles that do not refuse the algorithm.
+// The built-in profiles that can run the algorithm.
 std::vector<std::string> profiles_that_run(const peeling::Algorithm& algorithm) {
     std::vector<std::string> names;
     for (const auto& profile : pipeline::builtin_profiles()) {
@@ -66,8 +67,8 @@ std::vector<std::string> profiles_that_run(const peeling::Algorithm& algorithm) 
     return names;
 }
 
-// The features that an algorithm needs, in the words in which a profile is refused: a profile without any feature is
-// refused for each of them.
+// The features that an algorithm needs, in the words of refusals: they are collected by asking a profile without any
+// feature.
 std::vector<std::string> needs_of(const peeling::Algorithm& algorithm) {
     pipeline::DeviceProfile nothing;
     nothing.has_d24 = nothing.has_sequential_depth_units = false;
@@ -78,14 +79,14 @@ std::vector<std::string> needs_of(const peeling::Algorithm& algorithm) {
     return words;
 }
 
-// The depth that the algorithm compares, by its name in --json.
+// The name in --json of the depth that the algorithm compares.
 std::string_view key_name(pipeline::DepthKey key) {
     return key == pipeline::DepthKey::shader_z ? "shader_z" : "stored_code";
 }
 
-// Algorithms that a caller chooses among by the same question: how many passes they take, and what that buys.
+// A group of algorithms with similar numbers of passes, which are alternatives to each other.
 struct AlgorithmGroup {
-    std::string_view name, heading;  // in --json; above its table
+    std::string_view name, heading;  // in --json, and above the group's table
     bool (*has)(const peeling::Algorithm&);
 };
 
@@ -93,7 +94,7 @@ bool has_fixed_passes(const peeling::Algorithm& a) {
     return a.geometry_passes != nullptr && a.geometry_passes(2) == a.geometry_passes(9);
 }
 
-// An algorithm is of the first group that has it; the last one is printed first.
+// An algorithm belongs to the first group that contains it; the groups are printed in reverse order.
 constexpr std::array algorithm_groups{
     AlgorithmGroup{"oracle", "What the others are measured against; no device runs it:",
                    [](const peeling::Algorithm& a) { return a.is_oracle; }},
@@ -134,7 +135,7 @@ int list_algorithms(const ListOptions& options) {
                             {"group", algorithm_groups[group_of(a)].name},
                             {"makes_layers", a.makes_layers},
                             {"profiles", profiles}});
-        // "all" instead of every name keeps the table narrow.
+        // Prints "all" instead of every name, to keep the table narrow.
         const bool runs_everywhere = profiles.size() == pipeline::builtin_profiles().size();
         std::string where = runs_everywhere ? "all" : "";
         for (std::size_t i = 0; !runs_everywhere && i < profiles.size(); ++i) where += (i > 0 ? "," : "") + profiles[i];
@@ -183,7 +184,7 @@ int list_profiles(const ListOptions& options) {
     return 0;
 }
 
-// Every number with its source.
+// Prints every constant of a profile with its source.
 int show_profile(const ListOptions& options) {
     const pipeline::DeviceProfile profile = scenes::load_profile(options.name);
     if (options.json) {

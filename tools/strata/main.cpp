@@ -1,4 +1,5 @@
-// tools/strata/main.cpp - strata: the commands of every day. Experiments are strata-lab's (tools/lab).
+// tools/strata/main.cpp - strata: the program with the everyday commands. The experiments are in strata-lab
+// (tools/lab).
 #include "tools/strata/program.h"
 
 int main(int count, char** words) { return strata::tools::run_program(count, words, {}); }

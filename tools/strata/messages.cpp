@@ -17,7 +17,8 @@ namespace {
 enum class Amount : std::uint8_t { quiet, usual, verbose };
 enum class Colors : std::uint8_t { automatic, always, never };
 
-// The process's own: set while its command line is read, before anything else runs.
+// The settings of -q, -v and --color. They are process-wide, and set while the command line is parsed, before other
+// threads start.
 struct Wanted {
     Amount amount = Amount::usual;
     Colors colors = Colors::automatic;
@@ -45,7 +46,8 @@ std::string_view code_of(Paint paint) {
     return "";  // unreachable: the enum is closed
 }
 
-// A name in it may have a megabyte: the middle is left out, for the end says what was found.
+// Removes the middle of a sentence that is too long, for example because a name in it has a megabyte; its end contains
+// the value that was found.
 std::string shortened(std::string_view sentence) {
     constexpr std::size_t most = 3000, kept = 1000;
     if (sentence.size() <= most) return scenes::printable(sentence);
@@ -54,7 +56,7 @@ std::string shortened(std::string_view sentence) {
                        scenes::printable(sentence.substr(kept + left_out)));
 }
 
-// One call a line, so that lines of two threads do not mix.
+// Prints each line with one call, so that lines of different threads do not mix.
 void say(const std::string& begin, std::string_view sentence) {
     std::fprintf(stderr, "%s %s\n", begin.c_str(), shortened(sentence).c_str());
 }

@@ -20,23 +20,24 @@ oracle::verdict::Families definite(const oracle::verdict::Colors& candidate) {
     return families(storage_of(candidate.code()), {0, 0x1p-20}, Looseness::definite);
 }
 
-// The right structure's account, by fragments to the bit or off by units in the last place, if it leaves two codes of
-// 255 or few values open, or the picture takes one code at most.
+// The explanation of the candidate as a right picture, with fragments that are equal or differ by a few units in the
+// last place. It is returned only if it leaves at most two codes of 255 or few values possible, or if the candidate
+// contains at most one code.
 std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::SceneFragments& scene,
                                                        const oracle::verdict::Colors& candidate,
                                                        oracle::verdict::Sample& sample) {
     using namespace oracle::verdict;
-    constexpr double most_open = 2, most_bits = 4;  // codes; bits of a pixel
+    constexpr double most_open = 2, most_bits = 4;  // codes; bits per pixel
     auto found = account_for(definite(candidate), {}, scene, candidate, sample);
     if (!found || found->possible <= most_open || found->observed <= 1) return found;
-    // Of floats over codes all that add up may lie far from the exact result, and be few.
+    // For floats, the possible values may be far from the exact result and still be few.
     const bool are_few =
         !has_codes(storage_of(candidate.code())) && found->bits <= most_bits * static_cast<double>(found->covered);
     if (!are_few) found.reset();
     return found;
 }
 
-// The square of a grid that has the most wrong pixels.
+// The 32 x 32 square of a grid with the largest number of wrong pixels.
 rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int width) {
     constexpr int side = 32;
     std::map<std::pair<int, int>, std::size_t> count;
@@ -49,7 +50,8 @@ rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int 
     return {x * side, y * side, (x + 1) * side, (y + 1) * side};
 }
 
-// Whether a definite hypothesis holds within the rectangle: what fails there fails, and no more has to be drawn.
+// True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
+// the rest need not be rendered.
 bool may_be_right(const oracle::RunInput& input, std::uint64_t bytes, const oracle::verdict::Colors& candidate,
                   const rasterizer::Rect& rect) {
     using namespace oracle::verdict;

@@ -1,4 +1,4 @@
-// tools/strata/papers.h - where the three papers are to be had.
+// tools/strata/papers.h - web addresses of the three papers.
 #pragma once
 #include <string_view>
 

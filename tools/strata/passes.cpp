@@ -1,4 +1,4 @@
-// tools/strata/passes.cpp - strata passes: every target of an algorithm after every pass.
+// tools/strata/passes.cpp - strata passes: writes every target of an algorithm after every pass.
 #include "tools/oracle/passes.h"
 
 #include <fmt/format.h>
@@ -69,7 +69,8 @@ std::vector<std::string> pass_row(const oracle::PassShown& pass) {
             queries.empty() ? "-" : queries};
 }
 
-// One algorithm's files; their names begin with its own if there are several. Its section of the page.
+// Writes one algorithm's files, whose names begin with the algorithm's if there are several, and adds its section to
+// the page.
 void show(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm, PlainPage& page) {
     const std::string prefix = options.algorithms.size() == 1 ? "" : algorithm.name + ".";
     const auto path = [&](const std::string& name) {
@@ -109,7 +110,7 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
     print((prefix.empty() ? "" : algorithm.name + ":\n") + titled(to_text(table)));
 }
 
-// A refused algorithm writes nothing; 2 if all of them are.
+// An algorithm that the profile refuses writes no files; the status is 2 if all are refused.
 int passes(PassesOptions& command) {
     RunOptions& options = command.run;
     complete(options);

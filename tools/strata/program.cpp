@@ -1,7 +1,8 @@
-// tools/strata/program.cpp - which subcommand runs, and what every failure looks like from outside.
+// tools/strata/program.cpp - parses the command line, runs the subcommand, and turns every failure into a message and
+// an exit status.
 //
-// Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
-//          interrupted.
+// Rule     A failure prints one line "strata: ..." on standard error. Exit status: 2 for bad input or usage, 3 if the
+//          system failed, 130 if interrupted.
 // Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
 #include "tools/strata/program.h"
 
@@ -36,13 +37,13 @@ namespace {
 
 enum Exit : int { bad_input = 2, system_failed = 3 };
 
-// Prints the one line of a failure and answers its status.
+// Prints the message of a failure and returns its status.
 int fail(const std::string& sentence, Exit status) {
     say_error(sentence);
     return status;
 }
 
-// Told at the end: which loop needs how many threads is known when it runs.
+// Warns at the end, because the number of threads that a loop needs is known only when it runs.
 void warn_of_threads() {
     const ThreadShortage threads = thread_shortage();
     if (threads.had < threads.asked)
@@ -51,7 +52,7 @@ void warn_of_threads() {
 
 using Clock = std::chrono::steady_clock;
 
-// A broken file may have thousands of faults: those that fit a screen are told.
+// Prints at most 20 errors, because a broken file may have thousands.
 int fail_of(const std::vector<std::string>& sentences) {
     constexpr std::size_t most = 20;
     for (std::size_t i = 0; i < std::min(sentences.size(), most); ++i) say_error(sentences[i]);
@@ -59,7 +60,7 @@ int fail_of(const std::vector<std::string>& sentences) {
     return bad_input;
 }
 
-// What all of it took, for -v. Kilobytes are how Linux counts a process's memory.
+// Prints time and memory of the whole execution, for -v. ru_maxrss is in kilobytes on Linux.
 void tell_effort(Clock::time_point start) {
     const std::chrono::duration<double> passed = Clock::now() - start;
     rusage used{};
@@ -74,7 +75,7 @@ std::vector<std::string> names_of(CLI::App& root) {
     return names;
 }
 
-// Long options as they are typed: --size.
+// The long options of a command in the form --size.
 std::vector<std::string> options_of(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) {
@@ -87,20 +88,20 @@ std::string unknown_command(const std::string& word, CLI::App& root) {
     return "strata has no command " + found_but_near(word, names_of(root)) + "; strata --help lists them";
 }
 
-// The subcommand that was named, or the root if none was.
+// The subcommand on the command line, or the root if there is none.
 CLI::App& parsed_app(CLI::App& root) {
     const auto subcommands = root.get_subcommands();
     return subcommands.empty() ? root : *subcommands.front();
 }
 
-// "a word", "FILE.html": what an option's value is called in --help.
+// "one value", or with the type in --help: "one FILE.html".
 std::string value_of(const CLI::App& app, const std::string& name) {
     const CLI::Option* option = app.get_option_no_throw(name);
     const std::string type = option == nullptr ? "" : option->get_type_name();
     return type.empty() || type.size() > 40 ? "one value" : "one " + type;
 }
 
-// CLI11's own words, in plain ones. What our validators say is plain already.
+// Rewrites CLI11's error messages in plain words. Messages of this project's validators are returned unchanged.
 std::string sentence(const CLI::ParseError& error, CLI::App& root) {
     const CLI::App& app = parsed_app(root);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
@@ -123,7 +124,7 @@ std::string sentence(const CLI::ParseError& error, CLI::App& root) {
     return error.what();
 }
 
-// The commands in the order of need. An entry without a function is an experiment.
+// The commands in the order of --help. An entry without a function is an experiment.
 struct Listed {
     const char* group;
     std::string_view name;
@@ -155,8 +156,8 @@ constexpr std::array listed{
     Listed{"Lists and help", "completions", add_completions},
 };
 
-// Of an experiment that this program does not hold only the name and the description, for lists: run_lab has run
-// before.
+// Adds a listed command. An experiment that this program does not contain gets only its name and description, for
+// lists; run_lab has already run it otherwise.
 Command add_listed(CLI::App& root, const Listed& entry, const std::vector<NamedCommand>& experiments) {
     const auto held = std::ranges::find(experiments, entry.name, &NamedCommand::name);
     Command command;
@@ -170,7 +171,7 @@ Command add_listed(CLI::App& root, const Listed& entry, const std::vector<NamedC
     return command;
 }
 
-// What `strata` alone prints.
+// The text that `strata` without a command prints.
 std::string short_help(const std::vector<Command>& commands) {
     Table table{{{"strata COMMAND"}, {"what it does"}}, {}};
     std::string group;
@@ -186,7 +187,7 @@ std::string short_help(const std::vector<Command>& commands) {
            "More about a command: strata COMMAND --help\n";
 }
 
-// `--help all` asks for the rare options, too: the word behind it would be a scene.
+// Removes the word `all` after `--help`, which would be parsed as a scene; returns Shown::all if it was there.
 Shown take_amount_of_help(std::vector<std::string>& words) {
     for (std::size_t i = 0; i + 1 < words.size(); ++i) {
         if ((words[i] != "--help" && words[i] != "-h") || words[i + 1] != "all") continue;
@@ -196,22 +197,22 @@ Shown take_amount_of_help(std::vector<std::string>& words) {
     return Shown::usual;
 }
 
-// CLI11 wants the last word first. The name of a command behind help or man is an argument: "--" keeps it from being
-// run.
+// CLI11 expects the words in reverse order. A command's name after help or man is an argument: "--" prevents it from
+// being parsed as a command.
 void parse(CLI::App& root, std::vector<std::string> words) {
     const bool is_about = words.front() == "help" || words.front() == "man";
     if (is_about && words.size() > 1 && !words[1].starts_with('-')) words.insert(words.begin() + 1, "--");
     root.parse(std::vector<std::string>(words.rbegin(), words.rend()));
 }
 
-// CLI11 would take --json=-1 for the contrary of --json.
+// Disables values of flags, because CLI11 would accept --json=-1 as the negation of --json.
 void refuse_values_of_flags(const std::vector<Command>& commands) {
     for (const Command& command : commands)
         for (CLI::Option* option : command.app->get_options({}))
             if (option->get_items_expected_max() == 0) option->disable_flag_override();
 }
 
-// The first word is checked here: CLI11 would call a misspelt command an extra argument.
+// Checks the first word, because CLI11 would report a misspelt command as an extra argument.
 int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vector<std::string> words,
                   const std::vector<std::string>& old_words) {
     const auto names = names_of(root);

@@ -1,4 +1,4 @@
-// tools/strata/program.h - a whole run of the command: words in, exit status out.
+// tools/strata/program.h - the whole program as a function: from the words of the command line to the exit status.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -16,7 +16,7 @@ struct NamedCommand {
     Command (*add)(CLI::App& root);
 };
 
-// main()'s arguments, and the experiments that this program holds: all of them, or none, and then strata-lab runs them.
+// Arguments: main()'s, and the experiments that this program contains: all of them in strata-lab, none in strata.
 [[nodiscard]] int run_program(int count, char** words, const std::vector<NamedCommand>& experiments);
 
 }  // namespace strata::tools

@@ -15,7 +15,7 @@ Progress::Progress(std::string label, Remaining remaining)
       start_{std::chrono::steady_clock::now()} {}
 
 Progress::~Progress() {
-    // Spaces over the line, and back to its beginning.
+    // Overwrites the line with spaces and returns to its beginning.
     if (shown_ > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(shown_), "");
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
     say_detail(label_ + ": " + seconds_text(passed.count()));
@@ -26,7 +26,7 @@ void Progress::show(double share) {
     const std::lock_guard lock(mutex_);
     const int percent = static_cast<int>(std::clamp(share, 0.0, 1.0) * 100);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    // The bar never goes back: threads may report their shares out of order.
+    // The bar never moves back, although threads may report their fractions out of order.
     if (percent <= percent_ || passed.count() < 1) return;
     percent_ = percent;
     constexpr int bar_width = 30;
@@ -35,7 +35,7 @@ void Progress::show(double share) {
                        std::to_string(percent) + "%";
     if (remaining_ == Remaining::shown && share > 0)
         line += ", " + std::to_string(std::lround(passed.count() * (1 - share) / share)) + " s left";
-    // Padded to the longest line so far, so that nothing of that one stays.
+    // Padded to the longest line so far, to overwrite all of that one.
     line.resize(std::max(line.size(), shown_), ' ');
     shown_ = std::max(shown_, line.size());
     std::fprintf(stderr, "\r%s", line.c_str());

@@ -1,5 +1,4 @@
-// tools/strata/progress.h - a bar on standard error for work that takes a while. It writes no colours and no escape
-// codes.
+// tools/strata/progress.h - a progress bar on standard error, without colours and escape codes.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -8,12 +7,12 @@
 
 namespace strata::tools {
 
-// Whether the line tells how much longer it takes, if the rest goes like the part that is done.
+// Whether the line shows the remaining time, extrapolated from the finished part.
 enum class Remaining : std::uint8_t { hidden, shown };
 
-// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard error is a terminal,
-// a second has passed and --quiet was not given, and wipes its line when it ends. Under -v the end tells how long the
-// work took.
+// A progress bar for one task, with the lifetime of the object. It is shown only if standard error is a terminal, a
+// second has passed, and --quiet is not given; the destructor wipes it. Under -v the destructor prints the time that
+// the task took.
 class Progress {
   public:
     explicit Progress(std::string label, Remaining remaining = Remaining::hidden);
@@ -21,7 +20,7 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
     ~Progress();
 
-    // `share` is the part that is done, 0 to 1; it may be called from any thread.
+    // `share` is the finished fraction, 0 to 1. May be called from any thread.
     void show(double share);
 
   private:
@@ -30,7 +29,7 @@ class Progress {
     bool is_shown_;
     std::chrono::steady_clock::time_point start_;
     std::mutex mutex_;
-    // Characters on the line: what must be wiped.
+    // The number of characters on the line that must be wiped.
     std::size_t shown_ = 0;
     int percent_ = -1;
 };

@@ -24,7 +24,7 @@ namespace {
 constexpr std::string_view from = "--from", files_in = "--files-in";
 using Words = std::vector<std::string>;
 
-// The options that a picture's command may have, and whether each takes a value.
+// The options that a recorded command may have, mapped to whether each takes a value.
 std::map<std::string, bool> options_of_pictures() {
     CLI::App app;
     RunOptions unused;
@@ -37,7 +37,7 @@ std::map<std::string, bool> options_of_pictures() {
     return options;
 }
 
-// Removes `option VALUE` or `option=VALUE` and answers the value; empty if it is not there or has none.
+// Removes `option VALUE` or `option=VALUE` and returns the value; empty if the option is absent or has no value.
 std::string take(Words& words, std::string_view option) {
     const auto at = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
         return word.starts_with(option) && (word.size() == option.size() || word[option.size()] == '=');
@@ -50,7 +50,7 @@ std::string take(Words& words, std::string_view option) {
     return value;
 }
 
-// The words behind `strata`, spelled as they are now; none if it is not such a line.
+// The words after `strata`, in today's spelling; empty if the line is not a command of strata.
 std::optional<Words> words_behind_strata(const std::string& line) {
     auto words = shell_words(line);
     if (!words || words->size() < 3 || words->front() != "strata") return std::nullopt;
@@ -63,7 +63,7 @@ class Recorded {
   public:
     Recorded(std::string file, std::string folder) : file_{std::move(file)}, folder_{std::move(folder)} {}
 
-    // The words behind `strata VERB`, each option and its value as one word, so that no value is taken for an option.
+    // The words after `strata VERB`, each option and its value as one word, so that no value is mistaken for an option.
     [[nodiscard]] Words words_of(const std::string& verb) const {
         const std::string line = recorded_command(file_);
         const auto words = words_behind_strata(line);
@@ -106,7 +106,7 @@ class Recorded {
     std::string file_, folder_;
 };
 
-// The scene as "scene", and each option with its value.
+// A map of the options and their values, with the scene under the key "scene".
 std::map<std::string, std::string> choices_of(const std::string& line) {
     const auto words = words_behind_strata(line);
     if (!words) return {};

@@ -1,8 +1,8 @@
-// tools/strata/recorded_command.h - the command that a picture keeps, taken apart again.
+// tools/strata/recorded_command.h - parses the command that a picture file records, for --from and for comparisons.
 //
-// Rule     A picture may come from anyone. Its command chooses what is drawn: the scene, and the options of
-//          add_picture_options and --map. It never says what is written, and the files that it names lie in the
-//          picture's folder or in --files-in.
+// Rule     A picture file is untrusted. Its command may only choose what is rendered: the scene, and the options of
+//          add_picture_options and --map. It cannot name outputs, and its input files are read only from the picture's
+//          folder or from --files-in.
 // Tests    tests/tools/recorded_command_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
@@ -11,20 +11,20 @@
 
 namespace strata::tools {
 
-// The line as it is in the file. InputError if the file keeps none.
+// The command in the file, unchanged. Throws InputError if the file contains none.
 [[nodiscard]] std::string recorded_command(const std::string& file);
 
-// What chooses what is drawn in the first command and not in the second, or otherwise, size and algorithm apart:
-// "--background 1,1,1 (here: none)". Empty for commands that draw the same, and for a line that is no command of
-// strata.
+// The settings of the first command that are absent from the second or have other values there, except size and
+// algorithm: "--background 1,1,1 (here: none)". Empty if both commands render the same, or if a line is not a command
+// of strata.
 [[nodiscard]] std::vector<std::string> differences(const std::string& recorded, const std::string& here);
 
-// `render --from FILE`, or layers: the words of the file's command take the place of the two, its scene and profile as
-// paths in that folder; --files-in stays, and says where a camera's file is. InputError for a command with any other
-// option or name; CLI::ValidationError for --files-in without --from.
+// Expands `render --from FILE` or `layers --from FILE`: the words of the recorded command replace the two words, with
+// its scene and profile as paths in that folder. --files-in remains, as the folder of a camera's file. Throws
+// InputError if the command has any other option or name, and CLI::ValidationError for --files-in without --from.
 void expand_from(std::vector<std::string>& words);
 
-// For --help: expand_from takes --from before options are parsed. `files_in` is empty without --from.
+// Declares --from only for --help, because expand_from removes it before parsing. `files_in` is empty without --from.
 void add_from_option(CLI::App& app, std::string& files_in);
 
 }  // namespace strata::tools

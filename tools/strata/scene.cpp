@@ -1,4 +1,4 @@
-// tools/strata/scene.cpp - strata scene: what a model holds, before it is rendered.
+// tools/strata/scene.cpp - strata scene: prints the contents of a model without rendering it.
 #include <fmt/format.h>
 
 #include <memory>
@@ -21,7 +21,7 @@ struct InspectOptions {
     bool json = false;
 };
 
-// The words of glTF.
+// The names of glTF.
 constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
     switch (mode) {
         case pipeline::AlphaMode::opaque: return "OPAQUE";
@@ -31,7 +31,7 @@ constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
     return "";  // unreachable: the enum is closed
 }
 
-// Totals over instances: a mesh that is placed twice counts twice.
+// Totals over instances: a mesh with two instances counts twice.
 struct Drawn {
     std::uint64_t instances = 0, triangles = 0;
 };
@@ -62,7 +62,7 @@ ordered_json to_json(const scenes::Scene& scene) {
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
     ordered_json material_names = ordered_json::array();
     for (const auto& material : scene.list.materials) material_names.push_back(material.name);
-    // JSON has no empty box: null.
+    // null, because JSON has no empty box.
     ordered_json bounds = nullptr;
     if (!scene.bounds.is_empty()) bounds = {{"lo", components(scene.bounds.lo)}, {"hi", components(scene.bounds.hi)}};
     const Drawn all = drawn(scene.list, std::nullopt);
@@ -86,7 +86,7 @@ std::string with_commas(const std::vector<std::string>& parts) {
     return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-// " (wall, pane)": the first of them. The JSON has all.
+// The first names, as in " (wall, pane)". The JSON output has all of them.
 std::string in_brackets(std::vector<std::string> names) {
     constexpr std::size_t most = 12;
     if (names.empty()) return "";
@@ -95,14 +95,14 @@ std::string in_brackets(std::vector<std::string> names) {
     return fmt::format(" ({}{})", fmt::join(names, ", "), has_more ? ", ..." : "");
 }
 
-// Six digits: for people. The JSON has all of them.
+// Six significant digits, for the terminal. The JSON output has all digits.
 std::string bounds_text(const scenes::Bounds& bounds) {
     if (bounds.is_empty()) return "empty";
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", bounds.lo[0], bounds.lo[1], bounds.lo[2],
                        bounds.hi[0], bounds.hi[1], bounds.hi[2]);
 }
 
-// The scene's facts as a table for people, a fact a line.
+// The properties of the scene as a table, one per line.
 std::string describe(const scenes::Scene& scene) {
     const Drawn all = drawn(scene.list, std::nullopt);
     std::vector<std::string> textures, cameras;
@@ -128,7 +128,7 @@ std::string describe(const scenes::Scene& scene) {
     return to_text(table);
 }
 
-// Nothing would be drawn of it: a sentence for people that says what to do.
+// Warns, with advice, if nothing of the scene would be rendered.
 void warn_of_empty(const std::string& path, const scenes::Scene& scene) {
     if (drawn(scene.list, std::nullopt).triangles > 0) return;
     say_warning(

@@ -13,16 +13,16 @@ namespace strata::tools {
 
 namespace {
 
-// UTF-8: bytes 10xxxxxx continue a character, every other byte starts one.
+// The number of characters of a UTF-8 text: bytes 10xxxxxx continue a character, every other byte starts one.
 std::size_t width_of(const std::string& text) {
     const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
 }
 
-// A cell is one line, and as long as people read: a name of a megabyte would make every row as long.
+// The text of a cell on one line, shortened to 200 characters, because one long cell would widen every row.
 std::string cell_text(const std::string& text) { return scenes::shortened(scenes::printable(text), 200); }
 
-// A row whose cells are padded to the columns' widths.
+// One row whose cells are padded to the widths of the columns.
 std::string to_line(const std::vector<std::string>& cells, const std::vector<Column>& columns,
                     const std::vector<std::size_t>& widths) {
     std::string line;
@@ -31,7 +31,7 @@ std::string to_line(const std::vector<std::string>& cells, const std::vector<Col
         if (i > 0) line += "  ";
         line += columns[i].align == Align::right ? space + cells[i] : cells[i] + space;
     }
-    // A left column at the end would leave spaces there.
+    // The padding of a left-aligned last column would leave trailing spaces.
     line.erase(line.find_last_not_of(' ') + 1);
     return line + '\n';
 }
@@ -60,7 +60,7 @@ std::string titled(const std::string& table) {
 
 void print(std::string_view given) {
     const std::string text = shown_text(given, Stream::output);
-    // The flush is what finds a full disk: fwrite() fills a buffer first.
+    // The flush detects a full disk, because fwrite() only fills a buffer.
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) throw SystemError("standard output", "write", std::generic_category().message(errno));
 }

@@ -1,4 +1,4 @@
-// tools/strata/table.h - text in columns, and the one way to standard output.
+// tools/strata/table.h - formats tables as text, and prints all results to standard output.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,21 +14,21 @@ struct Column {
     Align align = Align::left;
 };
 
-// Every row has a cell for every column.
+// Every row has one cell per column.
 struct Table {
     std::vector<Column> columns;
-    std::vector<std::vector<std::string>> rows;  // one cell a column
+    std::vector<std::vector<std::string>> rows;  // one cell per column
 };
 
-// Two spaces between columns, no space at a line's end; a character counts as one place wide (UTF-8). Of a cell above
-// 200 characters the begin is shown, and no control character of any.
+// Two spaces between columns, no trailing spaces; every character counts as one column wide (UTF-8). Cells are
+// shortened to 200 characters, and control characters are escaped.
 [[nodiscard]] std::string to_text(const Table& table);
 
-// The text of a table, with its first line bold where standard output shows colours.
+// The text of a table, with a bold first line if standard output shows colours.
 [[nodiscard]] std::string titled(const std::string& table);
 
-// Writes all of `text`, as shown_text has it (messages.h), to standard output and flushes it. Throws SystemError where
-// that fails (a full disk).
+// Writes `text`, escaped as by shown_text (messages.h), to standard output and flushes it. Throws SystemError if that
+// fails (for example because the disk is full).
 void print(std::string_view text);
 
 }  // namespace strata::tools

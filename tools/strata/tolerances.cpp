@@ -8,7 +8,7 @@ namespace strata::tools {
 
 namespace {
 
-// "30", or "0.02%" of all pixels.
+// Parses "30" or "0.02%" of all pixels.
 std::optional<oracle::Budget> to_budget(std::string_view text) {
     if (!text.ends_with('%')) {
         const auto pixels = to_int<std::uint64_t>(text);
@@ -42,7 +42,7 @@ bool take_tolerance(std::string_view kind, std::string_view amount, oracle::Tole
     return codes.has_value();
 }
 
-// "color=1,depth=2,coverage=10,pixels=0.02%".
+// Parses "color=1,depth=2,coverage=10,pixels=0.02%".
 std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
     oracle::Tolerances tolerances;
     for (const std::string& part : split(text, ',')) {
@@ -115,7 +115,7 @@ void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances) {
          "pixels=N with commas between, pixels also as a share such as 0.02%"},
         [&tolerances](std::string_view text) {
             auto found = to_tolerances(text);
-            if (found) found->channels = tolerances.channels;  // of an option of its own
+            if (found) found->channels = tolerances.channels;  // --channels is a separate option
             return found;
         });
 }

@@ -1,5 +1,5 @@
-// tools/strata/tolerances.h - the options that `compare` and `diagnose` share: how a candidate's file is laid out, what
-// is forgiven.
+// tools/strata/tolerances.h - the options that `compare` and `diagnose` share: the layout of a raw candidate file, and
+// the tolerated differences.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -9,10 +9,10 @@
 namespace strata::tools {
 
 void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout);  // --layout
-// Names of --tolerance that are no kinds are those of targets: throws CLI::ValidationError for one that is none of
-// these.
+// Names in --tolerance that are not kinds of differences must be names of targets: throws CLI::ValidationError for any
+// other name.
 void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::string>& targets);
-// --candidate-alpha; and what it says of a picture's colours.
+// Adds --candidate-alpha.
 void add_alpha_option(CLI::App& app, std::optional<oracle::AlphaForm>& form);
 void state_alpha(oracle::Picture& picture, const std::optional<oracle::AlphaForm>& form);
 void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances);  // --tolerance

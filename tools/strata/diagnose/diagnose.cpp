@@ -1,4 +1,5 @@
-// tools/strata/diagnose/diagnose.cpp - strata diagnose: which known mistake made a picture.
+// tools/strata/diagnose/diagnose.cpp - strata diagnose: finds the known mistake, or the other option, that produced a
+// candidate picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,14 +44,14 @@ struct DiagnoseOptions {
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
     std::optional<oracle::AlphaForm> alpha_form{};
-    int limit = 0;                        // geometry passes after which the candidate gives up
-    std::vector<std::string> profiles{};  // files or names, beside the built-in ones
+    int limit = 0;                        // geometry passes after which the candidate's algorithm stops
+    std::vector<std::string> profiles{};  // files or names, tried in addition to the built-in ones
     std::string report;
     MistakesOptions mistakes{};
     bool json = false;
 };
 
-// A pack's own algorithm, if the user names none.
+// Uses the pack's algorithm if the user names none.
 void choose_algorithm(RunOptions& run) {
     if (!run.algorithms.empty() || scenes::is_procedural(run.scene) || !scenes::is_pack(run.scene)) return;
     const std::string folder = scenes::pack_folder(run.scene), file = folder + "/manifest.json";
@@ -59,7 +60,7 @@ void choose_algorithm(RunOptions& run) {
     if (!results.empty()) run.default_algorithm = results[0].algorithm("algorithm");
 }
 
-// The picture in a candidate's folder, or in another pack's.
+// Reads the picture from a candidate's folder or from another pack.
 oracle::Picture read_candidate(const DiagnoseOptions& options, const std::string& algorithm) {
     namespace fs = std::filesystem;
     if (!fs::is_directory(options.candidate)) return oracle::read_picture(options.candidate, options.layout);
@@ -70,7 +71,7 @@ oracle::Picture read_candidate(const DiagnoseOptions& options, const std::string
                      "none");
 }
 
-// The passes in a candidate's folder, or another pack's: empty unless the scene is a pack.
+// Reads the passes from a candidate's folder or another pack; empty unless the scene is a pack.
 std::vector<oracle::PassPicture> read_passes(const DiagnoseOptions& options, const std::string& algorithm) {
     if (!std::filesystem::is_directory(options.candidate) || scenes::is_procedural(options.run.scene) ||
         !scenes::is_pack(options.run.scene))
@@ -80,7 +81,7 @@ std::vector<oracle::PassPicture> read_passes(const DiagnoseOptions& options, con
     return {};
 }
 
-// A scene with its wrong machines, and what the port made of it.
+// A scene, the candidate picture of it, and the simulated renderers with one mistake each ("machines").
 struct OpenCase {
     DiagnoseOptions options;
     oracle::Picture candidate{};
@@ -98,7 +99,8 @@ struct OpenCase {
     }
 };
 
-// Several scenes ask who made all of them: mistakes alone have the same names in each.
+// The hypotheses that are tried. With several scenes only mistakes are, because only they have the same names in every
+// scene.
 enum class Tried : std::uint8_t { mistakes, options_too };
 
 std::vector<pipeline::DeviceProfile> more_profiles(const DiagnoseOptions& options) {
@@ -124,7 +126,7 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, c
     opened->candidate = read_candidate(options, algorithm.name);
     state_alpha(opened->candidate, options.alpha_form);
     opened->passes = read_passes(options, algorithm.name);
-    // The machines draw at the candidate's size.
+    // The simulated renderers draw at the candidate's size.
     options.run.render.width = opened->candidate.targets[0].width;
     options.run.render.height = opened->candidate.targets[0].height;
     opened->session = open_session(options.run);
@@ -137,7 +139,8 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, c
     return opened;
 }
 
-// A picture of this program says how it was made: a forgotten --background is no mistake of a port's.
+// Pictures written by this program contain their command. A difference of options, such as a forgotten --background, is
+// reported as such, because it is not a mistake of a port.
 void warn_of_other_command(const OpenCase& opened) {
     const std::string& file = opened.candidate.file;
     if (!file.ends_with(".png") && !file.ends_with(".exr")) return;
@@ -155,14 +158,15 @@ oracle::ShowProgress shown_by(Progress& bar) {
     return [&bar](double share) { bar.show(share); };
 }
 
-// Right: 0. Whatever else made the picture, known or not: 1.
+// The exit status: 0 for a right picture, 1 for any mistake, known or not.
 int status_of(oracle::Verdict verdict) {
     using enum oracle::Verdict;
     return verdict == right || verdict == other_options || verdict == right_structure ? 0 : 1;
 }
 
-// A machine's picture to the last code speaks for itself. All else may be a right port that rounds otherwise, or a
-// mistake that no machine of the catalogue has: the layers say so. Algorithms that approximate have no right layers.
+// Judges the picture by its layers, unless one mistake alone reproduces it to the last code. Any other picture may come
+// from a correct port with other rounding, or from a mistake that is not in the catalogue. Approximate algorithms are
+// skipped, because they have no correct layers.
 void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     const oracle::Finding& best = found.findings.front();
     const bool is_exact = best.agreeing == found.pixels && !found.passes_contradict &&
@@ -193,7 +197,8 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::unknown_mistake;
 }
 
-// Which scene of the suite would tell more: of mistakes that leave one picture, or of the best leads.
+// Finds the scene of the suite that distinguishes the remaining mistakes: those that produce the same picture, or the
+// best findings.
 void find_telling_scene(oracle::Diagnosis& found) {
     constexpr std::size_t most = 4;
     std::vector<const oracle::Mistake*> mistakes;
@@ -227,7 +232,8 @@ int diagnose_one(const DiagnoseOptions& options) {
     return status_of(found.verdict);
 }
 
-// The packs in a folder by their names, such as the scenes of a suite. Empty where it is a pack itself, or no folder.
+// The names of the packs in a folder, such as the scenes of the suite, sorted. Empty if the folder is itself a pack, or
+// is not a folder.
 std::vector<std::string> packs_in(const std::string& folder) {
     std::vector<std::string> names;
     if (scenes::is_procedural(folder) || scenes::is_pack(folder) || !std::filesystem::is_directory(folder))
@@ -238,7 +244,7 @@ std::vector<std::string> packs_in(const std::string& folder) {
     return names;
 }
 
-// What the port made of a pack: a folder or a picture of its name. Empty if there is none.
+// The path of the candidate's folder or picture that has the name of the pack. Empty if there is none.
 std::string made_of(const std::string& pack, const std::string& folder) {
     for (const char* ending : {"", ".exr", ".npy", ".png", ".ppm", ".tga", ".bmp", ".hdr", ".jpg"})
         if (const std::string path = (std::filesystem::path(folder) / (pack + ending)).string();
@@ -247,7 +253,7 @@ std::string made_of(const std::string& pack, const std::string& folder) {
     return "";
 }
 
-// The packs of which the port drew something.
+// Diagnoses together all packs for which the candidate folder contains a result: which mistakes explain all of them?
 int diagnose_several(const DiagnoseOptions& options, const std::vector<std::string>& packs) {
     Progress bar("scenes");
     std::vector<std::unique_ptr<OpenCase>> opened;
@@ -275,7 +281,7 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
     return status_of(found.verdict);
 }
 
-// Every pack of a folder brings its own state.
+// Rejects options that describe a scene, because every pack of the folder contains its own state.
 void check_several(const CLI::App& app) {
     const std::vector<std::string> fitting{"SCENE",      "CANDIDATE",         "--algorithm", "--limit", "--tolerance",
                                            "--channels", "--candidate-alpha", "--layout",    "--json"};
@@ -304,7 +310,7 @@ Command add_diagnose(CLI::App& root) {
     auto* app = root.add_subcommand("diagnose", "show which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
     add_picture_options(*app, options->run);
-    app->get_option("SCENE")->required(false);  // --list has none
+    app->get_option("SCENE")->required(false);  // not needed with --list
     app->add_option(
            "CANDIDATE", options->candidate,
            "an .exr, .png or .npy file, bare numbers with --layout, or a candidate's folder (PACK.md); of a folder of "

@@ -13,7 +13,7 @@ namespace strata::tools {
 
 namespace {
 
-// The best findings, where more than one was tried.
+// Adds a table of the best findings if more than one was tried.
 void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
     constexpr std::size_t most_findings = 6;
     if (found.verdict == oracle::Verdict::right || found.findings.size() < 2) return;
@@ -31,8 +31,8 @@ void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
                           std::to_string(found.differing) + " of which differ from the right picture");
 }
 
-// The first line is the verdict; the others say why, up to the comparison, and but for the best findings: those have
-// tables. A line further in belongs to the one before it.
+// Adds the printed text up to the comparison, without the best findings, which have a table. The first line is the
+// verdict; the other lines are the reasons. A line with deeper indentation continues the line before it.
 void add_lines(PlainPage& page, const std::string& text) {
     std::istringstream lines(text);
     std::string sentence;

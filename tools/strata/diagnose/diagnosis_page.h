@@ -1,5 +1,5 @@
-// tools/strata/diagnose/diagnosis_page.h - the page of a diagnosis: the verdict, why, what else was tried, and both
-// pictures.
+// tools/strata/diagnose/diagnosis_page.h - the page of diagnose --report: the verdict, its reasons, the other
+// hypotheses, and both pictures.
 #pragma once
 #include <string>
 
@@ -11,12 +11,12 @@ namespace strata::tools {
 
 struct DiagnosisShown {
     const oracle::Diagnosis& diagnosis;
-    const oracle::Comparison& comparison;  // of the two pictures
+    const oracle::Comparison& comparison;  // of the right picture and the candidate
     const oracle::Picture& right;
     const oracle::Picture& candidate;
 };
 
-// `command`: what draws the right picture.
+// `command` is the command that renders the right picture.
 [[nodiscard]] PlainPage diagnosis_page(const std::string& command, const DiagnosisShown& shown);
 
 }  // namespace strata::tools

@@ -44,7 +44,7 @@ std::vector<oracle::TableColumn> all_columns() {
     return columns;
 }
 
-// A page that is a file has its drawing beside it: MISTAKES.md and MISTAKES.svg.
+// A page that is written to a file has its drawing in the same folder: MISTAKES.md and MISTAKES.svg.
 std::string make_page(const std::string& path) {
     const auto columns = all_columns();
     if (!path.ends_with(".md")) return to_page(columns, "");

@@ -1,5 +1,5 @@
-// tools/strata/diagnose/mistakes.h - strata diagnose --list: the catalogue that diagnose tries, and the suite that
-// shows it.
+// tools/strata/diagnose/mistakes.h - strata diagnose --list: prints the catalogue of known mistakes and the suite of
+// scenes that shows them.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -12,7 +12,7 @@ struct MistakesOptions {
 };
 
 void add_mistakes_options(CLI::App& app, MistakesOptions& options);
-// The exit status.
+// Returns the exit status.
 int show_mistakes(const MistakesOptions& options, bool json);
 
 }  // namespace strata::tools

@@ -1,4 +1,5 @@
-// tools/strata/diagnose/reduce.cpp - strata reduce: the smallest scene on which a user's renderer still goes wrong.
+// tools/strata/diagnose/reduce.cpp - strata reduce: finds the smallest scene for which a user's renderer still produces
+// a wrong picture.
 #include "tools/oracle/reduce/reduce.h"
 
 #include <fmt/format.h>
@@ -35,11 +36,11 @@ struct ReduceOptions {
     std::string pack, command, ending = ".exr", output, algorithm;
     std::optional<oracle::RawLayout> layout{};
     oracle::ReduceRules rules{};
-    double seconds = 600;  // of one run of the command
+    double seconds = 600;  // time limit of each execution of the command
 };
 
-// A folder that goes with everything in it, at the latest when a signal ends the process. Its path is one word of a
-// shell in every kind of quotes, so that it may take the place of a word in a line.
+// A temporary folder. It is deleted with its contents by the destructor, or by the signal handler if a signal ends the
+// process. Its path needs no quotes in a shell, so it can replace a word of a command line.
 class OwnFolder {
   public:
     OwnFolder() {
@@ -71,7 +72,7 @@ std::string with(std::string text, const std::string& word, const std::string& v
     return text;
 }
 
-// What went wrong with a run; empty if it left a picture.
+// Describes the failure of an execution; empty if it produced a picture.
 std::string fault_of(const EndOfCommand& end, double seconds, bool has_picture) {
     switch (end.way) {
         case EndOfCommand::Way::timed_out: return fmt::format("no end within {} s (--timeout)", seconds);
@@ -82,13 +83,13 @@ std::string fault_of(const EndOfCommand& end, double seconds, bool has_picture) 
     return has_picture ? "" : "exit status 0 and no picture";
 }
 
-// Runs the command on a pack of the scene. A command that fails has drawn nothing, whatever it left; of the user's own
-// pack that is an error.
+// Runs the command on a pack of the scene. A failed command counts as having no picture, whatever it wrote; if it fails
+// on the user's own pack, that is an error.
 class Runner {
   public:
     explicit Runner(const ReduceOptions& options) : options_{options} {}
 
-    // The user's own pack, which may be large and have any name, is a link to it.
+    // Links to the user's own pack, which may be large and may have any name.
     void use(const std::string& pack) {
         std::filesystem::create_directory_symlink(std::filesystem::canonical(scenes::pack_folder(pack)),
                                                   folder_.path() / "pack");
@@ -100,7 +101,7 @@ class Runner {
         const std::string pack = (folder_.path() / "pack").string();
         const bool is_first = std::exchange(has_given_, false);
         if (!is_first) {
-            std::filesystem::remove_all(pack);  // of a link: itself alone
+            std::filesystem::remove_all(pack);  // removes a link, but not its target
             oracle::write_pack(scene, pack);
         }
         std::filesystem::remove_all(picture);

@@ -18,7 +18,7 @@ namespace strata::tools {
 
 namespace {
 
-// Both ends of a pipe, which no other command inherits.
+// Both ends of a pipe; child processes do not inherit them, except by the file actions of start().
 class Pipe {
   public:
     Pipe() {
@@ -36,8 +36,9 @@ class Pipe {
     int ends_[2];
 };
 
-// The shell's process number, which is its group's. The shell waits for a line of its input before it runs the command:
-// until then a signal may end this process before it knows the group.
+// Starts the shell in its own process group and returns its process number, which is also the group's. The shell waits
+// for a line on its input before it runs the command, so a signal cannot leave a command running before this process
+// knows the group.
 pid_t start(const std::string& line, const Pipe& go) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
@@ -47,7 +48,7 @@ pid_t start(const std::string& line, const Pipe& go) {
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setpgroup(&attributes, 0);
-    sigset_t ignored_here;  // exec() gives handled signals back to the system, but not ignored ones
+    sigset_t ignored_here;  // exec() resets handled signals to their defaults, but not ignored ones
     sigemptyset(&ignored_here);
     sigaddset(&ignored_here, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &ignored_here);
@@ -62,7 +63,7 @@ pid_t start(const std::string& line, const Pipe& go) {
     return child;
 }
 
-// The child stays a zombie, so that its number is given to no other process while its group is ended.
+// Leaves the child a zombie, so the system cannot give its number to another process before the group is killed.
 void wait_without_reaping(pid_t child) {
     siginfo_t info{};
     while (::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
@@ -81,7 +82,7 @@ EndOfCommand run_in_shell(const std::string& line, double seconds) {
         const std::future<void> ended = std::async(std::launch::async, wait_without_reaping, child);
         is_late = ended.wait_for(std::chrono::duration<double>(seconds)) == std::future_status::timeout;
         if (is_late) ::kill(-child, SIGKILL);
-    } catch (const std::system_error&) {  // no thread to be had: without a limit
+    } catch (const std::system_error&) {  // no thread is available: run without a time limit
         wait_without_reaping(child);
     }
     scenes::end_group_when_interrupted(0);

@@ -1,7 +1,7 @@
-// tools/strata/diagnose/shell_command.h - a command of the user's, run by the shell until it ends or its time is over.
+// tools/strata/diagnose/shell_command.h - runs a user's command in the shell until it ends or a time limit is reached.
 //
-// Rule     It is a process group of its own, reads nothing and shows nothing. When its shell has ended, or the time is
-//          over, or a signal ends this process, the whole group gets SIGKILL.
+// Rule     The command has its own process group, its input is empty, and its output is discarded. The whole group gets
+//          SIGKILL when its shell has ended, at the time limit, or when a signal ends this process.
 // Tests    tests/tools/reduce_command_test.cpp
 #pragma once
 #include <string>
@@ -14,7 +14,7 @@ struct EndOfCommand {
     int number = 0;  // the exit status or the signal
 };
 
-// `seconds` from the start. SystemError if the shell does not start.
+// `seconds` is the time limit, from the start. Throws SystemError if the shell cannot be started.
 [[nodiscard]] EndOfCommand run_in_shell(const std::string& line, double seconds);
 
 }  // namespace strata::tools

@@ -14,7 +14,7 @@ namespace {
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-// Within single quotes of a shell.
+// Escapes text for single quotes of a shell.
 std::string in_quotes(const std::string& text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -47,7 +47,7 @@ bool takes_scene(CLI::App& command) {
     });
 }
 
-// One case a command: its options, and the words behind each of those that have a list.
+// One case per command: its options, and the values of each option that has a list of them.
 std::string for_bash(CLI::App& root) {
     std::string text =
         "# bash completion of strata, made by: strata completions bash\n_strata() {\n"
@@ -77,7 +77,7 @@ std::string for_bash(CLI::App& root) {
            "complete -o filenames -F _strata strata\n";
 }
 
-// Brackets and colons divide the parts of a specification.
+// Escapes brackets and colons, which separate the parts of a zsh argument specification.
 std::string for_arguments(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -139,7 +139,7 @@ std::string for_fish(CLI::App& root) {
 
 }  // namespace
 
-// A type that is a list of words, as add_choice writes it, or the names of a registry.
+// The values of an option: the words of a list type, as add_choice writes it, or the names of a registry.
 std::vector<std::string> values_of(const CLI::Option& option) {
     std::vector<std::string> words;
     if (option.check_lname("algorithm")) {
@@ -158,7 +158,7 @@ std::vector<std::string> values_of(const CLI::Option& option) {
         const bool is_word = std::all_of(word.begin(), word.end(), [](char c) {
             return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
         });
-        if (is_word && word != "-") words.push_back(word);  // FILE, ratio:R and their kin are for people
+        if (is_word && word != "-") words.push_back(word);  // FILE, ratio:R and similar types are placeholders
     }
     return words;
 }

@@ -15,7 +15,7 @@ struct Group {
     std::vector<std::string> names;
 };
 
-// An option of no group stands under "Options". Titles are in the order in which --help has them.
+// The groups of options in the order of --help. Options without a group are listed under "Options".
 const std::vector<Group>& groups() {
     static const std::vector<Group> all{
         {"What is drawn",

@@ -6,7 +6,8 @@ namespace strata::tools {
 
 namespace {
 
-// A line that begins with a dot or a quote would be a request; a bare minus would be set as a hyphen.
+// Escapes text for troff: a line that begins with a dot or a quote would be a request, and a bare minus would become a
+// hyphen.
 std::string troff(const std::string& text) {
     std::string escaped;
     for (const char c : text) {
@@ -66,7 +67,8 @@ std::string commands_section(CLI::App& root) {
     return text;
 }
 
-// "Examples:", a command a line, and the exit statuses behind them; a few have a paragraph before.
+// The last sections of a page: "Examples:" with one command per line, then the exit statuses; some commands have a
+// paragraph before these.
 std::string end_section(const CLI::App& command) {
     const std::string footer = command.get_footer(), begin = "Examples:\n", status = "Exit status: ";
     const std::size_t from = footer.find(begin), at = footer.find(status);

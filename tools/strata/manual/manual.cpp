@@ -1,4 +1,4 @@
-// tools/strata/manual/manual.cpp - strata help, man, completions: the commands about commands.
+// tools/strata/manual/manual.cpp - strata help, man and completions: the commands that describe commands.
 #include "tools/strata/manual/manual.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct About {
     Shell shell = Shell::bash;
 };
 
-// The root for an empty name.
+// The command of that name; the root for an empty name.
 CLI::App& command_named(CLI::App& root, const std::string& name) {
     if (name.empty()) return root;
     std::vector<std::string> names;

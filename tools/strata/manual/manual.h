@@ -1,5 +1,5 @@
-// tools/strata/manual/manual.h - what is written about commands and options, all of it made from their declarations:
-// help in groups, pages for man, completions for shells.
+// tools/strata/manual/manual.h - texts about commands and options, generated from their declarations: help in groups,
+// manual pages, and shell completions.
 // Tests    tests/tools/manual_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
@@ -9,24 +9,24 @@
 
 namespace strata::tools {
 
-// Rare options are those that a first picture needs none of.
+// Whether --help lists the rare options, too. An option is rare if a first picture does not need it.
 enum class Shown : std::uint8_t { usual, all };
 
-// What --help prints: options by groups, and how many are left out.
+// The text of --help: options in groups, and the number of options that are not listed.
 [[nodiscard]] std::string help_of(CLI::App& command, Shown shown);
 
-// The commands of the program, as they were added.
+// The commands of the program, in the order in which they were added.
 [[nodiscard]] std::vector<CLI::App*> commands_of(CLI::App& root);
 
-// A page of section 1 in the language of man: of a command, or of the program where `command` is the root.
+// A manual page of section 1 in troff: of a command, or of the whole program if `command` is the root.
 [[nodiscard]] std::string man_page(CLI::App& root, CLI::App& command);
 
 enum class Shell : std::uint8_t { bash, zsh, fish };
 [[nodiscard]] std::string completions(CLI::App& root, Shell shell);
 
-// Words that an option can be given: of a choice, an algorithm, a device.
+// The values that an option accepts, if they form a list: choices, algorithms, devices.
 [[nodiscard]] std::vector<std::string> values_of(const CLI::Option& option);
-// --long, or else -s.
+// The long name (--long), or the short one (-s) if there is no long name.
 [[nodiscard]] std::string typed_name(const CLI::Option& option);
 
 }  // namespace strata::tools

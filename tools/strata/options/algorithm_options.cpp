@@ -1,5 +1,4 @@
-// tools/strata/options/algorithm_options.cpp - what single algorithms let a caller choose: their options, and how a
-// canonical command spells them.
+// tools/strata/options/algorithm_options.cpp - options of single algorithms, and their spelling in a canonical command.
 #include "tools/strata/options/algorithm_options.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
-// tools/strata/options/algorithm_options.h - --weight ... --stochastic-seed: what single algorithms let a caller
-// choose.
+// tools/strata/options/algorithm_options.h - declares the options of single algorithms, --weight to --stochastic-seed.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -11,7 +10,7 @@ namespace strata::tools {
 
 void add_algorithm_options(CLI::App& app, peeling::AlgorithmOptions& options);
 
-// Those that differ from their defaults, each with its value, in the order of reports.md 7.
+// The options that differ from their defaults, each followed by its value, in the order of reports.md 7.
 [[nodiscard]] std::vector<std::string> words_of(const peeling::AlgorithmOptions& options);
 
 }  // namespace strata::tools

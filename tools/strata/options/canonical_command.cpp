@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// An option with its value.
+// Appends an option and its value.
 void add(Words& words, const std::string& option, const std::string& value) {
     words.push_back(option);
     words.push_back(value);
@@ -50,8 +50,8 @@ std::string to_text(const pipeline::Rgba& b) {
     return b[3] == 1.0f ? rgb : fmt::format("{},{}", rgb, b[3]);
 }
 
-// Each of these adds the options of one group, in the order of reports.md 7, where they differ from
-// their defaults.
+// Each of these functions appends the options of one group that differ from their defaults, in the order of reports.md
+// 7.
 void add_scene(Words& words, const RunOptions& options) {
     const scenes::SceneOptions& scene = options.scene_options;
     if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));
@@ -63,7 +63,7 @@ void add_scene(Words& words, const RunOptions& options) {
 void add_view(Words& words, const RunOptions& options) {
     const peeling::RenderOptions& render = options.render;
     add(words, "--size", fmt::format("{}x{}", render.width, render.height));
-    // The view is always named, also where it is the default, unless it comes with the scene.
+    // The view is always written, even if it is the default, unless the scene contains it.
     const Orbit orbit = options.orbit.value_or(Orbit{});
     if (!options.camera.empty())
         add(words, "--camera", options.names_camera_of_scene ? options.camera : file_name(options.camera));
@@ -74,7 +74,7 @@ void add_view(Words& words, const RunOptions& options) {
     for (const scenes::MaterialAlpha& one : options.scene_options.alpha)
         alphas += fmt::format("{}{}={}", alphas.empty() ? "" : ",", one.material, one.alpha);
     if (!alphas.empty()) add(words, "--alpha", alphas);
-    // A pack has a background of its own, which black may replace.
+    // A pack has its own background, so black is written, too, if it replaces that.
     if (const auto& b = options.background; b && (*b != pipeline::Rgba{0, 0, 0, 1} || scenes::is_pack(options.scene)))
         add(words, "--background", to_text(*b));
 }
@@ -139,7 +139,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     std::string names;
     for (const peeling::Algorithm* algorithm : algorithms) names += (names.empty() ? "" : ",") + algorithm->name;
     add(words, "--algorithm", names);
-    // A pack brings its own profile and, where no option names another, its background.
+    // A pack contains its own profile and, unless an option names another one, its background.
     if (options.profile != scenes::pack_folder(options.scene) + "/profile.json")
         add(words, "--profile", file_name(options.profile));
     if (options.origin) add(words, "--origin", name_of(origins, *options.origin));

@@ -1,4 +1,4 @@
-// tools/strata/options/choices.h - the words of options that take one of a few names, and what they mean.
+// tools/strata/options/choices.h - the accepted words of options that are enumerations, and their values.
 #pragma once
 #include "pipeline/device/profile_fields.h"
 #include "pipeline/formats/resolve.h"
@@ -21,7 +21,7 @@ inline const std::vector<Choice<pipeline::Format>> color_formats{
 inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeline::Format::r16f},
                                                                  {"r32f", pipeline::Format::r32f}};
 
-// Profiles name depth paths too: the names are theirs.
+// Uses the same names for depth paths as profile files.
 [[nodiscard]] inline std::vector<Choice<rasterizer::DepthPath>> depth_paths() {
     std::vector<Choice<rasterizer::DepthPath>> paths;
     for (const pipeline::ProfileField& field : pipeline::profile_fields()) {
@@ -33,7 +33,7 @@ inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeli
     return paths;
 }
 
-// In the order of the enum.
+// The words in the order of the enum.
 [[nodiscard]] inline std::vector<Choice<pipeline::VertexPath>> vertex_paths() {
     std::vector<Choice<pipeline::VertexPath>> paths;
     for (const std::string_view name : pipeline::vertex_path_names)
@@ -65,7 +65,7 @@ inline const std::vector<Choice<rasterizer::ClipDepth>> clip_depths{
 inline const std::vector<Choice<pipeline::Origin>> origins{{"upper-left", pipeline::Origin::upper_left},
                                                            {"lower-left", pipeline::Origin::lower_left}};
 
-// Pixels a side.
+// Samples are counted per pixel; tile sizes are pixels per side.
 inline const std::vector<Choice<pipeline::Resolve>> resolves{{"box", pipeline::Resolve::box},
                                                              {"quincunx", pipeline::Resolve::quincunx}};
 inline const std::vector<Choice<int>> sample_counts{{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}};

@@ -1,5 +1,5 @@
-// tools/strata/options/machine_options.cpp - options of the device, its state and the order of triangles: bits depend
-// on them.
+// tools/strata/options/machine_options.cpp - the options of the device, its state and the order of triangles. Result
+// bits depend on them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace strata::tools {
 
 namespace {
 
-// One of the words of keys-and-counts.md 3.1, with its share or number of passes.
+// Parses a termination rule of keys-and-counts.md 3.1, with its ratio or number of passes.
 std::optional<pipeline::Termination> to_termination(std::string_view text) {
     using enum pipeline::TerminationRule;
     if (text == "exact") return pipeline::Termination{.rule = exact};
@@ -31,7 +31,7 @@ std::optional<pipeline::Termination> to_termination(std::string_view text) {
     return std::nullopt;
 }
 
-// One of the orders of keys-and-counts.md 5. A seed is any number of 64 bits.
+// Parses a sort order of keys-and-counts.md 5. A seed is any 64-bit number.
 std::optional<peeling::Sort> to_sort(std::string_view text) {
     using enum peeling::SortRule;
     if (text == "none") return peeling::Sort{.rule = none};
@@ -52,14 +52,14 @@ std::optional<peeling::Sort> to_sort(std::string_view text) {
     return std::nullopt;
 }
 
-// FACTOR,UNITS: an offset that is given is on, even with two zeros. 2^24 units are the whole range of a D24 buffer.
+// Parses FACTOR,UNITS. The offset is enabled even if both are zero. 2^24 units are the whole range of a D24 buffer.
 std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
     const auto values = to_numbers<float>(text, 2);
     if (!values || std::fabs((*values)[0]) > 0x1p24f || std::fabs((*values)[1]) > 0x1p24f) return std::nullopt;
     return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
 }
 
-// NEAR,FAR of glDepthRange, which OpenGL clamps to 0 and 1.
+// Parses NEAR,FAR of glDepthRange, which OpenGL clamps to [0, 1].
 std::optional<std::array<float, 2>> to_depth_range(std::string_view text) {
     const auto values = to_numbers<float>(text, 2);
     if (!values || !((*values)[0] >= 0 && (*values)[0] <= 1 && (*values)[1] >= 0 && (*values)[1] <= 1))
@@ -95,7 +95,7 @@ void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin) {
                "profile's own)");
 }
 
-// Options are declared in the order in which --help shows them.
+// The options are declared in the order of --help.
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
     add_choice(app, options.depth, "--depth-format", depth_formats,
                "depth buffer (default d32f, or d24 where that is missing)");

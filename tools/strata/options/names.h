@@ -1,4 +1,4 @@
-// tools/strata/options/names.h - lists of names in sentences.
+// tools/strata/options/names.h - formats lists of names for messages.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,12 +8,12 @@
 
 namespace strata::tools {
 
-// "'wrong' (did you mean 'right'?)", the question only where a name is near.
+// Returns "'wrong' (did you mean 'right'?)"; without the question if no name is similar.
 [[nodiscard]] inline std::string found_but_near(std::string_view wrong, const std::vector<std::string>& names) {
     return scenes::quoted_with_suggestion(wrong, std::vector<std::string_view>(names.begin(), names.end()));
 }
 
-// "a, b or c".
+// Returns "a, b or c".
 [[nodiscard]] inline std::string one_of(const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {

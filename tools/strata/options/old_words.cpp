@@ -9,7 +9,7 @@ namespace strata::tools {
 namespace {
 
 struct OldCommand {
-    std::string_view old, now, mode;  // `mode` is a word behind the command
+    std::string_view old, now, mode;  // `mode` is the word after the command
 };
 constexpr std::array old_commands{
     OldCommand{"algorithms", "list", "algorithms"}, OldCommand{"profiles", "list", "profiles"},
@@ -37,7 +37,7 @@ void replace_command(std::vector<std::string>& words) {
     }
 }
 
-// --old or --old=value.
+// True for --old and --old=value.
 bool is_option(std::string_view word, std::string_view option) {
     return word.starts_with(option) && (word.size() == option.size() || word[option.size()] == '=');
 }
@@ -46,7 +46,7 @@ std::string sentence(std::string_view old, std::string_view now) {
     return std::string(old) + " is an old spelling, which goes with version 0.3: " + std::string(now);
 }
 
-// bench --json FILE is -o FILE, bench --json - is --json.
+// Replaces bench --json FILE by -o FILE, and bench --json - by --json.
 void replace_json_of_bench(std::vector<std::string>& words, std::vector<std::string>& sentences) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (!is_option(words[i], "--json")) continue;

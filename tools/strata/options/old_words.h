@@ -1,8 +1,7 @@
-// tools/strata/options/old_words.h - how commands and options were spelled in version 0.1.0, for those who type them
-// still.
+// tools/strata/options/old_words.h - accepts the spellings of commands and options of version 0.1.0.
 //
-// Rule     Words are replaced before they are parsed. An option that has another name now gives a warning, a command
-//          that has become a part of another one does not. Both go with version 0.3.
+// Rule     Old words are replaced before parsing. A renamed option causes a warning; a command that became part of
+//          another one does not. Both will be removed in version 0.3.
 // Tests    tests/tools/old_words_test.cpp
 #pragma once
 #include <string>
@@ -10,10 +9,10 @@
 
 namespace strata::tools {
 
-// Replaces old spellings in a command line without the program's own name; answers a sentence for each option.
+// Replaces old spellings in a command line without the program name; returns one warning for each option.
 [[nodiscard]] std::vector<std::string> replace_old_words(std::vector<std::string>& words);
 
-// Where the command stands, behind options of messages; words.size() without one.
+// The index of the command, after any message options; words.size() if there is no command.
 [[nodiscard]] std::size_t command_at(const std::vector<std::string>& words);
 
 }  // namespace strata::tools

@@ -1,5 +1,5 @@
-// tools/strata/options/option.h - one option: declared beside the variable it fills; an error names the option, what
-// was wanted and what was found.
+// tools/strata/options/option.h - declares an option next to the variable that it fills. Its error names the option,
+// the expected value and the value that was found.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,15 +13,15 @@
 
 namespace strata::tools {
 
-// The words of an option, for --help and for its error.
+// The texts of an option, for --help and for its error.
 struct OptionText {
     std::string name;  // --size
     std::string type;  // WIDTHxHEIGHT
     std::string help;
-    std::string expected;  // what a sentence says after "expected"
+    std::string expected;  // follows "expected" in the error message
 };
 
-// `parse` answers nothing for a text that it cannot use.
+// Adds an option. `parse` returns an empty optional for an invalid text.
 template <class T, class Parse>
 CLI::Option* add_option(CLI::App& app, T& target, const OptionText& text, Parse parse) {
     const auto fill = [&target, text, parse](const std::string& given) {
@@ -32,8 +32,8 @@ CLI::Option* add_option(CLI::App& app, T& target, const OptionText& text, Parse 
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
-// A name of something outside, which is never empty. A long name is what messages call the option unless it has a
-// short one.
+// Adds an option for the name of a file or other external object; it must not be empty. Messages use the long name only
+// if there is no short one.
 inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionText& text) {
     OptionText named = text;
     named.name = text.name.substr(0, text.name.find(','));
@@ -44,7 +44,7 @@ inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionTex
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
-// A word and the value that it means.
+// A word and its value.
 template <class T>
 struct Choice {
     std::string name;
@@ -58,7 +58,7 @@ template <class T>
     return names;
 }
 
-// Empty for a value that is not in the list.
+// The word of a value; empty if the value is not in the list.
 template <class T>
 [[nodiscard]] std::string name_of(const std::vector<Choice<T>>& choices, const T& value) {
     for (const auto& choice : choices) {
@@ -75,8 +75,8 @@ template <class T>
     return std::nullopt;
 }
 
-// Of the words with commas between, those in `choices`, none twice; `all` stands for `everything` unless it is one of
-// them.
+// Parses words separated by commas that must be among `choices`, without repetition. `all` means `everything` unless it
+// is itself a choice.
 template <class T>
 [[nodiscard]] std::vector<T> to_choices(const std::string& name, const std::string& text,
                                         const std::vector<Choice<T>>& choices, const std::vector<T>& everything) {
@@ -98,7 +98,7 @@ template <class T>
     return chosen;
 }
 
-// An option that takes some of a few names.
+// Adds an option whose value is a list of some of a few names.
 template <class T>
 CLI::Option* add_choices(CLI::App& app, std::vector<T>& target, const std::string& name,
                          const std::vector<Choice<T>>& choices, const std::vector<T>& everything,
@@ -109,7 +109,7 @@ CLI::Option* add_choices(CLI::App& app, std::vector<T>& target, const std::strin
     return app.add_option_function<std::string>(name, fill, help)->type_name("NAME[,NAME...]|all");
 }
 
-// An option that takes one of a few names. `Target` is T or something that T can be assigned to.
+// Adds an option whose value is one of a few names. `Target` is T or a type that a T can be assigned to.
 template <class Target, class T>
 CLI::Option* add_choice(CLI::App& app, Target& target, const std::string& name, const std::vector<Choice<T>>& choices,
                         const std::string& help) {

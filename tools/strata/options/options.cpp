@@ -18,7 +18,7 @@ struct Alphas {
     std::vector<scenes::MaterialAlpha> materials{};
 };
 
-// "0.5", or "glass=0.3,water=0.5".
+// Parses "0.5" or "glass=0.3,water=0.5".
 std::optional<Alphas> to_alphas(std::string_view text) {
     Alphas alphas;
     if (text.find('=') == text.npos) {
@@ -34,8 +34,8 @@ std::optional<Alphas> to_alphas(std::string_view text) {
     return alphas;
 }
 
-// The algorithms of a list of names, in its order, none twice; `all` stands for every algorithm of
-// the registry. Throws CLI::ValidationError for any other name.
+// The algorithms of a list of names, in the order of the list, without repetition; `all` means every algorithm of the
+// registry. Throws CLI::ValidationError for an unknown name.
 std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
     std::vector<const peeling::Algorithm*> chosen;
     const auto add = [&](const peeling::Algorithm& algorithm) {
@@ -132,7 +132,8 @@ const peeling::Algorithm* to_algorithm(const std::string& name) {
 }
 
 void add_picture_options(CLI::App& app, RunOptions& options) {
-    // Options are read in the order in which they are added, so that those which are given change what a pack says.
+    // Options take effect in the order in which they are added: SCENE is first, so that other options override the
+    // state of a pack.
     add_scene(app, [&options](const std::string& scene) { take_scene(options, scene); });
     add_reading_options(app, options.scene_options);
     add_algorithm_option(app, options);
@@ -145,7 +146,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_view_options(CLI::App& app, RunOptions& options) {
-    // One option fills two fields: the width is its value, the height is set beside it.
+    // One option fills two fields: the width is its value, and the height is set separately.
     const auto set_size = [&options](std::string_view text) {
         const auto size = to_size(text);
         if (size) options.render.height = size->height;

@@ -1,4 +1,4 @@
-// tools/strata/options/options.h - the options that `render`, `layers` and `scene` share.
+// tools/strata/options/options.h - the options that `render`, `layers` and other commands share.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -16,51 +16,53 @@
 
 namespace strata::tools {
 
-// The options of a command; every field has the default of reports.md 6.
+// The options of a command. Every default is that of reports.md 6.
 struct RunOptions {
-    // The process's own start, as far as this program sees it: statistics tell the seconds since.
+    // The start of the process, as early as this program can read the clock; statistics report the seconds since.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     std::string scene;
     scenes::SceneOptions scene_options;
     std::string default_algorithm = "dual";
-    std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, none twice
+    std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, without repetition
     std::string profile = "geforce8";                   // a name or a file
-    std::optional<pipeline::Origin> origin;             // --origin; none: the profile's
-    std::string camera;                                 // --camera; empty: the orbit
-    std::string files_in;  // of --from: the folder of a camera's file; empty: the path as given
+    std::optional<pipeline::Origin> origin;             // --origin; empty: the profile's
+    std::string camera;                                 // --camera; empty: the view is an orbit
+    std::string files_in;  // --from: the folder of a camera's file; empty: the path is used unchanged
     std::optional<Orbit> orbit;
     std::optional<pipeline::Rgba>
-        background;                      // --background: sRGB and straight; none: what `render` has, black or a pack's
-    bool names_camera_of_scene = false;  // --camera turned out to be one of the scene's, not a file
-    bool takes_own_view = false;         // neither is given, and the scene turned out to have a view of its own
-    scenes::ClipConvention view_convention;  // of a view that comes with the scene
+        background;                      // --background: sRGB, not premultiplied; empty: the default, black or a pack's
+    bool names_camera_of_scene = false;  // --camera is a camera of the scene, not a file
+    bool takes_own_view = false;         // no view option is given, and the scene contains a view
+    scenes::ClipConvention view_convention;  // of the view that the scene contains
     peeling::RenderOptions render;
-    int samples = 1;            // --samples: 1, 2, 4 or 8 a pixel, each shaded by itself
-    std::optional<int> sample;  // --sample: the frame of this one alone
+    int samples = 1;            // --samples: 1, 2, 4 or 8 per pixel, each shaded separately
+    std::optional<int> sample;  // --sample: render only the frame of this sample
     pipeline::Resolve resolve = pipeline::Resolve::box;
-    bool resolves = false;            // the command takes frames of all samples
-    bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
-    std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; none: what the machine has free
+    bool resolves = false;  // the command accepts frames of all samples
+    bool keeps_no_fragments =
+        false;  // --execution tiled: replay without a record of fragments, whatever --fragment-memory is
+    std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; empty: the free memory of the machine
     Simd simd = Simd::best;
     std::string stats;                        // --stats; empty: none, "-": standard output
     std::string output;                       // -o; empty: none, "-": standard output
-    std::optional<scenes::ImageFile> format;  // --format: what a picture to standard output is
+    std::optional<scenes::ImageFile> format;  // --format: the file format of a picture on standard output
 };
 
-// SCENE, --scene, --color-space, --no-light.
+// Adds SCENE, --scene, --color-space and --no-light.
 void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options);
 
-// Adds SCENE and all options that a result bit depends on.
+// Adds SCENE and all options on which result bits depend.
 void add_picture_options(CLI::App& app, RunOptions& options);
-// For a command that asks for a scene in its own way: SCENE is this one, and a pack's state is taken.
+// For a command that declares its scene option itself: sets SCENE, and reads the state of a pack.
 void take_scene(RunOptions& options, const std::string& scene);
-// One algorithm by its name. Throws CLI::ValidationError.
+// Returns the algorithm of that name. Throws CLI::ValidationError for an unknown name.
 [[nodiscard]] const peeling::Algorithm* to_algorithm(const std::string& name);
 
-// Adds the options that no bit depends on (--execution, --fragment-memory, --simd, --effects, --tile, --threads).
+// Adds the options on which no result bit depends (--execution, --fragment-memory, --simd, --effects, --tile,
+// --threads).
 void add_execution_options(CLI::App& app, RunOptions& options);
 
-// Parts of both, for a command that takes lists of the rest.
+// Parts of the two functions above, for a command in which the other options take lists.
 void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --color-space, --no-light
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth-format ... --stochastic-seed
 void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
@@ -69,28 +71,28 @@ void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
 void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
 
-// Lets an --execution option take the word `tiled`, with a warning: replay that keeps no fragments.
+// Makes an --execution option accept the word `tiled`, with a warning: replay without a record of fragments.
 void accept_tiled(CLI::Option& execution, RunOptions& options);
 
-// Throws CLI::ValidationError where this processor lacks the set.
+// Throws CLI::ValidationError if this processor lacks the instruction set.
 void check_simd(Simd simd);
 
-// Where results go and what they may take: --stats, -o, --no-audit, --max-memory.
+// Adds the options of outputs and resources: --stats, -o, --no-audit, --max-memory.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
 
-// --format, beside -o -.
+// Adds --format, which is used with -o -.
 void add_format_option(CLI::App& app, RunOptions& options, const std::string& help);
 
-// Checks exclusions and fills in defaults that are lists, which needs all options together. Throws
+// Checks which options exclude each other, and fills in defaults that are lists. Both need all parsed options. Throws
 // CLI::ValidationError.
 void complete(RunOptions& options);
 
-// The command that makes the same picture of one algorithm again, in one spelling: every option that a bit depends on
-// and that was given or differs from its default; files without their folder; neither outputs nor threads, tiles and
-// execution.
+// The command that renders the same picture of one algorithm again, in a unique spelling. It contains every option on
+// which a bit depends and that was given or differs from its default, and files without their folder; it does not
+// contain outputs, threads, tiles and execution.
 [[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
                                             const peeling::Algorithm& algorithm);
-// The same of several.
+// The same for several algorithms.
 [[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
                                             const std::vector<const peeling::Algorithm*>& algorithms);
 

@@ -1,5 +1,5 @@
-// tools/strata/options/pack_options.h - a pack as the SCENE of a command: its state stands for options that are not
-// given.
+// tools/strata/options/pack_options.h - a golden pack as the SCENE of a command: the pack's state replaces options that
+// are not given.
 #pragma once
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace strata::tools {
 
-// Size, formats, orders, colour space and profile of the pack become those of `options`; nothing for a scene that is no
-// pack. It is called when SCENE is parsed, before the options that change what it sets.
+// Copies size, formats, orders, colour space and profile of the pack to `options`; does nothing if the scene is not a
+// pack. Called when SCENE is parsed, before the options that override these fields.
 void take_pack_state(RunOptions& options, const std::string& scene);
 
 }  // namespace strata::tools

@@ -1,5 +1,5 @@
-// tools/strata/options/parse.h - text from the command line into numbers. Independent of the locale; the whole text
-// counts.
+// tools/strata/options/parse.h - converts text of the command line to numbers, independently of the locale. The whole
+// text must be a number.
 #pragma once
 #include <charconv>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace strata::tools {
 
-// A whole decimal number that T can hold; nothing for any other text, a sign + or a space or -0 included.
+// A whole decimal number within the range of T; empty for any other text, including a sign +, spaces, and -0.
 template <std::integral T = int>
 [[nodiscard]] std::optional<T> to_int(std::string_view text) {
     T value = 0;
@@ -21,13 +21,13 @@ template <std::integral T = int>
     return value;
 }
 
-// From 1.
+// A whole number of at least 1.
 [[nodiscard]] inline std::optional<int> to_positive(std::string_view text) {
     const auto value = to_int(text);
     return value && *value >= 1 ? value : std::nullopt;
 }
 
-// Nearest to the decimal; neither infinite nor NaN.
+// The value nearest to the decimal number; neither infinite nor NaN.
 template <std::floating_point T>
 [[nodiscard]] std::optional<T> to_number(std::string_view text) {
     T value = 0;
@@ -36,13 +36,13 @@ template <std::floating_point T>
     return value;
 }
 
-// From 0 to an hour.
+// Seconds, from 0 to an hour.
 [[nodiscard]] inline std::optional<double> to_seconds(std::string_view text) {
     const auto value = to_number<double>(text);
     return value && *value >= 0 && *value <= 3600 ? value : std::nullopt;
 }
 
-// "a,b," is three parts, the last one empty.
+// Splits at the separator: "a,b," has three parts, the last of them empty.
 [[nodiscard]] inline std::vector<std::string> split(std::string_view text, char separator) {
     std::vector<std::string> parts(1);
     for (const char c : text) {
@@ -54,7 +54,7 @@ template <std::floating_point T>
     return parts;
 }
 
-// Exactly `count` numbers with commas between.
+// Exactly `count` numbers separated by commas.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::vector<T>> to_numbers(std::string_view text, std::size_t count) {
     std::vector<T> values;

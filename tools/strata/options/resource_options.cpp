@@ -1,5 +1,5 @@
-// tools/strata/options/resource_options.cpp - how a command runs, what it may take and where results go: no bit depends
-// on it.
+// tools/strata/options/resource_options.cpp - the options of execution, resources and outputs. No result bit depends on
+// them.
 #include <algorithm>
 
 #include "tools/strata/messages.h"
@@ -12,19 +12,19 @@ namespace strata::tools {
 
 namespace {
 
-// Bytes, or K, M and G of them.
+// Parses a number of bytes, with an optional suffix K, M or G.
 std::optional<std::uint64_t> to_bytes(std::string_view text) {
     constexpr std::string_view suffixes = "KMG";
     const std::size_t suffix = text.empty() ? suffixes.npos : suffixes.find(text.back());
     const unsigned shift = suffix == suffixes.npos ? 0 : 10 * (static_cast<unsigned>(suffix) + 1);
     if (shift > 0) text.remove_suffix(1);
     const auto count = to_int<std::uint64_t>(text);
-    // More than 2^64 - 1 bytes is no size: the shift would lose the upper bits.
+    // More than 2^64 - 1 bytes is an error: the shift would lose the upper bits.
     if (!count || *count > ~std::uint64_t{0} >> shift) return std::nullopt;
     return *count << shift;
 }
 
-// As many as a renderer takes.
+// Parses a number of threads, up to the limit of a renderer.
 std::optional<int> to_threads(std::string_view text) {
     const auto value = to_count(text);
     return value && *value <= 1024 ? value : std::nullopt;

@@ -1,8 +1,10 @@
-// tools/strata/options/shell_words.h - words as a POSIX shell writes and reads them: a name with a blank or a $ in it
-// stays one word.
+// tools/strata/options/shell_words.h - quotes and parses words of a POSIX shell: a name with spaces or a $ remains one
+// word.
 //
-// Rule     A word of letters, digits and @%+=:,./_- is itself, any other one stands in single quotes; a single quote
-//          within is '\''. Source POSIX.1-2017, Shell Command Language 2.2. Tests tests/tools/recorded_command_test.cpp
+// Rule     A word that contains only letters, digits and @%+=:,./_- is not quoted, any other word is in single quotes;
+//          a single quote inside it is written '\''.
+// Source   POSIX.1-2017, Shell Command Language 2.2.
+// Tests    tests/tools/recorded_command_test.cpp
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -27,7 +29,7 @@ namespace strata::tools {
     return quoted + "'";
 }
 
-// The words of a line of such words; empty if it ends within quotes.
+// The words of a line that shell_word() quoted; empty if it ends within quotes.
 [[nodiscard]] inline std::optional<std::vector<std::string>> shell_words(std::string_view line) {
     std::vector<std::string> words;
     bool is_quoted = false, is_in_word = false;

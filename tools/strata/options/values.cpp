@@ -17,7 +17,7 @@ std::optional<float> to_share(std::string_view text) {
     return value;
 }
 
-// X,Y,W,H.
+// Parses X,Y,W,H.
 std::optional<rasterizer::Rect> to_region(std::string_view text) {
     std::vector<int> numbers;
     for (const std::string& part : split(text, ',')) {

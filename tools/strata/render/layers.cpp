@@ -1,5 +1,5 @@
-// tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the
-// frame.
+// tools/strata/render/layers.cpp - strata layers: writes the layers that an algorithm peeled, and optionally every
+// fragment of the frame.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +18,13 @@ namespace strata::tools {
 
 namespace {
 
-// The command line; `deep` is the file of --deep, empty for none.
+// The options of the command line; `deep` is the file of --deep, empty for none.
 struct LayersOptions {
     RunOptions run;
     std::string deep;
 };
 
-// Pixel by pixel, in submission order within each.
+// Sorts the fragments by pixel, in submission order within each pixel.
 scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fragments, const RunOptions& options) {
     scenes::DeepFragments deep{
         .width = options.render.width, .height = options.render.height, .space = options.scene_options.color_space};
@@ -46,9 +46,9 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
     return deep;
 }
 
-// The layers from near to far. A peel from both ends gives them as it takes them, the last ones perhaps without a
-// fragment; they are called by their end and their pass, and what is behind everything comes last. They are taken out
-// of the result.
+// Moves the layers out of the result, from near to far. An algorithm that peels both ends returns them in the order of
+// its passes, possibly with empty ones at the end; its layers are named by end and pass, and the layer behind
+// everything is last.
 std::vector<scenes::OutputColor> take_layers(const Finished& finished) {
     std::vector<scenes::OutputColor> front, back;
     for (auto& layer : finished.result.frame.layers) {
@@ -63,7 +63,7 @@ std::vector<scenes::OutputColor> take_layers(const Finished& finished) {
     return front;
 }
 
-// A row a layer, from near to far, with its colours and its depths.
+// One image row per layer, from near to far, with the layer's colours and depths.
 pipeline::Image contact_sheet(const std::vector<scenes::OutputColor>& layers) {
     oracle::ContactSheet sheet;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -84,7 +84,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
             layer.space = options.run.scene_options.color_space;
             layer.attributes = attributes;
         }
-        if (layers.empty()) {  // nothing to peel: one layer without a fragment
+        if (layers.empty()) {  // nothing was peeled: write one layer without fragments
             layers.push_back(
                 {.color = {finished.result.frame.color.format, options.run.render.width, options.run.render.height},
                  .space = options.run.scene_options.color_space,
@@ -118,7 +118,7 @@ int layers(LayersOptions& options) {
 Command add_layers(CLI::App& root) {
     auto* app = root.add_subcommand("layers", "write the layers that an algorithm peels, and every fragment");
     const auto options = std::make_shared<LayersOptions>();
-    options->run.default_algorithm = "front_to_back";  // whose layers are in the order in which they are peeled
+    options->run.default_algorithm = "front_to_back";  // its layers are in the order in which they are peeled
     add_picture_options(*app, options->run);
     add_from_option(*app, options->run.files_in);
     add_execution_options(*app, options->run);

@@ -28,8 +28,8 @@ std::vector<double> complexity(const Columns& columns) {
     return numbers;
 }
 
-// By the code of the exact depth. Two codes may share a float, so that the order of depths does not put equal codes
-// side by side.
+// The number of tied fragments of each pixel. Codes are sorted and compared, because two different codes may have the
+// same float depth.
 std::vector<double> ties(const Columns& columns) {
     std::vector<double> numbers;
     std::vector<std::uint32_t> codes;
@@ -46,7 +46,7 @@ std::vector<double> ties(const Columns& columns) {
     return numbers;
 }
 
-// Fragments at the very depth, by the algorithm's own code, of the opaque surface of their pixel.
+// The number of fragments of each pixel whose code is equal to that of the pixel's opaque surface.
 std::vector<double> opaque_ties(const RunOptions& options, const Finished& finished) {
     const peeling::FrameFragments found = finished.renderer.fragments(finished.algorithm);
     const bool is_reversed = options.render.raster.depth_order == rasterizer::DepthOrder::greater;
@@ -82,7 +82,8 @@ std::vector<double> numbers_of(Map map, const RunOptions& options, const Finishe
     return {};  // unreachable: the enum is closed
 }
 
-// Thirds of the range: red rises, then green, then blue.
+// The colour ramp black, red, yellow, white: in each third of the range one channel rises, first red, then green, then
+// blue.
 std::uint32_t heat(double share, int channel) {
     return static_cast<std::uint32_t>(std::clamp(3 * share - channel, 0.0, 1.0) * 255 + 0.5);
 }

@@ -1,10 +1,10 @@
-// tools/strata/render/map.h - what `render --map` draws in a picture's place: where many fragments lie, where ties,
-// where an algorithm is wrong.
+// tools/strata/render/map.h - the maps of `render --map`, which replace the picture: depth complexity, ties, or errors
+// of an algorithm.
 //
-// Rule     A pixel's number is its count of fragments; its fragments at the depth (the code of the buffer) of another
-//          one of it, or of its opaque surface; or the largest difference of a channel from the exact A-buffer's, in
-//          255ths. The greatest number of the frame is white, 0 is black, between them red and yellow. The numbers are
-//          those of the report's maps.
+// Rule     The number of a pixel is its count of fragments; or its count of fragments whose depth code is that of
+//          another fragment of the pixel, or of its opaque surface; or the largest difference of a channel from the
+//          exact A-buffer, in units of 1/255. The largest number of the frame is white, 0 is black, with red and yellow
+//          between them. The report's maps show the same numbers.
 // Tests    tests/tools/map_test.cpp
 #pragma once
 #include <vector>
@@ -17,7 +17,7 @@ namespace strata::tools {
 enum class Map : std::uint8_t { depth_complexity, ties, opaque_ties, error };
 
 struct MapPicture {
-    std::vector<double> numbers;  // of each pixel, row by row from the top
+    std::vector<double> numbers;  // one per pixel, row by row from the top
     double most = 0;
     pipeline::Image image;  // rgba8
 };

@@ -10,10 +10,11 @@ namespace strata::tools {
 
 namespace {
 
-// Of a frame of one colour and one depth a pixel: copies of its codes as numbers, and what OpenEXR makes of them.
+// Bytes per pixel that a file writer allocates for a frame with one colour and one depth: the codes as numbers, and
+// OpenEXR's buffers.
 constexpr std::uint64_t png_bytes_a_pixel = 36, exr_bytes_a_pixel = 28;
 
-// "NAME:   123 kB", as files below /proc have it.
+// Reads the value of a line "NAME:   123 kB" of a file in /proc, in bytes.
 std::optional<std::uint64_t> kilobytes(const char* file, const std::string& name) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
@@ -27,7 +28,7 @@ std::optional<std::uint64_t> kilobytes(const char* file, const std::string& name
 std::optional<std::uint64_t> number_in(const char* file) {
     std::ifstream in(file);
     std::uint64_t value = 0;
-    if (in >> value) return value;  // "max": no limit
+    if (in >> value) return value;  // "max", which means no limit, is not a number
     return std::nullopt;
 }
 
@@ -39,7 +40,8 @@ std::uint64_t writer_bytes(const RunOptions& options) {
     return 0;
 }
 
-// Whether the rehearsal is not worth its time: there is more than any algorithm takes that keeps no layers.
+// True if the limit is above the needs of any algorithm that keeps no layers, so that the exact estimate can be
+// skipped.
 bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint64_t held) {
     constexpr std::uint64_t most_bytes_a_pixel = 512;
     const std::uint64_t pixels =
@@ -49,7 +51,7 @@ bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint6
     return !options.max_memory && !options.render.keep_layers && most < limit;
 }
 
-// "16.5 GB", "300 MB": of 2^30 and 2^20 bytes, as options take G and M.
+// Formats as "16.5 GB" or "300 MB", in units of 2^30 and 2^20 bytes, the same as the suffixes G and M of options.
 std::string in_words(std::uint64_t bytes) {
     constexpr std::uint64_t megabyte = std::uint64_t{1} << 20, gigabyte = std::uint64_t{1} << 30;
     if (bytes < gigabyte) return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";

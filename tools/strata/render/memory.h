@@ -1,9 +1,9 @@
-// tools/strata/render/memory.h - is there memory for a picture? Asked before it is drawn.
+// tools/strata/render/memory.h - checks that there is enough memory for a picture, before it is rendered.
 //
-// Rule     What a run takes is what the program holds already, what its frame will (peeling/memory_need.h) and what the
-//          writer of its file will. The limit is --max-memory, or without it what the machine has free: the kernel's
-//          own estimate (MemAvailable of /proc/meminfo), and no more than the control group allows. A machine that
-//          tells neither has no limit.
+// Rule     The need is the sum of the memory that the program holds already, that the frame will need
+//          (peeling/memory_need.h) and that the writer of its file will need. The limit is --max-memory; without it,
+//          the free memory that the kernel estimates (MemAvailable of /proc/meminfo), but at most the limit of the
+//          control group. There is no limit if the system reports neither.
 // Tests    tests/tools/max_memory_test.cpp
 #pragma once
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace strata::tools {
 
-// Throws CLI::ValidationError that names --max-memory, what is needed and what there is.
+// Throws CLI::ValidationError, which names --max-memory, the need and the limit.
 void check_memory(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm);
 
-// Bytes of memory that the program holds by now; 0 where the system does not tell.
+// Bytes of memory that the program holds now; 0 if the system does not report it.
 [[nodiscard]] std::uint64_t held_memory();
 
-// Bytes that the machine can still give; nothing where the system does not tell.
+// Bytes of memory that the machine has free; empty if the system does not report it.
 [[nodiscard]] std::optional<std::uint64_t> free_memory();
 
 }  // namespace strata::tools

@@ -1,4 +1,4 @@
-// tools/strata/render/render.cpp - strata render: the picture of one or more algorithms.
+// tools/strata/render/render.cpp - strata render: renders the picture of one or more algorithms.
 #include "peeling/render.h"
 
 #include <memory>
@@ -23,10 +23,10 @@ struct RenderCommand {
     RunOptions run;
     std::vector<const oracle::Mistake*> mistakes;
     std::optional<Map> map;
-    std::string report;  // --report; empty: none
+    std::string report;  // path of the --report page; empty: none
 };
 
-// A map stands in the picture's place, and its command makes the map again.
+// A map is written instead of the picture, and its recorded command renders the map again.
 void write_map(const RunOptions& options, Map map, const Finished& finished) {
     const MapPicture picture = map_of(map, options, finished);
     scenes::Attributes attributes = attributes_of("render", options, finished);
@@ -36,19 +36,19 @@ void write_map(const RunOptions& options, Map map, const Finished& finished) {
     say_note(legend_of(map, picture));
 }
 
-// Without -o nothing is written: the statistics are the result.
+// Without -o no picture is written: the statistics are the result.
 void write_picture(const RunOptions& options, const Finished& finished) {
     if (options.output.empty()) return;
     scenes::write_image(path_for(options.output, options, finished.algorithm),
                         {.color = finished.result.frame.color,
                          .depth = finished.result.frame.depth,
-                         .premultiplied = true,  // a finished frame's alpha is 1
+                         .premultiplied = true,  // either form is right, because a finished frame's alpha is 1
                          .space = options.scene_options.color_space,
                          .attributes = attributes_of("render", options, finished)},
                         kind_of(options, scenes::ImageFile::png));
 }
 
-// Names with commas between, as `strata diagnose --list` shows them.
+// Parses names separated by commas, as `strata diagnose --list` shows them.
 std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
     std::vector<const oracle::Mistake*> chosen;
     std::vector<std::string> names;
@@ -64,7 +64,7 @@ std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
     return chosen;
 }
 
-// The picture of a wrong machine: without statistics, for nothing of it is to be trusted.
+// Renders the picture of a simulated renderer with mistakes. It prints no statistics, because they would be wrong, too.
 int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake*>& mistakes) {
     complete(options);
     if (options.algorithms.size() != 1) throw CLI::ValidationError("--mistake takes one algorithm");

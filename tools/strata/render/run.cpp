@@ -28,7 +28,7 @@ namespace strata::tools {
 
 namespace {
 
-// The view of --camera or of the orbit; without either, the scene's own if it has one.
+// The view of --camera or of the orbit; without either option, the scene's own view if it has one.
 pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) {
     const double aspect = double(options.render.width) / options.render.height;
     if (options.takes_own_view) return *scene.own_view;
@@ -37,13 +37,13 @@ pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) 
     return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
 }
 
-// --sorted names what the scene has.
+// Checks that the names of --sorted exist in the scene.
 void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
     std::vector<std::string> names;
     const auto add = [&](const std::string& name) {
         if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
-    // Meshes and materials share one list of names: either may be meant.
+    // Meshes and materials share one list of names, because --sorted accepts both.
     for (const auto& mesh : scene.list.meshes) add(mesh.name);
     for (const auto& material : scene.list.materials) add(material.name);
     for (const std::string& name : options.render.sorted)
@@ -53,7 +53,8 @@ void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
                                            found_but_near(name, names));
 }
 
-// An algorithm that peels nothing is no news; a scene in which it never can is, and an empty one.
+// Warns if the scene has no triangles, or no transparent material and --alpha is not given: then no algorithm peels
+// anything.
 void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
     const auto has_triangles = [&](const pipeline::Instance& instance) {
         return !scene.list.meshes[instance.mesh].indices.empty();
@@ -74,7 +75,7 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
                 "transparent, --alpha MATERIAL=0.5 one material");
 }
 
-// Of --sample.
+// The position of the sample that --sample names.
 rasterizer::SamplePoint sample_point(const RunOptions& options, const pipeline::DeviceProfile& profile) {
     if (const auto lacking = pipeline::check_multisampling(profile, options.samples))
         throw CLI::ValidationError("--samples", lacking->sentence(profile));
@@ -94,7 +95,7 @@ pipeline::View view_named(const std::string& name, const scenes::Scene& scene, d
         names.push_back(camera.name);
     }
     if (!folder.empty()) return scenes::load_camera(scenes::path_inside(folder, name, "--camera", "file"), aspect);
-    std::error_code unreadable;  // such as a link to itself: no file
+    std::error_code unreadable;  // for example a link to itself: treated as no file
     if (name.ends_with(".json") || std::filesystem::exists(name, unreadable)) return scenes::load_camera(name, aspect);
     const std::string cameras =
         names.empty() ? "a .json file (the scene has no camera)" : one_of(names) + ", or a .json file";
@@ -105,7 +106,7 @@ Session open_session(RunOptions& options) {
     check_simd(options.simd);
     options.render.simd = options.simd;
     Session session;
-    // Profile first: it is small, and an error in it is told before a large scene is read.
+    // The profile is loaded first: it is small, and its errors are reported before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
     if (const auto open = scenes::open_fields(options.profile); !open.empty())
         say_warning(fmt::format("{}: nothing shows the values of {}; what depends on them is a guess", options.profile,
@@ -127,7 +128,7 @@ Session open_session(RunOptions& options) {
     session.view =
         scenes::as_seen_under(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);
-    // Given as straight sRGB values; the frame blends in the colour space of the run, onto colours times alpha.
+    // The option's value is in sRGB, not premultiplied; the frame blends premultiplied colours in its own colour space.
     if (options.background)
         options.render.background =
             premultiplied(scenes::from_encoded(*options.background, options.scene_options.color_space));
@@ -136,7 +137,7 @@ Session open_session(RunOptions& options) {
 
 namespace {
 
-// What an interrupt leaves undone while algorithm number `current` runs.
+// The algorithms whose results are missing if an interrupt occurs while algorithm number `current` runs.
 std::string undone(const RunOptions& options, std::size_t current) {
     const std::size_t count = options.algorithms.size();
     std::string text = count == 1 ? "" : fmt::format("{} of {} algorithms are done", current, count);
@@ -148,7 +149,7 @@ std::string undone(const RunOptions& options, std::size_t current) {
     return text;
 }
 
-// Keeps the numbers, lets the pixels go.
+// Keeps the statistics and discards the pixels.
 RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&& result) {
     const auto digest_of = [](const pipeline::Image& image) {
         return image.codes.empty() ? "" : pipeline::digest(image);
@@ -161,7 +162,7 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
     return summary;
 }
 
-// Renders, and writes the files while the pixels are there. A refused algorithm writes none.
+// Renders, and writes the files while the pixels exist. A refused algorithm writes no file.
 RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::SampledRenderer& renderer,
                    const Writer& write) {
     Progress progress(algorithm.name);
@@ -173,13 +174,13 @@ RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, 
     return summary;
 }
 
-// The table is the result of a run that writes no picture, and a note on the picture beside one.
+// Prints the table: as the result if no picture is written, otherwise as a note on standard error.
 void tell_table(const RunOptions& options, const std::string& table) {
     if (scenes::is_standard_output(options.output)) return say_note(table);
     if (options.output.empty() || !is_quiet()) print(titled(table));
 }
 
-// Tells the statistics once all algorithms have run: as JSON, as a table, or both.
+// Prints the statistics after all algorithms have run: as JSON, as a table, or both.
 void report(const RunOptions& options, const std::vector<RunSummary>& runs, const std::string& profile) {
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - options.started;
     const RunContext context{.profile = profile,
@@ -195,7 +196,7 @@ void report(const RunOptions& options, const std::vector<RunSummary>& runs, cons
     tell_table(options, to_table(runs, context));
 }
 
-// 2 if no algorithm ran. Every refusal is told on standard error.
+// Returns 2 if no algorithm ran. Every refusal is printed on standard error.
 int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfile& profile) {
     int status = 2;
     for (const RunSummary& run : runs) {
@@ -215,7 +216,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     scenes::tell_when_interrupted(undone(options, 0));
     const Session session = open_session(options);
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
-    // One renderer serves all algorithms: geometry is transformed and set up once.
+    // One renderer is used for all algorithms, so geometry is transformed and set up once.
     peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
                                       options.sample ? 1 : options.samples, options.resolve);
     std::vector<RunSummary> runs;
@@ -230,7 +231,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
 
 std::string path_for(const std::string& path, const RunOptions& options, const peeling::Algorithm& algorithm) {
     if (options.algorithms.size() == 1) return path;
-    const std::size_t dot = path.rfind('.');  // check_outputs has seen an ending
+    const std::size_t dot = path.rfind('.');  // check_outputs has checked that there is an ending
     return path.substr(0, dot) + "." + algorithm.name + path.substr(dot);
 }
 
@@ -268,8 +269,8 @@ void check_output(const Output& output) {
     }
 }
 
-// One spelling for each file that a path can name: the folder with its links followed. The last name's own link is not,
-// for a finished file takes the link's place.
+// A unique spelling for each output file: links of the folder are followed. A link in the last component is not,
+// because the finished file replaces the link.
 std::filesystem::path place_of(const std::string& path) {
     if (scenes::is_standard_output(path)) return "-";
     const auto absolute = std::filesystem::absolute(path);

@@ -1,5 +1,5 @@
-// tools/strata/render/run.h - what `render` and `layers` do alike: load, run each algorithm, write its files, tell the
-// statistics.
+// tools/strata/render/run.h - the common part of `render` and `layers`: loads scene and profile, runs each algorithm,
+// writes its files, prints the statistics.
 #pragma once
 #include <functional>
 #include <string>
@@ -14,47 +14,47 @@ struct RenderResult;
 
 namespace strata::tools {
 
-// Everything that the algorithms of one command share.
+// The objects that all algorithms of one command share.
 struct Session {
     scenes::Scene scene;
     pipeline::DeviceProfile profile;
     pipeline::View view;
 };
 
-// A camera of the scene, or of a file, which is in `folder` unless that is empty. CLI::ValidationError where there is
-// neither.
+// The scene's camera of that name, or the camera in a file, which is in `folder` unless that is empty. Throws
+// CLI::ValidationError if neither exists.
 [[nodiscard]] pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect,
                                         const std::string& folder = "");
 
-// Loads profile and scene, warns on standard error (of a scene in which nothing is transparent, too), finds the view,
-// and makes --simd and --background the run's.
+// Loads profile and scene, prints warnings (for example if nothing is transparent), finds the view, and applies --simd
+// and --background.
 [[nodiscard]] Session open_session(RunOptions& options);
 
-// One algorithm that ran. The references hold while the Writer runs.
+// One algorithm that has run. The references are valid only while the Writer runs.
 struct Finished {
     const Session& session;
     const peeling::Algorithm& algorithm;
     peeling::Renderer& renderer;    // of the first sample
-    peeling::RenderResult& result;  // the writer may take its layers
+    peeling::RenderResult& result;  // the writer may move its layers out
 };
 
 using Writer = std::function<void(const Finished&)>;  // writes one algorithm's files
 
-// The exit status: 0 if at least one algorithm ran, else 2 with the refusals on standard error.
+// Returns the exit status: 0 if at least one algorithm ran, else 2 with the refusals on standard error.
 [[nodiscard]] int run_algorithms(RunOptions& options, const Writer& write);
 
-// Where one algorithm's result goes: with several, its name stands before the ending (out.dual.exr).
+// The output path of one algorithm; with several algorithms, its name is inserted before the ending (out.dual.exr).
 [[nodiscard]] std::string path_for(const std::string& path, const RunOptions& options,
                                    const peeling::Algorithm& algorithm);
 
-// What -o asks for: by its ending, or what --format says of standard output, where `fallback` is usual.
+// The file format of -o, by its ending. For standard output it is that of --format, or `fallback`.
 [[nodiscard]] scenes::ImageFile kind_of(const RunOptions& options, scenes::ImageFile fallback);
 
-// The attributes of every file: command, profile, camera. The writer adds digests and formats.
+// The attributes of every file: command, profile, camera. The writer of the file adds digests and formats.
 [[nodiscard]] scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options,
                                                const Finished& finished);
 
-// A file that a command is to write; an empty path is none. Few may be "-", standard output.
+// An output file of a command; an empty path means none. `Piped` says whether it may be "-", standard output.
 enum class Piped : std::uint8_t { never, possibly };
 struct Output {
     std::string option, path;
@@ -63,8 +63,8 @@ struct Output {
     [[nodiscard]] bool is_piped() const;
 };
 
-// Throws CLI::ValidationError unless each names a file with one of its endings in a folder that exists, and no two name
-// the same file.
+// Throws CLI::ValidationError unless each path has one of the allowed endings and is in a folder that exists, and no
+// two paths name the same file.
 void check_outputs(const std::vector<Output>& outputs);
 
 }  // namespace strata::tools

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// False for a run that the profile refused.
+// False if the profile refused the algorithm.
 bool is_done(const RunSummary& run) { return run.result.outcome == peeling::Outcome::done; }
 
 std::string_view outcome_name(peeling::Outcome outcome) {
@@ -23,8 +23,8 @@ std::string_view outcome_name(peeling::Outcome outcome) {
     return "";  // unreachable: the enum is closed
 }
 
-// The objects of a row, with the keys of reports.md 1 in their order.
-// Null unless they were counted.
+// These functions build the objects of a row, with the keys of reports.md 1 in its order.
+// Null if counters were not requested.
 ordered_json to_json(const std::optional<pipeline::Counters>& counted) {
     if (!counted) return nullptr;
     const pipeline::Counters& c = *counted;
@@ -65,15 +65,15 @@ ordered_json to_json(const std::vector<pipeline::Diagnostic>& diagnostics) {
     return list;
 }
 
-// Null for a run that was done.
+// Null if the algorithm ran.
 ordered_json refusal_of(const RunSummary& run) {
     if (is_done(run)) return nullptr;
     const auto refusal = run.result.refusal.value_or(pipeline::Refusal{});
     return {{"feature", refusal.feature}, {"extension", refusal.extension}};
 }
 
-// A line for people below the table. Faults that no pixel shows have no count and no place (first_x
-// is -1).
+// The line of a diagnostic below the table. Faults that are not visible in a pixel have neither a count nor a position
+// (first_x is -1).
 std::string describe(const std::string& algorithm, const pipeline::Diagnostic& d) {
     std::string text = fmt::format("{}: {}", algorithm, pipeline::name(d.fault));
     if (d.pixels > 0) text += fmt::format(" at {} pixels", d.pixels);
@@ -81,7 +81,7 @@ std::string describe(const std::string& algorithm, const pipeline::Diagnostic& d
     return text + (d.detail.empty() ? "" : ": " + d.detail) + '\n';
 }
 
-// The row of the table; "-" stands for what a refused or unaudited run does not have.
+// The cells of one row; "-" marks values that a refused or unaudited execution does not have.
 std::vector<std::string> cells(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;
     if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-", "-"};
@@ -91,7 +91,7 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
             audited(fmt::format("{}", audit.layers_max)),
             audited(audit.order_errors ? fmt::format("{}", *audit.order_errors) : "-"),
             audited(fmt::format("{}", audit.lost_by_ties)), audited(fmt::format("{:.3f}", audit.max_difference)),
-            // Twelve digits tell pictures apart by eye; --stats has the whole digest.
+            // The first twelve digits are enough to compare by eye; --stats has the whole digest.
             color.substr(0, 12), fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes),
             audited(fmt::format("{:.3f}", result.seconds.audit))};
 }
@@ -106,7 +106,7 @@ std::string path_sentence(const RunSummary& run) {
 ordered_json to_row(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;
     const peeling::AuditResult& audit = result.audit;
-    // A refused row has counts of 0, not null, also without the audit.
+    // The counts of a refused row are 0, not null, also without the audit.
     const bool counted = context.audited || !is_done(run);
     const auto audited = [&](ordered_json value) { return counted ? value : ordered_json(nullptr); };
     const bool has_order = !is_done(run) || audit.order_errors.has_value();

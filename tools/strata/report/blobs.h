@@ -1,9 +1,10 @@
-// tools/strata/report/blobs.h - arrays of numbers within a page: byte planes, zlib's deflate, base64.
+// tools/strata/report/blobs.h - arrays of numbers embedded in an HTML page: split into byte planes, compressed with
+// zlib's deflate, encoded as base64.
 //
-// Rule     The words of an array are little endian, and all their lowest bytes come first, then all the next ones:
-//          neighbours in a picture have the same high bytes, so the planes are small. A blob's number is its place in
-//          the page.
-// Tests    tests/tools/report_test.cpp unpacks them again
+// Rule     The elements of an array are little endian. All their lowest bytes are stored first, then all the next ones:
+//          neighbouring pixels mostly have equal high bytes, so these planes compress well. A blob's number is its
+//          index in the page.
+// Tests    tests/tools/report_test.cpp unpacks the blobs again
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,15 +16,15 @@ namespace strata::tools {
 
 class Blobs {
   public:
-    // Each answers the blob's number.
+    // Each add function returns the number of the blob.
     std::size_t add(std::span<const std::uint8_t> values);
     std::size_t add(std::span<const std::uint16_t> values);
     std::size_t add(std::span<const std::uint32_t> values);
     std::size_t add_text(std::string_view text);
 
-    // Characters of all blobs in the page.
+    // Number of characters of all blobs in the page.
     [[nodiscard]] std::size_t size() const noexcept;
-    // <script type="text/plain" class="blob">BASE64</script>, one a blob, in their order.
+    // One element <script type="text/plain" class="blob">BASE64</script> per blob, in their order.
     [[nodiscard]] std::string html() const;
 
   private:
@@ -31,7 +32,7 @@ class Blobs {
     std::vector<std::string> encoded_;
 };
 
-// The characters that `text` would take as a blob.
+// Number of characters that `text` would have as a blob.
 [[nodiscard]] std::size_t packed_size(std::string_view text);
 
 }  // namespace strata::tools

@@ -1,4 +1,4 @@
-// tools/strata/report/page_parts.h - the files of page/ as text, put into the program by the build.
+// tools/strata/report/page_parts.h - the files of page/ as strings, embedded in the program by the build.
 #pragma once
 #include <string_view>
 

@@ -9,7 +9,7 @@ namespace strata::tools {
 std::string deflated(std::string_view bytes) {
     uLongf room = ::compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(room, '\0');
-    // It fails for want of memory alone: the room is enough.
+    // compress2 can fail only for lack of memory, because the buffer is large enough.
     if (::compress2(reinterpret_cast<Bytef*>(packed.data()), &room, reinterpret_cast<const Bytef*>(bytes.data()),
                     static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
         throw std::bad_alloc();

@@ -16,10 +16,10 @@ namespace strata::tools {
 
 namespace {
 
-// Text and tables have the rest of the page.
+// Limit for pictures; text and tables get the rest of the 8 MiB of a page.
 constexpr std::size_t most_picture_bytes = std::size_t{6} << 20;
 
-// A name from a file may have a megabyte, and a table may hold it many times.
+// Escapes and shortens text: a name from a file may have a megabyte, and a table may contain it many times.
 std::string element_text(const std::string& text) { return html_text(scenes::shortened(text, 2000)); }
 
 std::string cells_of(const std::vector<std::string>& texts) {

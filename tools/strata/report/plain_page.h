@@ -1,9 +1,9 @@
-// tools/strata/report/plain_page.h - a page of text, tables and pictures in one file, in the report's style: what
-// --report of a command writes.
+// tools/strata/report/plain_page.h - builds an HTML page of text, tables and pictures in one file, for the --report
+// option of commands.
 //
-// Rule     One file of at most 8 MiB that opens from a disk and loads nothing. Headings of tables sort them, by mouse
-//          and by keyboard; the page says all that it has to say without its script. What is left out to stay within 8
-//          MiB stands at the end.
+// Rule     The page is one file of at most 8 MiB, which can be opened from disk and loads no other file. Clicking or
+//          activating a table heading sorts the table; without scripts the page still shows all its contents. Contents
+//          that are left out because of the limit are listed at the end.
 // Tests    tests/tools/plain_page_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <CLI/CLI.hpp>
@@ -21,31 +21,31 @@ class PlainPage {
   public:
     PlainPage(const std::string& title, const std::string& subtitle);
 
-    void sentence(const std::string& text);  // what was found: the first thing that is read
+    void sentence(const std::string& text);  // the main result, at the top
     void heading(const std::string& text);
     void paragraph(const std::string& text);
-    void items(const std::vector<std::string>& texts);  // a list
+    void items(const std::vector<std::string>& texts);  // a list with bullets
     struct Swatch {
         std::array<std::uint8_t, 3> color;  // red, green, blue
         std::string words;
     };
-    void legend(const std::vector<Swatch>& swatches);  // of the picture before it
-    // A bar of colours that lead from one to the next in even steps, and numbers below it, each at its share of the
-    // way.
+    void legend(const std::vector<Swatch>& swatches);  // for the picture before it
+    // A colour bar that interpolates linearly between the given colours, and numbers below it, each at its relative
+    // position.
     struct Mark {
-        double share;  // 0 to 1
+        double share;  // position on the bar, 0 to 1
         std::string words;
     };
     void scale(std::span<const std::array<std::uint8_t, 3>> colors, const std::vector<Mark>& marks);
     void table(const Table& table, const std::string& name);
-    // rgba8. `text` is said to those who do not see it, and stands below it.
+    // An rgba8 picture. `text` is its alternative text for screen readers and its caption.
     void picture(const pipeline::Image& image, const std::string& text);
-    // The same in its own size, however narrow the screen: for a picture with letters in it.
+    // The same at its own size on any screen width, for a picture that contains text.
     void picture_with_letters(const pipeline::Image& image, const std::string& text);
-    // A file's own bytes: .png or .svg.
+    // Embeds the bytes of a .png or .svg file.
     void picture_file(const std::string& path, const std::string& text);
 
-    // The whole page. InputError if even without pictures it is too large.
+    // The whole page. Throws InputError if it exceeds the limit even without pictures.
     [[nodiscard]] std::string html() const;
 
   private:
@@ -54,15 +54,15 @@ class PlainPage {
                      Width width = Width::fits);
 
     std::string title_, subtitle_, body_;
-    std::size_t left_out_ = 0;  // pictures
+    std::size_t left_out_ = 0;  // number of pictures left out
 };
 
-// &, <, > and " as HTML has them; control characters as `printable` has them, but for line ends.
+// Escapes &, <, > and " for HTML, and control characters except line ends as in `printable`.
 [[nodiscard]] std::string html_text(const std::string& text);
 
-// --report FILE.html.
+// Adds the option --report FILE.html.
 void add_report_option(CLI::App& app, std::string& path);
-// For its value, which is empty for none.
+// Writes the page to the option's path; does nothing if that is empty.
 void write_page(const std::string& path, const PlainPage& page);
 
 }  // namespace strata::tools

@@ -1,4 +1,5 @@
-// tools/strata/report/report.cpp - strata report: one page that shows a scene by every algorithm, pixel by pixel.
+// tools/strata/report/report.cpp - strata report: writes one HTML page that shows a scene rendered by every algorithm,
+// pixel by pixel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ struct ReportOptions {
     std::optional<rasterizer::Rect> region;
 };
 
-// What is asked for, which the frame holds; else all of it.
+// The requested region, which must be inside the frame; by default the whole frame.
 rasterizer::Rect region_of(const ReportOptions& options) {
     const int width = options.run.render.width, height = options.run.render.height;
     const rasterizer::Rect region = options.region.value_or(rasterizer::Rect{0, 0, width, height});
@@ -46,7 +47,7 @@ std::string checked_page(const ReportData& data) {
     return page;
 }
 
-// -o names the page, FILE.html, or a folder that gets report.html.
+// The path of the page: -o names FILE.html, or a folder in which report.html is written.
 std::filesystem::path page_of(const std::string& output) {
     return output.ends_with(".html") ? std::filesystem::path(output) : std::filesystem::path(output) / "report.html";
 }
@@ -55,7 +56,7 @@ int report(ReportOptions& command, bool has_size) {
     RunOptions& options = command.run;
     if (!has_size && !command.region) options.render.width = usual_width, options.render.height = usual_height;
     complete(options);
-    options.render.counters = true;  // the page's table names them
+    options.render.counters = true;  // the page's table shows them
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the page, FILE.html, or a folder for it");
     const rasterizer::Rect region = region_of(command);
     const std::filesystem::path path = page_of(options.output);

@@ -18,15 +18,16 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Of the page's bytes: fragments, with 30 bytes each of which about 20 are left, and whole histories.
+// Limits of a page: the number of its fragments, 30 bytes each of which about 20 remain after packing, and the packed
+// bytes of its whole histories.
 constexpr std::size_t most_fragments = 150'000, most_history_bytes = std::size_t{5} << 19;
-// Lines of histories that are held at once, a kilobyte each.
+// Limit of lines of histories that are in memory at once, about a kilobyte each.
 constexpr std::size_t most_lines = 150'000;
 
 struct Kept {
-    std::uint32_t nearest = 0;                  // of every pixel that has as many
-    std::vector<std::uint32_t> fragments{};     // their numbers in the columns
-    std::vector<std::uint16_t> count{}, all{};  // of each pixel: kept, and all
+    std::uint32_t nearest = 0;                  // of every pixel that has at least that many
+    std::vector<std::uint32_t> fragments{};     // their indices in the columns
+    std::vector<std::uint16_t> count{}, all{};  // per pixel: kept fragments, and all
 };
 
 std::size_t number_with(const Columns& columns, std::uint32_t nearest) {
@@ -36,7 +37,7 @@ std::size_t number_with(const Columns& columns, std::uint32_t nearest) {
     return number;
 }
 
-// The nearest fragments of every pixel, as many as there is room for.
+// Keeps the nearest fragments of every pixel, as many as the limit allows.
 Kept keep(const Columns& columns) {
     Kept kept;
     for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel)
@@ -75,7 +76,7 @@ ordered_json fragments_of(const Columns& columns, const Kept& kept, Blobs& blobs
     return document;
 }
 
-// Which meshes the numbers of triangles belong to, in the order of submission.
+// The names of the meshes that are peeled, each with the index of its first triangle in submission order.
 ordered_json meshes_of(const RunOptions& options, const pipeline::DrawList& list) {
     ordered_json meshes = ordered_json::array();
     std::uint64_t first = 0;
@@ -90,7 +91,7 @@ ordered_json meshes_of(const RunOptions& options, const pipeline::DrawList& list
     return meshes;
 }
 
-// The pixels of a part of the frame.
+// The pixels of a rectangle of the frame.
 pipeline::Image cropped(const pipeline::Image& image, const rasterizer::Rect& region) {
     pipeline::Image part{image.format, region.width(), region.height()};
     for (int y = 0; y < part.height; ++y)
@@ -154,7 +155,8 @@ class Builder {
 
     void leave_out(const std::string& sentence) { data_.document["left_out"].push_back(sentence); }
 
-    // By the A-buffer, which every device runs: all fragments, with exact depth in the device's depth format.
+    // Collects all fragments with the A-buffer, which every profile can run; depths are exact, in the profile's depth
+    // format.
     void add_fragments() {
         frame_ = columns_of(
             renderer_.fragments(*peeling::find_algorithm("a_buffer")).all,
@@ -169,7 +171,7 @@ class Builder {
                 columns_.fragments.size(), kept_.nearest, columns_.fragments.size() - kept_.fragments.size()));
     }
 
-    // The region's fragments, and the number that each has in the frame.
+    // Copies the region's fragments, with their indices in the frame.
     void take_region() {
         columns_.first = {0};
         for_region([&](std::size_t pixel) {
@@ -182,7 +184,7 @@ class Builder {
         });
     }
 
-    // visit(number of the pixel in the frame), row by row.
+    // Calls visit(index of the pixel in the frame) row by row.
     void for_region(const auto& visit) const {
         for (int y = region_.y0; y < region_.y1; ++y)
             for (int x = region_.x0; x < region_.x1; ++x)
@@ -205,7 +207,7 @@ class Builder {
         entry["stats"] = to_row(
             {&algorithm, result, pipeline::digest(result.frame.color), ""},
             {.profile = session_.profile.name, .width = options_.render.width, .height = options_.render.height});
-        entry["stats"].erase("seconds");  // the same command gives the same bytes
+        entry["stats"].erase("seconds");  // so that the same command writes the same bytes
         entry["picture"] =
             picture_of(cropped(result.frame.color, region_), pipeline::digest(result.frame.color), data_.blobs);
         if (!algorithm.is_oracle) add_survey(algorithm, entry);
@@ -223,14 +225,14 @@ class Builder {
                 of_kept<std::uint16_t>(kept_, [&](std::uint32_t f) { return found.taken[in_frame_[f]]; }));
     }
 
-    // x and y within the region, here and below.
+    // In this function and the following ones x and y are relative to the region.
     [[nodiscard]] std::uint32_t count_at(int x, int y) const {
         const auto pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(region_.width()) + static_cast<std::size_t>(x);
         return columns_.first[pixel + 1] - columns_.first[pixel];
     }
 
-    // Where there are fragments.
+    // The bounding rectangle of the pixels that have fragments.
     [[nodiscard]] rasterizer::Rect drawn() const {
         rasterizer::Rect box{region_.width(), region_.height(), 0, 0};
         for (int y = 0; y < region_.height(); ++y)
@@ -257,7 +259,7 @@ class Builder {
         }
     }
 
-    // Whole histories of a rectangle in the middle of what is drawn, as large as there is room for.
+    // Adds whole histories for a rectangle in the middle of the pixels with fragments, as large as the limit allows.
     void add_history(const peeling::Algorithm& algorithm) {
         std::size_t passes = 1;
         for (const ordered_json& entry : data_.document["algorithms"])
@@ -296,10 +298,11 @@ class Builder {
     rasterizer::Rect region_;
     peeling::Renderer renderer_;
     ReportData data_;
-    Columns frame_, columns_;              // of the whole frame, and of the region
-    std::vector<std::uint32_t> in_frame_;  // the number of each of the region's fragments among the frame's
+    Columns frame_, columns_;              // of the whole frame; of the region
+    std::vector<std::uint32_t> in_frame_;  // index in `frame_` of each fragment of the region
     Kept kept_;
-    const peeling::Algorithm* inspected_ = nullptr;  // dual where it runs, else the first that does
+    const peeling::Algorithm* inspected_ =
+        nullptr;  // dual if the profile can run it, else the first algorithm that it can run
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
-// tools/strata/report/report_data.h - everything that a page shows of a scene: a JSON document, and the blobs that it
-// points at.
+// tools/strata/report/report_data.h - collects the contents of a report page: a JSON document, and the blobs that it
+// refers to.
 //
-// Rule     The page holds at most `most_bytes`. What does not fit is left out, and `left_out` says what: fragments
-//          behind the nearest K of every pixel; whole histories outside a rectangle. Pictures are always whole.
+// Rule     The page has at most `most_bytes`. Contents that exceed it are left out and listed in `left_out`: fragments
+//          behind the nearest K of every pixel; whole histories outside a rectangle. Pictures are always complete.
 // Tests    tests/tools/report_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -17,10 +17,10 @@ inline constexpr std::size_t most_bytes = std::size_t{8} << 20;
 struct ReportData {
     nlohmann::ordered_json document;
     Blobs blobs;
-    bool has_run = false;  // at least one algorithm did
+    bool has_run = false;  // at least one algorithm was not refused
 };
 
-// Of these pixels of the frame. Counts and statistics are the whole frame's.
+// The data of the pixels in `region`. Counts and statistics are those of the whole frame.
 [[nodiscard]] ReportData report_data(const RunOptions& options, const Session& session, const rasterizer::Rect& region);
 
 }  // namespace strata::tools

@@ -6,7 +6,7 @@ namespace strata::tools {
 
 namespace {
 
-// The page has each mark once.
+// Replaces a placeholder, which occurs exactly once in the page.
 void put(std::string& page, std::string_view mark, std::string_view text) {
     page.replace(page.find(mark), mark.size(), text);
 }

@@ -1,4 +1,4 @@
-// tools/strata/report/report_page.h - the page itself: style, script and data in one file that needs nothing else.
+// tools/strata/report/report_page.h - assembles the report page: style, script and data in one self-contained file.
 #pragma once
 #include <string>
 
@@ -8,10 +8,10 @@ namespace strata::tools {
 
 [[nodiscard]] std::string report_page(const ReportData& data);
 
-// The page of a command's run in a file; of a frame of more than 256x256 pixels its middle.
+// Writes the page of a command to a file; of a frame over 256 x 256 pixels it shows the middle.
 void write_report(RunOptions& options, const std::string& path);
 
-// JSON that no "</script>" within a name can end.
+// JSON in which "</script>" within a name is escaped, so it cannot end the script element.
 [[nodiscard]] std::string script_safe(const nlohmann::ordered_json& document);
 
 }  // namespace strata::tools

@@ -36,7 +36,7 @@ class Observing {
         is_in_pass_ = false;
     }
 
-    // Lanes that the stage before left over and this one did not.
+    // Counts the lanes that were alive before this stage and are not after it.
     void stage(const pipeline::StageEvent& event) {
         if (!event.is_counted) return;
         is_in_pass_ = true;
@@ -54,7 +54,7 @@ class Observing {
         }
     }
 
-    // A step that is taken down behind its pass belongs to it.
+    // A step that is recorded after its pass belongs to that pass.
     void traced(const pipeline::TraceEntry& entry) {
         survey_.has_taken = true;
         const int pass = is_in_pass_ ? pass_ : pass_ - 1;
@@ -77,7 +77,7 @@ class Observing {
     }
 
   private:
-    // By the algorithm's own depth path, which need not be that of the columns.
+    // Records each fragment's key in the algorithm's own depth path, which may differ from that of `columns_`.
     void note_keys(const rasterizer::FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
             const std::uint32_t pixel = shown_.pixel(batch.pixel[i]);
@@ -97,7 +97,8 @@ class Observing {
             case Stage::program: return Fate::discarded;
             case Stage::alpha_test: return Fate::alpha_killed;
             case Stage::depth_units: return Fate::depth_unit_killed;
-            // The map does not tell the two tests apart where both are on: the depth test stands for them.
+            // If both tests are on, the event does not say which one rejected the fragment: it is counted for the depth
+            // test.
             case Stage::tests:
                 return event.state.stencil.enabled && !event.state.depth.enabled ? Fate::stencil_killed
                                                                                  : Fate::depth_killed;
@@ -110,13 +111,13 @@ class Observing {
     const Columns& columns_;
     const peeling::AsShown shown_;
     std::vector<std::array<std::uint32_t, fates>> killed_;
-    std::vector<std::uint32_t> keys_;     // of each fragment, as traces know it
-    std::vector<std::uint8_t> is_known_;  // whether its key is
+    std::vector<std::uint32_t> keys_;     // per fragment, as in trace entries
+    std::vector<std::uint8_t> is_known_;  // per fragment: 1 if its key is known
     std::size_t keys_left_ = 0;
     std::array<std::uint8_t, rasterizer::batch_capacity> before_{};
     Survey survey_;
     int pass_ = 0;
-    bool is_in_pass_ = false;  // a batch has come since the last step
+    bool is_in_pass_ = false;  // true if a batch has come since the last step
 };
 
 }  // namespace
@@ -125,7 +126,7 @@ Columns columns_of(std::vector<pipeline::CapturedFragment> fragments, std::size_
     Columns columns;
     std::vector<std::uint32_t> order(fragments.size());
     std::iota(order.begin(), order.end(), std::uint32_t{0});
-    // Floats between 0 and 1 and their negatives: compared as numbers.
+    // Depths are floats in [-1, 1], compared as numbers.
     std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
         const auto &x = fragments[a], &y = fragments[b];
         return x.pixel != y.pixel ? x.pixel < y.pixel : x.shader_z < y.shader_z;
