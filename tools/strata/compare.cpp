@@ -171,8 +171,8 @@ int compare(const CompareOptions& options) {
 // reference.
 void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pictures, CompareOptions& options) {
     if (app.count("--background") > 0) {
-        const pipeline::Rgba& color =
-            *options.run.background;  // in the same colour space and alpha form as the reference's values
+        // In the same colour space and alpha form as the reference's values.
+        const pipeline::Rgba& color = *options.run.background;
         options.background = {color[0], color[1], color[2]};
         if (color[3] < 1) options.background.push_back(color[3]);
     }

@@ -1,5 +1,5 @@
-// tools/oracle/verdict/account.h - what is said of a picture: a structure under a hypothesis, and how it fares at every
-// pixel.
+// tools/oracle/verdict/account.h - an explanation of a picture (which layers are composited, and how they are rounded),
+// and how well it fits every pixel.
 //
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
@@ -11,33 +11,34 @@
 
 namespace strata::oracle::verdict {
 
-// A structure and how it is rounded; no rules: the right structure.
+// A structure with a hypothesis about rounding. Without rules it is the right structure.
 struct Account {
     std::vector<Rule> rules{};  // applied one after the other
     Hypothesis hypothesis{};
 };
 
-// All pixels of a picture by one account.
+// The result of checking one account against all pixels of a picture.
 struct Checked {
     Account account{};
-    std::uint64_t pixels = 0, covered = 0;  // covered: by a visible fragment
+    std::uint64_t pixels = 0, covered = 0;  // covered: those with a visible fragment
     Ties ties{};
-    bool has_one_tie_rule = true;  // false: fragments at one depth come in an order that changes from pixel to pixel
-    std::uint64_t tied = 0;        // pixels whose ties show
-    std::uint64_t at_edges = 0;    // pixels that are as a rasterizer may have them that snaps otherwise
-    std::uint64_t changed = 0;     // pixels whose structure is not the right one
-    std::uint64_t undecided = 0;   // of these, pixels that the right structure may leave, too
-    // Codes (of floats: parts of 255) by which a pixel is off the structure's exact result, and could be.
+    bool has_one_tie_rule = true;  // false: no single rule for fragments of equal depth fits all pixels
+    std::uint64_t tied = 0;        // pixels whose value depends on the rule for equal depths
+    std::uint64_t at_edges = 0;    // pixels that only a rasterizer with other snapping or another tie rule can have
+    std::uint64_t changed = 0;     // pixels whose structure differs from the right one
+    std::uint64_t undecided = 0;   // of these, pixels whose value the right structure also reaches
+    // Distance from the structure's exact result, in codes (floats: in 1/255): the largest in the picture, and the
+    // largest that the hypothesis allows.
     double observed = 0, possible = 0;
-    double bits = 0;                            // of pixels that are not wrong
+    double bits = 0;                            // sum over the pixels that are not wrong (pricing.h)
     std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
     [[nodiscard]] bool is_whole() const noexcept { return wrong_pixels.empty(); }
 };
-// Rules that explain a part of the wrong pixels.
+// Rules that explain only some of the wrong pixels.
 struct Lead {
     std::vector<Rule> rules{};
-    std::uint64_t explained = 0, of = 0;        // wrong pixels, of those that were looked at
-    std::uint64_t contradicted = 0, right = 0;  // right pixels that speak against it, of those that were looked at
+    std::uint64_t explained = 0, of = 0;        // wrong pixels, of those that were examined
+    std::uint64_t contradicted = 0, right = 0;  // right pixels that the rules would make wrong, of those examined
 };
 
 }  // namespace strata::oracle::verdict

@@ -1,4 +1,4 @@
-// tools/oracle/verdict/check.cpp - a structure under a hypothesis held against every pixel of a picture.
+// tools/oracle/verdict/check.cpp - checks an account (account.h) against every pixel of a picture.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -29,7 +29,7 @@ double levels_of(Storage storage) noexcept {
     return storage == Storage::unorm10 ? 1023 : storage == Storage::unorm16 ? 65535 : 255;
 }
 
-// How far a pixel is off the exact result, and could be.
+// Updates the largest distance of a pixel from the exact result, and the largest that its interval allows.
 void measure(const Stack& stack, const Reach& reach, const std::array<double, 4>& value, Storage storage,
              Checked& found) {
     const std::array<double, 3> truth = exact(stack);
@@ -45,10 +45,11 @@ void measure(const Stack& stack, const Reach& reach, const std::array<double, 4>
     }
 }
 
-// Of a tile's pixels that are wrong or at edges: the next choice has to reckon with them.
+// Limit per tile of the wrong pixels and pixels at edges that are returned as examples, from which the next hypothesis
+// is chosen.
 constexpr std::size_t most_examples = 64;
 
-// A tile's part of the picture.
+// The result for one tile.
 struct PartChecked {
     Checked checked{};
     TieMask everywhere = all_ties;
@@ -73,7 +74,7 @@ class Checker {
     }
 
   private:
-    static constexpr std::size_t enough_wrong = 16;  // of a tile, to drop the account
+    static constexpr std::size_t enough_wrong = 16;  // wrong pixels of a tile that suffice to reject the account
 
     void look_at(const PixelList& list, StackMaker& maker, PartChecked& part) const {
         const auto value = candidate_.at(list.x, list.y);
@@ -99,7 +100,7 @@ class Checker {
         if (account_.rules.empty()) return;
         Stack own = stack;
         const Stack& right = maker.right(way.list, way.ties);
-        own.near = right.near;  // the division of a peel is no change of the structure
+        own.near = right.near;  // the position of a peel's division is not part of the structure
         own.near_without_middle = right.near_without_middle;
         own.is_moved = false;
         if (own == right || (own.mixing != right.mixing && compositor_.reach(own) == compositor_.reach(right))) return;
@@ -152,7 +153,7 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
 
 std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
                                    const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely) {
-    constexpr int most_tries = 3;  // of one that another rasterizer has to help
+    constexpr int most_tries = 3;  // of accounts that need pixels at edges
     constexpr std::size_t most_added = 200;
     std::optional<Checked> best;
     for (int helped = 0; helped < most_tries;) {

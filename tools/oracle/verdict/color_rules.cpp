@@ -1,5 +1,5 @@
-// tools/oracle/verdict/color_rules.cpp - rules that change layers' colours, add them up, or change what lies behind
-// them.
+// tools/oracle/verdict/color_rules.cpp - the rules (rule.h) that change the colours of layers, sum layers, or change
+// the background.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// Of a weighted average by rule.n: how a fragment's straight colour counts. 0 and 1: Bavoil and Myers 2008; 2: Mol*
-// 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and without; 5: their
-// equation 9 of window depths; 6: LearnOpenGL, Weighted, Blended.
+// The weight of a fragment's straight colour in a weighted average, by rule.n. 0 and 1: Bavoil and Myers 2008; 2: Mol*
+// 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, times alpha and not; 5: their equation 9
+// with window depths; 6: LearnOpenGL, Weighted, Blended.
 float within(float weight) noexcept { return std::min(std::max(weight, 0.01f), 3000.0f); }
 float power(float x, int n) noexcept { return n == 1 ? x : x * power(x, n - 1); }
 float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {
@@ -35,31 +35,31 @@ Rgba with_each(const Rgba& color, float (*change)(float)) {
 
 }  // namespace
 
-// All layers become one that hides the background's own share, or is composited as a whole.
+// Composites all layers over nothing and makes the result one layer, whose alpha is applied again over the background.
 void StackMaker::combine_with_background(const Rule& rule) {
     if (items_.empty()) return;
     if (rule.kind == RuleKind::composed_twice) {
-        Rgba sum{0, 0, 0, 1};  // alpha: what is let through
+        Rgba sum{0, 0, 0, 1};  // alpha: the transmittance
         for (const Item& item : items_) {
             const Rgba& color = item.layer.color;
             for (std::size_t c = 0; c < 3; ++c) sum[c] += sum[3] * color[3] * color[c];
             sum[3] *= 1 - color[3];
         }
         sum[3] = 1 - sum[3];
-        // It was rounded on the way, perhaps to codes.
+        // A port has rounded this sum, perhaps to 8-bit codes.
         items_[0].layer = {.color = sum, .slack = 1.0f / 255};
         return keep(0, 1);
     }
 }
 
-// All layers, or those behind the nearest n, become one.
+// Combines all layers, or those behind the nearest n, into one.
 void StackMaker::combine(const Rule& rule) {
     combine_with_background(rule);
     const bool averages = rule.kind == RuleKind::averaged || rule.kind == RuleKind::rest_averaged;
     if (!averages && rule.kind != RuleKind::added && rule.kind != RuleKind::weighted_sum) return;
     const std::size_t from = rule.kind == RuleKind::rest_averaged ? rule.n : 0;
     if (from >= items_.size()) return;
-    // An average of one is that one.
+    // The average of one layer is that layer.
     if (averages && items_.size() - from == 1) return;
     const std::uint32_t weights = rule.kind == RuleKind::averaged ? rule.n : rule.value == 0 ? 1 : 0;
     Rgba sum{0, 0, 0, 0};
@@ -79,7 +79,7 @@ void StackMaker::combine(const Rule& rule) {
     if (averages) {
         one.is_premultiplied = false;
         for (std::size_t c = 0; c < 3; ++c) one.color[c] = all_weights > 0 ? sum[c] / all_weights : 0;
-        float same = 1;  // what as many fragments of the mean alpha let through
+        float same = 1;  // transmittance of as many fragments with the mean alpha
         for (float i = 0; i < count; ++i) same *= 1 - sum[3] / count;
         one.color[3] = 1 - (weights == 0 ? same : through);
     }

@@ -9,9 +9,9 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-constexpr double single_error = 0x1p-22;  // of a blend's terms (composite.h, Numbers)
-constexpr double last_places = 0x1p-20;   // by which interpolation over other positions is off at least
-constexpr double srgb_error = 0x1p-21;    // of an encoding in binary32
+constexpr double single_error = 0x1p-22;  // relative to the terms of a blend (composite.h, Numbers)
+constexpr double last_places = 0x1p-20;   // least error of interpolation from moved positions
+constexpr double srgb_error = 0x1p-21;    // of sRGB encoding in binary32
 
 double scale_of(Storage storage) noexcept {
     switch (storage) {
@@ -24,7 +24,7 @@ double scale_of(Storage storage) noexcept {
     return 0;
 }
 
-// Of an accumulator of so few bits: rounded like the hypothesis' own.
+// The rounding of an accumulator with only `bits` bits, with the rounding mode of the hypothesis.
 Keeper few_bits(std::uint8_t bits, Rounding rounding) noexcept {
     Keeper k{.scale = std::exp2(bits) - 1};
     k.inverse = 1 / k.scale;
@@ -35,7 +35,7 @@ Keeper few_bits(std::uint8_t bits, Rounding rounding) noexcept {
     return k;
 }
 
-// Whether operands of a blend are codes, so that its exact result is a whole number over scale^2.
+// True if the operands of a blend are codes, so that its exact result is a whole number over scale^2.
 bool has_stored_source(Source source) noexcept {
     return source == Source::stored || source == Source::stored_either_way || source == Source::premultiplied ||
            source == Source::premultiplied_either_way || source == Source::premultiplied_cut;
@@ -49,12 +49,12 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
         const bool cuts = rounding != Rounding::nearest && rounding != Rounding::held;
         k.relative = storage == Storage::half ? (cuts ? 0x1p-10 : 0x1p-11) : (cuts ? 0x1p-23 : 0x1p-24);
         k.relative += single_error;
-        k.least = storage == Storage::half ? 0x1p-24 : 0x1p-120;  // subnormals, flushed or not
+        k.least = storage == Storage::half ? 0x1p-24 : 0x1p-120;  // covers subnormals, flushed or not
         return k;
     }
     k.inverse = 1 / k.scale;
-    // A quotient of codes is off by less than half of the least distance of two of them; a blend in binary32 by its
-    // error.
+    // The error of a quotient of codes is less than half of the least distance between two such quotients; that of a
+    // blend in binary32 is single_error.
     const double error = operands_are_codes ? 0x1p-30 : k.scale * single_error;
     switch (rounding) {
         case Rounding::nearest: k.minus = k.plus = 0.5 + error; break;
@@ -64,7 +64,7 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
             k.snaps = false;
             break;
         case Rounding::any:
-            k.minus = k.plus = 2 * (0.5 + 1.0 / 64 + error);  // as much as two products
+            k.minus = k.plus = 2 * (0.5 + 1.0 / 64 + error);  // as for two rounded products
             k.snaps = false;
             break;
         case Rounding::cut:
@@ -76,7 +76,7 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
     return k;
 }
 
-// What a shader's result is stored by: rounded once.
+// The rounding of a shader's result when it is stored: once.
 Keeper storing(const End& result) {
     Keeper k = keeper(result.storage, result.rounding, false);
     const bool is_known = result.rounding == Rounding::nearest || result.rounding == Rounding::cut;
@@ -86,7 +86,7 @@ Keeper storing(const End& result) {
     return k;
 }
 
-// A colour that becomes a code: halves go up, or may go either way.
+// The rounding of a colour that is converted to a code: ties go up, or in either direction.
 Keeper conversion(Storage storage, Source source) {
     if (source == Source::any) return keeper(storage, Rounding::any, false);
     if (source == Source::premultiplied_cut) return keeper(storage, Rounding::cut, false);
@@ -98,7 +98,8 @@ Interval clamped(Interval x) noexcept {
     return {std::min(std::max(x.low, 0.0), 1.0), std::min(std::max(x.high, 0.0), 1.0)};
 }
 
-// A code's value: halves up, as `stored` has it. Both ends of the interval are the same code if those of `exact` are.
+// The value of the code to which `exact` is rounded, ties up, as for Source::stored. The interval is a single code if
+// both of its ends round to that code.
 Interval stored_up(const Keeper& keeper, Interval exact) noexcept {
     const auto code = [&](double v) {
         return std::min(std::max(Keeper::floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) * keeper.inverse;
@@ -115,7 +116,7 @@ Interval decoded(Interval encoded) noexcept {
     return {at(encoded.low) - srgb_error, at(encoded.high) + srgb_error};
 }
 
-// Codes of an sRGB target are those of encoded colours; floats are kept as they are.
+// sRGB targets round the encoded colour to a code; float targets store linear values.
 Interval kept_by(const Keeper& keeper, Interval exact, double magnitude, bool is_linear) noexcept {
     if (!is_linear || !keeper.has_codes) return keeper.kept(exact, magnitude);
     return decoded(keeper.kept(encoded(exact), magnitude));
@@ -128,8 +129,8 @@ Compositor::Means Compositor::means_of(const End& end, double slack) {
     m.source = conversion(end.storage, end.source);
     m.blend = keeper(end.storage, end.rounding, has_stored_source(end.source));
     m.weight = m.blend;
-    // UNDER multiplies three codes where its sources are straight; and what is let through may be kept as coverage,
-    // which is cut the other way.
+    // UNDER multiplies three codes if its sources are straight. Its transmittance may be stored as coverage, which
+    // truncation rounds in the opposite direction.
     const bool has_three = end.source == Source::stored || end.source == Source::stored_either_way;
     m.under = keeper(end.storage, end.rounding, has_stored_source(end.source) && !has_three);
     if (m.weight.cuts) m.weight = keeper(end.storage, Rounding::nearest, false), m.weight.minus = m.weight.plus = 1;
@@ -171,7 +172,7 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
             o.color[c] = stored(color);
             continue;
         }
-        // The product is rounded to binary32 first; without slack it is known to the bit.
+        // The product is first rounded to binary32; without slack that product is known exactly.
         Interval product = color * alpha;
         if (slack == 0 && source == Source::premultiplied) {
             const float clamped_color = has_codes ? std::min(std::max(layer.color[c], 0.0f), 1.0f) : layer.color[c];
@@ -193,7 +194,7 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     const Keeper weight = has_few_bits ? few_bits(mixing.weight_bits, means.end.rounding) : means.weight;
     Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(mixing.first_through)};
     if (mixing.first_through != 1) {
-        const Interval kept = means.weight.kept(sum[3], 1);  // as a clear value it is, as a factor it need not be
+        const Interval kept = means.weight.kept(sum[3], 1);  // rounded if it is a clear value, not if it is a factor
         sum[3] = {std::min(sum[3].low, kept.low), std::max(sum[3].high, kept.high)};
     }
     const bool may_be_rounded = means.end.source == Source::any;
@@ -202,13 +203,13 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
         const Interval through = mixing.attenuates ? sum[3] : Interval::of(1);
         for (std::size_t c = 0; c < 3; ++c) {
             Interval premultiplied = o.is_premultiplied ? o.color[c] : o.color[c] * o.alpha;
-            // A product that may be stored as a layer on the way.
+            // A port may store this product as a layer before it is blended.
             if (may_be_rounded) premultiplied = means.source.kept(premultiplied, premultiplied.magnitude());
             Interval added = through * premultiplied;
             if (means.end.rounding == Rounding::products) added = means.under.kept(added, added.magnitude());
             sum[c] = kept_by(color, sum[c] + added, sum[c].magnitude() + added.magnitude(), is_linear);
         }
-        // It may be kept as coverage, 1 - t, whose error is one of 1.
+        // The transmittance may be stored as coverage, 1 - t, so its error is relative to 1.
         Interval left = sum[3] * rest_of(mixing.through == Mixing::Through::squared ? o.alpha * o.alpha : o.alpha);
         if (mixing.through == Mixing::Through::summed)
             left = {below(sum[3].low - o.alpha.high), above(sum[3].high - o.alpha.low)};
@@ -266,7 +267,8 @@ Compositor::Channels Compositor::background_of(const Means& means, const Stack& 
             channels[c] = stored_up(means.source, clamped(x));
         else
             channels[c] = means.source.kept(clamped(x), 1);
-        if (source == Source::premultiplied_cut && means.blend.has_codes)  // a clear value is rounded, a picture is cut
+        // A clear value is rounded, a picture is truncated.
+        if (source == Source::premultiplied_cut && means.blend.has_codes)
             channels[c].high = std::max(channels[c].high,
                                         stored_up(keeper(means.end.storage, Rounding::nearest, true), clamped(x)).high);
     }
@@ -297,7 +299,8 @@ Sums Compositor::sums_of(const Stack& stack, const Channels& front, Interval wei
 
 bool Compositor::can_mix(const Stack& stack) const noexcept {
     Mixing mixing = stack.mixing;
-    if (hypothesis_.order == Order::over) mixing.through = Mixing::Through::product;  // squared: of both
+    // `over` also supports alpha squared in both factors.
+    if (hypothesis_.order == Order::over) mixing.through = Mixing::Through::product;
     return has_front(hypothesis_.order) || (mixing == Mixing{} && stack.mixing.through != Mixing::Through::summed);
 }
 
@@ -321,7 +324,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
         if (c < 3 && stack.finish == Finish::decoded) return result_.kept(decoded(clamped(exact)), magnitude);
         return result_.kept(stack.is_linear && c < 3 ? encoded(exact) : exact, magnitude);
     };
-    // What is let through may be read as 1 less the coverage, which is off by half a unit in the last place of 1 each
+    // A port may compute the transmittance as 1 - coverage, with an error of half a unit in the last place of 1 each
     // time.
     const auto read = [&](Interval through) { return result_.has_codes ? through : through.widened(0x1p-23); };
     const bool converts = converts_ || stack.finish != Finish::as_is;
@@ -359,7 +362,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
         if (mixing.picture_too) exact = few_bits(mixing.color_bits, front_.end.rounding).kept(exact, 1);
         reach[c] = published(c, exact, front[c].magnitude() + added.magnitude());
     }
-    // Alpha is 1 less what is let through, and the background's share of that.
+    // Alpha is 1 - transmittance, plus the transmittance times the alpha behind it.
     const Interval alpha = mixed(front[3], back[3], Interval::of(1));
     reach[3] = published(3, alpha, 1);
     return reach;

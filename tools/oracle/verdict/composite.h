@@ -1,15 +1,15 @@
-// tools/oracle/verdict/composite.h - the values that a pixel can have if a list of layers is composited as a hypothesis
-// says.
+// tools/oracle/verdict/composite.h - computes the interval of values that a pixel can have if a list of layers is
+// composited under a rounding hypothesis.
 //
-// Rule     `reach` holds every result of every implementation that the hypothesis describes: sources, blends and
-//          conversions take all values that their rounding allows, colours and alpha all within the slack. Channels are
-//          bounded one by one.
-// Numbers  Intervals of binary64 with outward rounding (interval.h). Blends in binary32 are off by at most 2^-22 of the
-//          sum of their terms: at most five operations, 2^-24 each. Codes are whole numbers times 1 / (2^n - 1),
-//          rounded once.
+// Rule     `reach` contains every result of every implementation that the hypothesis describes: sources, blends and
+//          conversions may have any value that their rounding allows, and colours and alphas any value within the
+//          slack. Each channel is bounded independently.
+// Numbers  Intervals of binary64 with outward rounding (interval.h). Blends in binary32 have an error of at most 2^-22
+//          of the sum of their terms: at most five operations with 2^-24 each. Codes are whole numbers times 1 / (2^n -
+//          1), rounded once.
 // Source   GL 4.6 17.3.6; fragment-stages.md 8 and 9; algorithms.md 4 (UNDER), 5 (both ends).
-// Tests    tests/tools/oracle/verdict/composite_test.cpp: every 8-bit source and target of one layer and of two; random
-//          lists by a model of each rounding
+// Tests    tests/tools/oracle/verdict/composite_test.cpp: all pairs of 8-bit source and target for one layer and for
+//          two; random lists against a model of each rounding
 #pragma once
 #include <array>
 #include <cmath>
@@ -25,63 +25,65 @@ namespace strata::oracle::verdict {
 
 struct Layer {
     Rgba color{};                   // straight, alpha within [0, 1]
-    bool is_premultiplied = false;  // colours are times alpha already, or stand for a sum; alpha may be anything
-    float slack = 0;                // beside the hypothesis' own: of colours that come out of sums
-    float spread = 0;               // the same, where the stack is moved, beside some units in the last place
+    bool is_premultiplied = false;  // colours are multiplied by alpha already, or are a sum; alpha is arbitrary
+    float slack = 0;                // error in addition to the hypothesis' slack, for colours that are sums
+    float spread = 0;               // further error if the stack is moved, in addition to a few units in the last place
     friend bool operator==(const Layer&, const Layer&) = default;
 };
 
-// What becomes of a finished picture's colours before they are stored.
+// The conversion of a finished picture's colours before they are stored.
 enum class Finish : std::uint8_t { as_is, encoded, decoded };
 
-// How a port blends beside what a hypothesis says: the defaults are right.
+// Deviations of a port's blending that a hypothesis does not describe. The defaults are correct.
 struct Mixing {
     enum class Through : std::uint8_t {
         product,
         squared,
         summed
-    };                                                           // of 1 - alpha; of 1 - alpha^2; 1 - the sum of alphas
-    enum class Behind : std::uint8_t { once, twice, inverted };  // how what is let through weighs what lies behind
+    };  // product of 1 - alpha; product of 1 - alpha^2; 1 - sum of alphas
+    // The back's factor: the front's transmittance t, t^2, or 1 - t.
+    enum class Behind : std::uint8_t { once, twice, inverted };
     float first_through = 1;
     Through through = Through::product;
     Behind behind = Behind::once;
-    bool attenuates = true;  // layers by what those before them let through
-    // Bits of the front accumulator's colours and of what is let through; 0: as the hypothesis says.
+    bool attenuates = true;  // false: layers are added without the transmittance of the layers before them
+    // Bits of the front accumulator's colours and of its transmittance; 0: as in the hypothesis.
     std::uint8_t color_bits = 0, weight_bits = 0;
-    bool picture_too = false;  // the finished picture has passed through as few
+    bool picture_too = false;  // the finished picture also has only color_bits
     friend bool operator==(const Mixing&, const Mixing&) = default;
 };
 
-// A pixel's layers, near to far, over its background.
+// The layers of a pixel, near to far, and its background.
 struct Stack {
     std::vector<Layer> layers{};
     Rgba background{};
     float background_spread = 0;
-    // Of peels from both ends: how many layers the near half of the depths has, with the middle depth and without it.
+    // For peels from both ends: the number of layers in the near half of the depths, including the middle depth and
+    // excluding it.
     std::size_t near = 0, near_without_middle = 0;
-    bool is_linear = false;  // colours are in linear light, and what is kept is encoded to sRGB
+    bool is_linear = false;  // colours are linear, and stored values are encoded as sRGB
     Finish finish = Finish::as_is;
     Mixing mixing{};
-    bool is_moved = false;  // positions are snapped otherwise: colours are off by their spreads, too
+    bool is_moved = false;  // positions are snapped differently, so colours have their spreads as errors
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 
-// Where a picture of floats is put together of what accumulators keep in codes, it has no other values than front +
-// weight * back of these.
+// The exact set of values of a float picture that is computed from accumulators of codes: only front + weight * back of
+// such codes is possible.
 struct Sums {
     double front_unit = 0,
-           back_unit = 0;  // of a code; of the back 0 where it is a float. No front unit: nothing is known
+           back_unit = 0;  // the step of the codes; 0 for a back of floats. front_unit 0: the set is not known
     bool is_back_half = false;
     std::array<Interval, 3> front{}, back{};
     Interval weight{};
-    double relative = 0;  // by which a sum is off, of its terms
+    double relative = 0;  // error of a sum, relative to its terms
     friend bool operator==(const Sums&, const Sums&) = default;
     [[nodiscard]] bool hold(const std::array<double, 4>& value) const noexcept;
-    [[nodiscard]] double count() const noexcept;         // how many there are, floats aside
-    [[nodiscard]] std::size_t weights() const noexcept;  // that `hold` tries; 0: nothing is known
+    [[nodiscard]] double count() const noexcept;         // number of such sums, not counting floats
+    [[nodiscard]] std::size_t weights() const noexcept;  // number of weights that `hold` tries; 0: the set is not known
 };
 
-// Red, green, blue and alpha of the finished pixel, as values (not codes) of the result's storage.
+// The possible red, green, blue and alpha of the finished pixel, as values (not codes) in the result's storage.
 struct Reach {
     std::array<Interval, 4> channels{};
     Sums sums{};
@@ -89,21 +91,20 @@ struct Reach {
     [[nodiscard]] const Interval& operator[](std::size_t c) const noexcept { return channels[c]; }
     friend bool operator==(const Reach&, const Reach&) = default;
 };
-// Whether the pixel can have this colour; alpha aside.
+// True if the pixel can have this colour; alpha is not compared.
 [[nodiscard]] bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept;
 
-// How a storage rounds what it gets: a hypothesis' rounding turned into numbers once.
+// The rounding of a value that is stored, as numbers derived once from a hypothesis.
 struct Keeper {
     bool has_codes = true;  // false: a float
     double scale = 255, inverse = 1.0 / 255;
-    double minus = 0, plus = 0;  // codes: how far a stored one may lie below and above the exact result
-    bool snaps = true;           // false: codes are not all that may be kept
+    double minus = 0, plus = 0;  // codes: largest distance of the stored value below and above the exact result
+    bool snaps = true;           // false: values between codes are possible
     double cut_low = 0, cut_high = 0;
-    bool cuts = false;               // whole codes below the exact result, moved by the two numbers above
+    bool cuts = false;               // truncates to whole codes after adding cut_low or cut_high
     double relative = 0, least = 0;  // floats
     enum class Half : std::uint8_t { none, nearest, cut };
-    Half half = Half::none;  // what is off by the two numbers above becomes the nearest number of binary16, or the one
-                             // before it
+    Half half = Half::none;  // for binary16: the value, after the errors above, is rounded to nearest or truncated.
 
     [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
         if (!has_codes && half != Half::none) {
@@ -127,13 +128,13 @@ struct Keeper {
         return {std::min(std::max(low, 0.0), scale) * inverse, std::min(std::max(high, 0.0), scale) * inverse};
     }
 
-    // Exact for |x| < 2^51: binary64 has no finer numbers beyond 2^52.
+    // Exact for |x| < 2^51: the sum is between 2^52 and 2^53, where binary64 has a spacing of 1.
     [[nodiscard]] static double nearest_whole(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
     [[nodiscard]] static double floor_of(double x) noexcept {
         const double whole = nearest_whole(x);
         return whole - (whole > x ? 1.0 : 0.0);
     }
-    // To 11 bits, by Veltkamp's splitting: of two that are as near, either.
+    // Rounds to 11 bits by Veltkamp's splitting; ties go either way.
     [[nodiscard]] static double nearest_half(double x) noexcept {
         const double far = (0x1p42 + 1) * x;
         return far - (far - x);
@@ -150,42 +151,42 @@ struct Keeper {
 
 class Compositor {
   public:
-    Compositor(const Hypothesis& hypothesis);  // what it describes
+    Compositor(const Hypothesis& hypothesis);
     [[nodiscard]] Reach reach(const Stack& stack) const noexcept;
     [[nodiscard]] const Hypothesis& hypothesis() const noexcept { return hypothesis_; }
 
   private:
-    // How one end takes its sources, and what it keeps of a blend.
+    // The rounding at one end: of its sources, and of the stored result of a blend.
     struct Means {
         End end{};
-        Keeper source{}, blend{}, under{}, weight{};  // weight: of what is let through
+        Keeper source{}, blend{}, under{}, weight{};  // weight: of the transmittance
         double slack = 0;
     };
     struct Operand {
-        std::array<Interval, 4> color{};  // straight or times alpha; the fourth: of 1
+        std::array<Interval, 4> color{};  // straight or premultiplied; the fourth is the blend of 1
         Interval alpha{};
         bool is_premultiplied = false;
     };
     using Channels = std::array<Interval, 4>;
 
-    // An order without a front accumulator reaches nothing by a mixing that has to do with one.
+    // False if the stack's mixing needs a front accumulator and the order has none. Such a stack has no possible value.
     [[nodiscard]] bool can_mix(const Stack& stack) const noexcept;
     [[nodiscard]] static Means means_of(const End& end, double slack);
     [[nodiscard]] static Operand operand(const Means& means, const Layer& layer, bool is_moved) noexcept;
-    // UNDER: the fourth channel is what is let through.
+    // UNDER. The fourth channel is the transmittance.
     [[nodiscard]] static Channels under(const Means& means, std::span<const Layer> near_to_far,
                                         const Stack& stack) noexcept;
     static void over(const Means& means, std::span<const Layer> near_to_far, const Stack& stack,
                      Channels& onto) noexcept;
     [[nodiscard]] static Channels background_of(const Means& means, const Stack& stack) noexcept;
-    // Of a float picture and accumulators of codes; else nothing.
+    // The set of sums for a float picture with accumulators of codes; otherwise an unknown set.
     [[nodiscard]] Sums sums_of(const Stack& stack, const Channels& front, Interval weight,
                                const Channels& back) const noexcept;
 
     Hypothesis hypothesis_;
     Means front_, back_;
     Keeper result_;
-    bool converts_ = false;  // what `over` leaves is not yet of the result's storage
+    bool converts_ = false;  // the result of `over` still has to be converted to the result's storage
 };
 
 }  // namespace strata::oracle::verdict

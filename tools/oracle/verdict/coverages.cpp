@@ -39,7 +39,7 @@ OtherList copy_of(const PixelList& list) {
             .has_opaque = list.has_opaque};
 }
 
-// Every pixel of a drawing.
+// The lists of every pixel of a rendering.
 std::vector<OtherList> lists_of(const SceneFragments& scene) {
     std::vector<OtherList> lists(static_cast<std::size_t>(scene.width()) * static_cast<std::size_t>(scene.height()));
     scene.for_each_tile([&](const TileLists& tile) {
@@ -51,7 +51,7 @@ std::vector<OtherList> lists_of(const SceneFragments& scene) {
     return lists;
 }
 
-// Which fragments cover a pixel, whether they are visible or not, and the surface behind them.
+// True if the same triangles cover the pixel, visible and hidden, with nearly the same opaque surface.
 bool is_covered_alike(const OtherList& a, const OtherList& b) {
     const auto same = [](const std::vector<Fragment>& x, const std::vector<Fragment>& y) {
         return std::ranges::equal(x, y, {}, &Fragment::primitive, &Fragment::primitive);
@@ -63,7 +63,7 @@ bool is_covered_alike(const OtherList& a, const OtherList& b) {
                 0.02f);
 }
 
-// A drawing moved to the right and up by so many pixels.
+// Moves the scene to the right and up by the given number of pixels.
 pipeline::VertexAlteration moved(double right, double up, int width, int height) {
     const auto x = static_cast<float>(2 * right / width), y = static_cast<float>(2 * up / height);
     return {.vertices =
@@ -76,11 +76,11 @@ pipeline::VertexAlteration moved(double right, double up, int width, int height)
             .corners = {}};
 }
 
-// Fragments that move together: of one instance, facing one way.
+// Fragments of one instance with one facing, which move together.
 using Cluster = std::pair<std::uint32_t, bool>;
 Cluster cluster_of(const Fragment& f) { return {f.instance, f.is_front_facing}; }
 
-// The fragments of a list, visible and hidden, by cluster.
+// The fragments of a list, visible and hidden, grouped by cluster.
 std::map<Cluster, std::vector<Fragment>> clusters_of(const OtherList& list) {
     std::map<Cluster, std::vector<Fragment>> clusters;
     for (const auto* part : {&list.visible, &list.hidden})
@@ -96,7 +96,7 @@ float most_apart(const Rgba& a, const Rgba& b) noexcept {
 
 using Drawings = std::span<const OtherList* const>;
 
-// The fragment of this triangle in another drawing; null if it does not cover the pixel there.
+// The fragment of the same triangle in another rendering; null if the triangle does not cover the pixel there.
 const Fragment* same_triangle(const Fragment& f, const OtherList& drawing) {
     for (const auto* part : {&drawing.visible, &drawing.hidden})
         for (const Fragment& other : *part)
@@ -104,7 +104,7 @@ const Fragment* same_triangle(const Fragment& f, const OtherList& drawing) {
     return nullptr;
 }
 
-// That of its cluster which is nearest in depth: the surface goes on there.
+// The fragment of the same cluster that is nearest in depth: the continuation of the surface.
 const Fragment* same_surface(const Fragment& f, const OtherList& drawing) {
     const Fragment* nearest = nullptr;
     for (const auto* part : {&drawing.visible, &drawing.hidden})
@@ -116,7 +116,7 @@ const Fragment* same_surface(const Fragment& f, const OtherList& drawing) {
     return nearest;
 }
 
-// In another drawing: the fragment's own triangle, or else its surface.
+// The corresponding fragment in another rendering: of the same triangle, or else of the same surface.
 const Fragment* like(const Fragment& f, const OtherList& drawing) {
     const Fragment* const same = same_triangle(f, drawing);
     return same != nullptr ? same : same_surface(f, drawing);
@@ -128,7 +128,7 @@ void find_spread(Fragment& f, Drawings moved) {
             f.spread = std::max(f.spread, most_apart(f.color, other->color));
 }
 
-// What the given drawing's values change by where it is moved.
+// Sets the spreads of the given rendering to the largest colour changes in the moved ones.
 void find_spreads(OtherList& given, Drawings moved) {
     for (auto* part : {&given.visible, &given.hidden})
         for (Fragment& f : *part) find_spread(f, moved);
@@ -139,7 +139,8 @@ void find_spreads(OtherList& given, Drawings moved) {
 
 std::int64_t codes_behind(std::uint32_t a, std::uint32_t b) noexcept { return std::int64_t{b} - std::int64_t{a}; }
 
-// Whether two depths that are not the same may change places: some drawing brings them so much nearer to one another.
+// True if two different depths may change their order: in some moved rendering their distance changes by at least as
+// much as it is.
 class Meetings {
   public:
     explicit Meetings(Drawings moved) : moved_{moved} {}
@@ -170,8 +171,8 @@ class Meetings {
     Drawings moved_;
 };
 
-// The list with neighbours exchanged whose depths may: each pair alone, then all that begin at an even or at an odd
-// number.
+// Adds copies of the list in which neighbours with such depths are exchanged: each pair alone, then all pairs starting
+// at an even index, and all starting at an odd one.
 void add_exchanged(const OtherList& given, const Meetings& meetings, std::vector<OtherList>& others) {
     const std::size_t n = given.visible.size();
     const auto exchanged = [&](std::size_t first, std::size_t last, std::size_t step) {
@@ -192,8 +193,8 @@ void add_exchanged(const OtherList& given, const Meetings& meetings, std::vector
         for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) exchanged(first, n, 2);
 }
 
-// The list with the farthest visible fragment hidden, or the nearest hidden one visible, where it nearly meets the
-// opaque surface.
+// Adds copies with the farthest visible fragment hidden, or the nearest hidden one visible, if its depth may change its
+// order with the opaque surface.
 void add_at_opaque(const OtherList& given, const Meetings& meetings, std::vector<OtherList>& others) {
     if (!given.has_opaque) return;
     if (!given.visible.empty() && meetings.may_meet(given.visible.back(), given.opaque)) {
@@ -212,7 +213,7 @@ bool has_same_triangles(const std::vector<Fragment>& a, const std::vector<Fragme
     return std::ranges::equal(a, b, {}, &Fragment::primitive, &Fragment::primitive);
 }
 
-// The drawings of one pixel, the given one first, put together.
+// Combines the renderings of one pixel, the given one first, into its possible lists.
 class EdgeMaker {
   public:
     explicit EdgeMaker(std::vector<const OtherList*> drawings) : drawings_{std::move(drawings)} {}
@@ -235,7 +236,8 @@ class EdgeMaker {
   private:
     [[nodiscard]] const OtherList& given() const { return *drawings_[0]; }
 
-    // As the drawing as given has the fragment; else as it was moved, with what that may be off by.
+    // The fragment of the given rendering, if it has one; else the moved one, with a slack for the change by the
+    // movement.
     [[nodiscard]] Fragment told(const Fragment& f) const {
         if (const Fragment* const own = same_triangle(f, given())) return *own;
         Fragment moved = f;
@@ -302,7 +304,8 @@ class EdgeMaker {
         return list;
     }
 
-    // All triangles that any rule for ties draws at the centre, and those alone that all of them draw.
+    // Sets the list of all triangles that some tie rule draws at the pixel centre, and the list of those that every tie
+    // rule draws.
     void make_ties(EdgePixel& edge) const {
         std::map<std::uint32_t, std::size_t> times;
         std::vector<Fragment> twice, never;
@@ -315,7 +318,7 @@ class EdgeMaker {
         edge.has_centre_on_edge = never.size() != twice.size();
         edge.twice = list_of(twice, given());
         edge.never = list_of(never, given());
-        // Ties lie exactly on the edge: no colour is off.
+        // The centre is exactly on the edge, so colours have no error.
         for (OtherList* list : {&edge.twice, &edge.never})
             for (auto* part : {&list->visible, &list->hidden})
                 for (Fragment& f : *part) f.slack = 0;
@@ -323,7 +326,7 @@ class EdgeMaker {
 
     std::vector<const OtherList*> drawings_;
     std::vector<const OtherList*> surfaces_{};
-    std::vector<std::vector<std::vector<Fragment>>> sets_{};  // of each cluster
+    std::vector<std::vector<std::vector<Fragment>>> sets_{};  // per cluster
 };
 
 }  // namespace

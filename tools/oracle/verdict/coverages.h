@@ -1,15 +1,15 @@
-// tools/oracle/verdict/coverages.h - what of a pixel may be otherwise on a rasterizer that snaps or breaks ties
-// otherwise.
+// tools/oracle/verdict/coverages.h - computes the other lists of fragments that a pixel may have on a rasterizer with
+// other snapping or another tie rule.
 //
-// Rule     The scene is drawn again with every rule for ties and moved by 1/16 pixel in the four diagonal directions:
-//          no right rasterizer with four bits of subpixels or more covers what none of these covers. The fragments of
-//          one instance and facing come from one drawing, so that of two triangles beside an edge one covers the pixel,
-//          neither both nor none; those of others may come from another one. Colours are off by what they change by in
-//          these drawings, their spread; neighbours whose depths come so much nearer to each other may change places,
-//          and one that meets the opaque surface may lie on either side of it. At one depth to the bit neither holds:
-//          there are rules for ties.
-// Numbers  Colours of fragments that the drawing as given lacks are taken where they were moved to; they are off by a
-//          code, or by as much as drawings differ.
+// Rule     The scene is rendered again with every tie rule, and moved by 1/16 pixel in the four diagonal directions: no
+//          correct rasterizer with at least four subpixel bits covers a pixel that none of these covers. The fragments
+//          of one instance and facing are taken from one rendering, so that of two triangles sharing an edge exactly
+//          one covers the pixel; other instances may be taken from another rendering. A colour's spread is its largest
+//          change in these renderings. Neighbours whose depths change by as much as their distance may exchange their
+//          order, and a fragment close to the opaque surface may be on either side of it. Fragments of exactly equal
+//          depth are excluded: rules for ties apply to them.
+// Numbers  A fragment that the given rendering lacks has the colour of a moved rendering, with an error of one 8-bit
+//          code or of the largest difference between the renderings, whichever is larger.
 // Tests    tests/tools/oracle/verdict/coverages_test.cpp
 #pragma once
 #include <vector>
@@ -18,7 +18,7 @@
 
 namespace strata::oracle::verdict {
 
-// A pixel as another drawing has it.
+// A pixel's list in another rendering.
 struct OtherList {
     std::vector<Fragment> visible{}, hidden{};
     Rgba behind{};
@@ -28,21 +28,21 @@ struct OtherList {
     [[nodiscard]] PixelList at(int x, int y) const noexcept;
 };
 
-// A pixel at an edge, or with depths that nearly meet.
+// A pixel at an edge, or with depths that may change their order.
 struct EdgePixel {
-    std::vector<OtherList> others{};  // all that may be right beside the drawing as given
-    OtherList twice{}, never{};       // a centre on an edge is drawn by both of its triangles, or by neither
+    std::vector<OtherList> others{};  // all lists that may be right, besides the given one
+    OtherList twice{}, never{};       // if the centre is on an edge: both of its triangles are drawn; neither is
     bool has_centre_on_edge = false;
 };
 
 class Coverages {
   public:
-    // Draws the scene eight times. Nothing is known of a scene whose fragments were not kept.
+    // Renders the scene seven times in addition to `given`. Has no data if the scene's fragments were not kept.
     Coverages(const RunInput& input, const SceneFragments& given);
 
     [[nodiscard]] const EdgePixel* at(int x, int y) const noexcept;
     [[nodiscard]] std::size_t count() const noexcept { return pixels_.size(); }
-    // Of a pixel's fragments, the visible ones first, and of what lies behind them.
+    // The spreads of a pixel's fragments, visible ones first; behind_spread(): of the surface behind them.
     [[nodiscard]] const std::vector<float>& spreads(int x, int y) const noexcept { return spreads_[index(x, y)]; }
     [[nodiscard]] float behind_spread(int x, int y) const noexcept { return behind_spreads_[index(x, y)]; }
 
@@ -55,7 +55,7 @@ class Coverages {
     int width_ = 0;
     std::vector<std::vector<float>> spreads_{};
     std::vector<float> behind_spreads_{};
-    std::vector<std::uint32_t> number_{};  // of each pixel in pixels_, from 1; 0: no edge
+    std::vector<std::uint32_t> number_{};  // per pixel: its number in pixels_, from 1; 0: no edge
     std::vector<EdgePixel> pixels_{};
 };
 

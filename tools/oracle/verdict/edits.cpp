@@ -17,7 +17,7 @@ const Hypothesis& hypothesis_of(const Verdict& verdict) {
     return account.account.hypothesis;
 }
 
-// The findings of one picture are alike: one of them stands for all.
+// Explanations of one picture are equivalent, so only the first is used; without explanations, all leads.
 std::vector<Rules> told(const Verdict& verdict) {
     if (!verdict.explanations.empty()) return {verdict.explanations[0].account.rules};
     std::vector<Rules> all;
@@ -67,7 +67,7 @@ EditMap edit_map(const SceneFragments& scene, const Colors& candidate, const Ver
 
 namespace {
 
-// The pixel of the scene.
+// The pixel of the scene with its fragments.
 SampledPixel pixel_at(const SceneFragments& scene, const Colors& candidate, int x, int y) {
     Sample found{scene.setting()};
     std::mutex mutex;
@@ -87,7 +87,7 @@ SampledPixel pixel_at(const SceneFragments& scene, const Colors& candidate, int 
     return pixel;
 }
 
-// Which layers, in which order, give the value: the fewest lost first.
+// Finds a subset and order of the layers that gives the value, with the fewest layers left out.
 class Chooser {
   public:
     Chooser(const Compositor& compositor, const PixelEdits& pixel, const Stack& right)
@@ -126,7 +126,7 @@ class Chooser {
     Stack right_;
 };
 
-// Findings and leads first, then every rule.
+// The rules of explanations and leads first, then every rule.
 std::vector<Rules> all_rules(const Verdict& verdict) {
     std::vector<Rules> all;
     for (const Checked& c : verdict.explanations) all.push_back(c.account.rules);
@@ -148,7 +148,7 @@ PixelEdits edits_at(const SceneFragments& scene, const Colors& candidate, const 
     found.is_right = is_right_at(compositor, list, found.pixel.value, maker);
     if (found.is_right) return found;
     std::vector<Stack> seen;
-    // What covers the pixel as given comes before what another rasterizer may see there.
+    // Rules that hold for the given coverage are preferred to those that need another rasterizer's.
     for (const bool at_edge : {false, true})
         for (const Rules& rules : all_rules(verdict)) {
             if (found.edits.size() == most_edits || (at_edge && !found.edits.empty())) break;

@@ -1,9 +1,8 @@
-// tools/oracle/verdict/edits.h - what a wrong picture composited at each of its pixels: the mistakes that give their
-// values.
+// tools/oracle/verdict/edits.h - finds the mistake that gives the value of each pixel of a wrong picture.
 //
-// Rule     Mistakes are held against pixels under the verdict's hypothesis, the findings first, then the leads; a pixel
-//          belongs to the first that gives its value and changes its layers. Of one pixel all are told that make other
-//          layers of it, and where no rule gives its value, which of its layers, in which order, would.
+// Rule     Mistakes are tried at each pixel under the verdict's hypothesis, explanations first, then leads. A pixel is
+//          assigned to the first one that gives its value. For a single pixel all mistakes that give different layers
+//          are reported; if no rule gives its value, a subset and order of its layers that would.
 // Tests    tests/tools/oracle/verdict/edits_test.cpp
 #pragma once
 #include <optional>
@@ -19,7 +18,7 @@ struct EditCount {
     std::uint64_t pixels = 0;
 };
 struct EditMap {
-    static constexpr std::uint8_t right = 0, unexplained = 255;  // every other number n stands for edits[n - 1]
+    static constexpr std::uint8_t right = 0, unexplained = 255;  // any other number n means edits[n - 1]
     int width = 0, height = 0;
     std::vector<EditCount> edits{};
     std::uint64_t not_explained = 0;
@@ -28,8 +27,9 @@ struct EditMap {
 [[nodiscard]] EditMap edit_map(const SceneFragments& scene, const Colors& candidate, const Verdict& verdict);
 
 struct PixelEdit {
-    std::vector<Rule> rules{};          // empty: of no rule
-    std::vector<std::size_t> chosen{};  // of no rule: numbers of the visible layers that are composited, near to far
+    std::vector<Rule> rules{};  // empty: no rule fits
+    // If no rule fits: indices of the visible layers that are composited, near to far.
+    std::vector<std::size_t> chosen{};
     Reach reach{};
 };
 struct PixelEdits {

@@ -1,4 +1,4 @@
-// tools/oracle/verdict/edits_report.cpp - one pixel's edits in words and as JSON.
+// tools/oracle/verdict/edits_report.cpp - the mistakes at one pixel (edits.h) as text and as JSON.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// In parts of 255, as a person reads them off a picture.
+// A value in units of 1/255, as image viewers show it.
 std::string parts(double v) { return fmt::format("{:.2f}", v * 255); }
 
 std::string reach_text(const Reach& reach) {
@@ -32,7 +32,7 @@ std::string fragment_text(const Fragment& f, const pipeline::DrawList& list) {
                        parts(f.color[1]), parts(f.color[2]), f.color[3]);
 }
 
-// "1, 3": as layers are numbered in the text.
+// "1, 3": numbers of layers as used in the text.
 std::string numbers(const std::vector<std::size_t>& chosen) {
     if (chosen.empty()) return "none";
     std::string text;

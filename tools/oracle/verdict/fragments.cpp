@@ -22,14 +22,14 @@ using pipeline::Outputs;
 using pipeline::Region;
 
 struct Captured {
-    std::uint32_t pixel = 0;  // of the region
+    std::uint32_t pixel = 0;  // index in the region
     Fragment fragment{};
 };
 
 constexpr rasterizer::FragmentNeeds all_values{
     .shader_z = true, .code = true, .exact_code = false, .color = true, .texcoord = false, .facing = true};
 
-// The region's fragments in submission order, behind MASK and before any test.
+// The region's fragments in submission order, after the alpha test of MASK and before all other tests.
 std::vector<Captured> capture(Region& region, std::span<const std::uint32_t> instance_of,
                               const std::vector<pipeline::Instance>& instances) {
     std::vector<Captured> all;
@@ -52,7 +52,7 @@ std::vector<Captured> capture(Region& region, std::span<const std::uint32_t> ins
     return all;
 }
 
-// Into the lists of their pixels: visible ones first, each part by code.
+// Sorts the fragments into the lists of their pixels: visible ones first, each part by code.
 TileLists sorted_into_lists(const Region& region, const std::vector<Captured>& captured) {
     const rasterizer::Rect rect = region.rect(), frame = region.frame().rect();
     TileLists tile{.rect = {rect.x0 - frame.x0, rect.y0 - frame.y0, rect.x1 - frame.x0, rect.y1 - frame.y0}};
@@ -83,7 +83,7 @@ TileLists sorted_into_lists(const Region& region, const std::vector<Captured>& c
     return tile;
 }
 
-// The instance of every triangle, in the order of submission.
+// The instance of every triangle, in submission order.
 std::vector<std::uint32_t> instances_of(const RunInput& input) {
     std::vector<std::uint32_t> instances;
     const pipeline::DrawList& list = input.list;
@@ -96,7 +96,7 @@ std::vector<std::uint32_t> instances_of(const RunInput& input) {
     return instances;
 }
 
-// The pixels of a frame that no tile holds, in rectangles.
+// The pixels of a frame that are in none of the tiles, as rectangles.
 std::vector<rasterizer::Rect> rest_of_frame(int width, int height, std::span<const rasterizer::Rect> tiles) {
     std::vector<bool> is_held(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     const auto at = [&](int x, int y) {
@@ -142,17 +142,18 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
         else
             kept_.clear();
     });
-    // Tiles come as threads finish them.
+    // Threads finish tiles in any order.
     std::ranges::sort(kept_, {}, [](const TileLists& t) { return std::pair{t.rect.y0, t.rect.x0}; });
     index_tiles();
     blank_ = rest_of_frame(behind_.width, behind_.height, rects);
     far_code_ = rasterizer::max_code(input.profile.depth_buffer(input.options.depth));
 }
 
-// Blank tiles do not run one by one: the first stands for the others, and what it takes is no tile of its own twice.
+// Renders the scene and passes each tile to `take`. Blank tiles are not processed one by one: the renderer runs only
+// the first of them, and it must not be recorded twice.
 pipeline::Image SceneFragments::draw(const std::function<void(TileLists&&)>& take) const {
     pipeline::DeviceProfile profile = input_.profile;
-    profile.has_float_targets = true;  // an unrounded opaque colour is asked for
+    profile.has_float_targets = true;  // the opaque colours are rendered unrounded
     peeling::RenderOptions options = input_.options;
     options.color_format = pipeline::Format::rgba32f;
     options.result_format = options.back_format = std::nullopt;
@@ -223,7 +224,7 @@ void SceneFragments::find_coverages() {
 
 PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noexcept {
     const auto width = static_cast<std::size_t>(tile.rect.width());
-    const peeling::AsShown shown{input_.options, input_.profile};  // tiles count in memory
+    const peeling::AsShown shown{input_.options, input_.profile};  // tiles count rows in memory order
     PixelList list{.x = tile.rect.x0 + static_cast<int>(pixel % width),
                    .y = shown.row(tile.rect.y0 + static_cast<int>(pixel / width))};
     const std::uint32_t first = tile.start[pixel], hidden = tile.hidden[pixel], end = tile.start[pixel + 1];

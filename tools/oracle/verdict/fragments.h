@@ -1,11 +1,11 @@
-// tools/oracle/verdict/fragments.h - every transparent fragment of a scene, pixel by pixel, near to far, and what lies
-// behind them.
+// tools/oracle/verdict/fragments.h - collects every transparent fragment of a scene, pixel by pixel, near to far, and
+// the opaque colour behind them.
 //
-// Rule     A pixel's list has its visible fragments by depth code, equal codes in the order of submission; then its
-//          hidden ones, those at or behind the opaque surface, likewise. Lists come tile by tile, each tile once; tiles
-//          without a fragment come, too.
-// Numbers  44 bytes a fragment. Tiles are kept while they fit into the memory that is stated, and drawn again for each
-//          walk where they do not.
+// Rule     A pixel's list contains its visible fragments by depth code, equal codes in submission order; then its
+//          hidden ones, at or behind the opaque surface, in the same order. Lists are passed tile by tile, each tile
+//          once, including tiles without fragments.
+// Numbers  44 bytes per fragment. Tiles are kept if they fit into the given memory; otherwise the scene is rendered
+//          again for each traversal.
 // Tests    tests/tools/oracle/verdict/fragments_test.cpp
 #pragma once
 #include <cstdint>
@@ -21,16 +21,15 @@
 namespace strata::oracle::verdict {
 
 struct Fragment {
-    Rgba color{};                 // straight
-    std::uint32_t code = 0;       // its depth as stored, less is nearer
+    Rgba color{};                 // not premultiplied
+    std::uint32_t code = 0;       // stored depth, where less is nearer
     float shader_z = 0;           // in [0, 1], less is nearer
-    std::uint32_t primitive = 0;  // submission number of its triangle
-    std::uint32_t instance = 0;   // of the draw list
+    std::uint32_t primitive = 0;  // index of its triangle in submission order
+    std::uint32_t instance = 0;   // index in the draw list
     std::uint32_t material = 0;
     bool is_front_facing = true;
-    float slack = 0;  // by which its colour may be off
-    float spread =
-        0;  // by which it changes if positions are snapped otherwise (coverages.h); 0 where that is not known
+    float slack = 0;   // possible error of its colour
+    float spread = 0;  // change of its colour if positions are snapped differently (coverages.h); 0 if not known
 };
 
 struct EdgePixel;  // coverages.h
@@ -38,29 +37,30 @@ class Coverages;
 class SceneFragments;
 
 struct PixelList {
-    int x = 0, y = 0;  // in the frame
+    int x = 0, y = 0;  // position in the frame
     std::span<const Fragment> visible{}, hidden{};
-    Rgba behind{};                          // the opaque surface's colour or the background's
-    float behind_spread = 0;                // as a fragment's
-    bool has_spreads = false;               // they are known
-    std::uint32_t opaque = 0;               // its depth's code
-    bool has_opaque = false;                // false: the background lies behind
-    const SceneFragments* scene = nullptr;  // that knows other pixels, too; null: it does not
-    const EdgePixel* edge = nullptr;        // what else may cover it; null: nothing, or it is not known
+    Rgba behind{};                          // colour of the opaque surface, or of the background
+    float behind_spread = 0;                // as Fragment::spread
+    bool has_spreads = false;               // the spreads are known
+    std::uint32_t opaque = 0;               // depth code of the opaque surface
+    bool has_opaque = false;                // false: the background is behind the fragments
+    const SceneFragments* scene = nullptr;  // for rules that read other pixels; null: these are not available
+    const EdgePixel* edge = nullptr;        // other possible coverage; null: none, or not known
 };
 
 struct TileLists {
-    rasterizer::Rect rect{};  // pixels of the frame
+    rasterizer::Rect rect{};  // in pixels of the frame
     std::vector<std::uint32_t> start{},
-        hidden{};  // of each pixel, row by row: where its lists begin; `start` has one more
+        // Per pixel, row by row: begin of its visible and of its hidden fragments; `start` has one more entry.
+        hidden{};
     std::vector<Fragment> fragments{};
-    std::vector<std::uint32_t> opaque{};  // each pixel's depth code of the opaque surface
+    std::vector<std::uint32_t> opaque{};  // per pixel: depth code of the opaque surface
 };
 
 class SceneFragments {
   public:
-    // Draws the scene. `bytes`: what may be kept. Throws Refused and InputError as a renderer does. What `input` refers
-    // to must live as long.
+    // Renders the scene. `bytes` limits the kept fragments. Throws Refused and InputError like a renderer. Objects that
+    // `input` refers to must outlive this.
     SceneFragments(const RunInput& input, std::uint64_t bytes);
 
     [[nodiscard]] int width() const noexcept { return behind_.width; }
@@ -70,31 +70,31 @@ class SceneFragments {
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] std::size_t most_visible() const noexcept { return most_visible_; }
 
-    // What the candidate has where nothing is drawn.
+    // Sets the colour that the candidate has where nothing is drawn.
     void set_seen_background(const Rgba& color) { setting_.seen_background = color; }
-    // Finds out what else may cover pixels at edges, from now on; nothing for scenes that are too large for it.
+    // Computes the other possible coverage of pixels at edges; does nothing for scenes that are too large.
     void find_coverages();
 
-    // visit(tile) for every tile, from several threads.
+    // Calls visit(tile) for every tile, from several threads.
     void for_each_tile(const std::function<void(const TileLists&)>& visit) const;
-    [[nodiscard]] PixelList at(const TileLists& tile, std::size_t pixel) const noexcept;  // `pixel` counts in the tile
-    // Of lists that are kept; no fragments beyond the frame.
+    [[nodiscard]] PixelList at(const TileLists& tile, std::size_t pixel) const noexcept;  // `pixel`: index in the tile
+    // The kept fragments of a pixel; empty if they were not kept, and outside the frame.
     [[nodiscard]] std::span<const Fragment> visible_at(int x, int y) const noexcept;
 
   private:
-    // Draws the scene once; `take` gets the tiles that run: all that are not blank. Returns the opaque scene's colours.
+    // Renders the scene once and passes all tiles that are not blank to `take`. Returns the opaque scene's colours.
     pipeline::Image draw(const std::function<void(TileLists&&)>& take) const;
 
     void index_tiles();
 
     RunInput input_;
     Setting setting_;
-    std::vector<std::uint32_t> instance_of_{};  // of a primitive
-    std::uint32_t far_code_ = 0;                // where no opaque surface is
+    std::vector<std::uint32_t> instance_of_{};  // per primitive
+    std::uint32_t far_code_ = 0;                // depth code without an opaque surface
     pipeline::Image behind_{};                  // rgba32f
     std::vector<TileLists> kept_{};
-    std::vector<std::uint32_t> tile_of_{};   // of each pixel of the frame, from 1; 0: it has no fragments
-    std::vector<rasterizer::Rect> blank_{};  // what no tile that ran holds
+    std::vector<std::uint32_t> tile_of_{};   // per pixel of the frame: its tile, from 1; 0: no fragments
+    std::vector<rasterizer::Rect> blank_{};  // the area outside the tiles that ran
     std::shared_ptr<const Coverages> coverages_{};
     bool keeps_ = true;
     std::uint64_t count_ = 0;

@@ -74,7 +74,7 @@ std::string words(const End& end) {
     return fmt::format("{} {}{}", name(end.storage), words(end.rounding), words(end.source));
 }
 
-// Ends that keep colours in `storage`, the widest last.
+// The ends with this storage, the most general last.
 std::vector<End> ends(Storage storage) {
     using enum Source;
     using R = Rounding;
@@ -95,7 +95,7 @@ std::vector<End> ends(Storage storage) {
             {storage, any, R::any}};
 }
 
-// Of two ends that meet in one picture: fewer kinds, for their number is squared.
+// The ends for combinations of two ends: fewer, because the number of combinations is squared.
 std::vector<End> ends_of_pairs(Storage storage) {
     using enum Source;
     using R = Rounding;
@@ -157,7 +157,7 @@ class FamilyMaker {
                 for (const End& back : backs) add(order, front, back, slack, family);
         if (!family.members.empty()) made_.push_back(std::move(family));
     }
-    // For `over` and `under` both ends are alike.
+    // For `over` and `under`, which have the same end in front and behind.
     void add(Order order, const std::vector<End>& ends) {
         HypothesisFamily family;
         const End widest = widest_of(ends[0].storage);
@@ -197,7 +197,7 @@ Families families(Storage result, const std::vector<double>& slacks, Looseness l
     FamilyMaker maker{result, slacks, looseness};
     for (const Storage storage : storages) {
         for (const Order order : {Order::over, Order::over_apart, Order::under}) maker.add(order, ends(storage));
-        // The opaque scene may be kept in 8 bits beside other accumulators.
+        // A port may keep the opaque scene in 8 bits while other accumulators have another format.
         if (storage != Storage::unorm8)
             maker.add(Order::under, ends(storage), {{Storage::unorm8, Source::stored, Rounding::nearest}});
         if (storage == Storage::single) maker.add(Order::under, ends(storage), ends(Storage::half));  // or in binary16
@@ -213,7 +213,7 @@ std::vector<Hypothesis> widest(const Families& all) {
     for (const HypothesisFamily& family : all) {
         const auto is_there = std::ranges::find(one_an_order, family.widest.order, &Hypothesis::order);
         if (is_there != one_an_order.end()) continue;
-        // No storage keeps less than 8 bits.
+        // Every storage has at least 8 bits, so 8-bit ends include the errors of all.
         Hypothesis wide = family.widest;
         wide.front = wide.back = anyhow;
         one_an_order.push_back(wide);

@@ -1,10 +1,11 @@
-// tools/oracle/verdict/interval.h - all values that a number may have, and arithmetic that never loses one of them.
+// tools/oracle/verdict/interval.h - interval arithmetic: the result contains every possible value of a number.
 //
-// Rule     An operation's result holds every exact result of operands out of the intervals. Ends are rounded outward.
-// Numbers  Binary64 rounds to nearest: an exact result lies within 2^-53 of the rounded one, relative to it, or within
-//          2^-1075 where that is subnormal. `below` and `above` step 2^-52 and 2^-1000 aside, so they are beyond it
-//          after any one operation.
-// Tests    tests/tools/oracle/verdict/interval_test.cpp: rationals decide
+// Rule     The result of an operation contains every exact result of operands within the intervals. Ends are rounded
+//          outward.
+// Numbers  Binary64 rounds to nearest: the exact result is within a relative 2^-53 of the rounded one, or within
+//          2^-1075 if that is subnormal. `below` and `above` move it by a relative 2^-52 and by 2^-1000, so they bound
+//          the result of any single operation.
+// Tests    tests/tools/oracle/verdict/interval_test.cpp: rational arithmetic
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ struct Interval {
 [[nodiscard]] inline Interval operator+(Interval a, Interval b) noexcept {
     return {below(a.low + b.low), above(a.high + b.high)};
 }
-// Of 1 - x.
+// 1 - x.
 [[nodiscard]] inline Interval rest_of(Interval x) noexcept { return {below(1 - x.high), above(1 - x.low)}; }
 
 [[nodiscard]] inline Interval operator*(Interval a, Interval b) noexcept {
@@ -39,13 +40,14 @@ struct Interval {
     return {below(low), above(high)};
 }
 
-// A share `a`, within [0, 1], of `s` and the rest of `d`: a s + (1 - a) d. It is linear in each of the three, so the
-// ends of the result belong to ends of the operands; taken as one, it is narrower than the sum of two products.
+// a s + (1 - a) d, the blend of `s` over `d` with alpha `a` in [0, 1]. It is linear in each operand, so the ends of the
+// result are at ends of the operands; it is narrower than the sum of two interval products.
 [[nodiscard]] inline Interval mixed(Interval a, Interval s, Interval d) noexcept {
     const auto end = [](double share, double from, double onto) { return share * from + (1 - share) * onto; };
     const double low = std::min(end(a.low, s.low, d.low), end(a.high, s.low, d.low));
     const double high = std::max(end(a.low, s.high, d.high), end(a.high, s.high, d.high));
-    const double error = (s.magnitude() + d.magnitude()) * 0x1p-51;  // four roundings of terms that are no greater
+    // Four roundings of terms of at most that magnitude.
+    const double error = (s.magnitude() + d.magnitude()) * 0x1p-51;
     return {below(low - error), above(high + error)};
 }
 

@@ -1,4 +1,5 @@
-// tools/oracle/verdict/layer_rules.cpp - rules that choose, order, double, lose and merge a pixel's layers.
+// tools/oracle/verdict/layer_rules.cpp - the rules (rule.h) that select, order, duplicate, drop and merge a pixel's
+// layers.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,7 +10,7 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// A depth as a buffer of so many bits has it.
+// The depth as stored in a buffer of that many bits.
 std::int64_t in_bits(const Fragment& f, std::uint32_t bits) {
     return static_cast<std::int64_t>(std::floor(double{f.shader_z} * std::exp2(bits)));
 }
@@ -23,7 +24,7 @@ void StackMaker::keep(std::size_t first, std::size_t last) {
     items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-// Of what is drawn later the number is greater.
+// A number that increases in drawing order.
 std::uint64_t StackMaker::drawn(const Fragment& f, std::uint32_t number) const {
     const DrawingOrder order = drawing_order(number);
     const auto& rank = setting_->rank[static_cast<std::size_t>(order.instances)];
@@ -40,7 +41,7 @@ std::uint64_t StackMaker::drawn(const Fragment& f, std::uint32_t number) const {
 void StackMaker::choose_by_number(const Rule& rule) {
     const std::size_t n = rule.n, all = items_.size();
     const std::size_t rest = all - std::min(all, n);
-    // Numbers among those that were submitted.
+    // Drops the layers by their index in submission order.
     const auto by_submission = [&](auto is_kept) {
         std::vector<std::uint32_t> numbers;
         for (const Item& i : items_) numbers.push_back(i.fragment->primitive);
@@ -90,7 +91,7 @@ void StackMaker::choose_by_number(const Rule& rule) {
 
 void StackMaker::choose_by_nature(const Rule& rule, const PixelList& pixel) {
     const auto lose = [&](auto is_lost) { std::erase_if(items_, [&](const Item& i) { return is_lost(*i.fragment); }); };
-    // Fragments as a depth test in the order of drawing leaves them; `passes` compares with what was kept.
+    // Keeps the fragments that pass a depth test in drawing order; `passes` compares a depth with the last kept one.
     const auto test = [&](auto passes) {
         std::vector<const Fragment*> all, kept;
         for (const Item& i : items_) all.push_back(i.fragment);
@@ -136,7 +137,7 @@ void StackMaker::order(const Rule& rule) {
     const auto by = [&](auto key) {
         std::ranges::stable_sort(items_, {}, [&](const Item& i) { return key(*i.fragment); });
     };
-    // The last drawn in front.
+    // The fragment that is drawn last is in front.
     const auto as_submitted = [&](std::size_t first, std::size_t last) {
         const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
         if (first < last)
@@ -276,13 +277,13 @@ void StackMaker::edit_one(const Rule& rule) {
     }
 }
 
-// Fragments that lie close behind the one before them, which is the last that was kept.
+// Changes fragments that are close behind the last kept fragment.
 void StackMaker::edit_close(const Rule& rule) {
     const bool is_within = rule.kind == RuleKind::within_lost || rule.kind == RuleKind::within_merged;
     const bool merges = rule.kind == RuleKind::within_merged || rule.kind == RuleKind::close_merged;
     if (!is_within && !merges && rule.kind != RuleKind::close_lost && rule.kind != RuleKind::close_swapped) return;
     std::vector<Item> kept;
-    std::size_t begin = 0;  // of the fragments that are close to one another
+    std::size_t begin = 0;  // index of the first fragment of a group of close ones
     const Fragment* first = nullptr;
     for (const Item& item : items_) {
         const bool is_close = first != nullptr && (is_within ? item.fragment->shader_z - first->shader_z <= rule.value

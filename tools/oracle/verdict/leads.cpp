@@ -1,4 +1,4 @@
-// tools/oracle/verdict/leads.cpp - rules that explain some of the wrong pixels (search.h).
+// tools/oracle/verdict/leads.cpp - finds rules that explain some of the wrong pixels (search.h).
 #include <algorithm>
 
 #include "tools/oracle/verdict/parted.h"
@@ -8,8 +8,8 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// Which of the pixels the rules reach; `unchanged`: those that they leave alone. Nothing if that takes more than a
-// rule's share.
+// Which of the pixels have a value that the rules reach; `unchanged` is the result for pixels that the rules do not
+// change. Empty if that exceeds the share of work of one rule.
 std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rules& rules, const Compositor& compositor,
                           const Setting& setting, bool unchanged) {
     StackMaker maker{setting, setting.work->share()};
@@ -23,8 +23,8 @@ std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rule
     return are_reached;
 }
 
-// One after the other the rules that explain the most of what those before them do not, less the right pixels that
-// speak against them.
+// Selects leads greedily: each explains the most pixels that the leads before it do not, minus a quarter of the right
+// pixels that contradict it.
 std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
                            const Setting& setting) {
     constexpr std::size_t most_leads = 6, most_looked_at = 1024;
@@ -47,7 +47,8 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
         std::ptrdiff_t most = 0;
         std::size_t next = all.size();
         for (std::size_t i = 0; i < all.size(); ++i) {
-            // A port may do it at some pixels alone, by what no rule knows.
+            // A contradiction counts only a quarter, because a port may make the mistake only at pixels that no rule
+            // describes.
             std::ptrdiff_t gain = -static_cast<std::ptrdiff_t>(leads[i].contradicted / 4);
             for (std::size_t p = 0; p < explained[i].size(); ++p) gain += explained[i][p] && !is_reported[p] ? 1 : 0;
             if (gain <= most) continue;

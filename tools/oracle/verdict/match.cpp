@@ -45,7 +45,7 @@ TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, co
     }
     for (std::size_t n = ties_count; n-- > 0;)
         if (are_held[n]) add(1u << n, ties_number(n));
-    for (std::uint32_t p = 1; p < choices.permutations && found.mask == 0; ++p)  // the first is the order of submission
+    for (std::uint32_t p = 1; p < choices.permutations && found.mask == 0; ++p)  // 0 is submission order
         if (const Ties other{TieRule::other, DepthKey::code, p}; is_held(other)) add(1u << ties_count, other);
     return found;
 }
@@ -74,7 +74,7 @@ TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rul
 
 namespace {
 
-// Equal structures have equal hashes, but for zeros of different signs: those stay beside one another.
+// Equal structures have equal hashes, except for zeros of different sign; such structures are then both kept.
 std::uint64_t hash_of(const Stack& stack) noexcept {
     std::uint64_t hash = stack.layers.size();
     const auto add = [&](const Rgba& color) {
@@ -89,7 +89,7 @@ std::uint64_t hash_of(const Stack& stack) noexcept {
 
 StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker) {
     StackedPixel made{.value = pixel.value};
-    std::vector<std::uint64_t> hashes;  // of what is made: ties and edges make thousands, few of them new
+    std::vector<std::uint64_t> hashes;  // of made.stacks; ties and edges make thousands of structures, few of them new
     const auto add_all = [&](const PixelList& list, bool is_moved) {
         const auto add = [&](const Ties& ties) {
             const Stack& stack = maker.with(rules, list, ties, is_moved);
@@ -135,22 +135,22 @@ bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept {
 
 namespace {
 
-// What a hypothesis costs of a sample.
+// The cost of a sample under one hypothesis.
 struct Cost {
     double wrong = 0, bits = 0;
-    bool is_as_given = true;  // every pixel
-    // Where no hypothesis holds, a wrong pixel weighs more: what makes it wrong is a mistake, which has a reason of its
-    // own.
+    bool is_as_given = true;  // holds for every pixel
+    // If no hypothesis holds, a wrong pixel costs four times as much as in pricing.h: it is caused by a mistake, which
+    // needs its own explanation.
     [[nodiscard]] double total(const Pricing& pricing) const noexcept { return bits + 4 * wrong * pricing.of_wrong(); }
 };
 
-// A pixel of a sample, which stands for all that have the same structures and the same value.
+// A pixel of a sample, for all pixels with the same structures and the same value.
 struct WeightedPixel {
     StackedPixel pixel{};
     double weight = 1;
 };
 
-// All that makes a pixel what it is, as bytes.
+// The structures and the value of a pixel as bytes, for comparing them.
 std::string key_of(const StackedPixel& pixel) {
     std::string key;
     const auto add = [&](const auto& value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
@@ -195,7 +195,7 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
     return pixels;
 }
 
-// The sample is looked at no further once the cost is more than `most_bits`, or a pixel is wrong where none may be.
+// Stops when the cost exceeds `most_bits`, or at the first wrong pixel if none is allowed.
 Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most_bits,
              Steps& steps) {
     const Compositor compositor{hypothesis};
@@ -206,7 +206,7 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
         const Stack* const stack = reaching(compositor, pixel, steps);
         if (stack == nullptr) {
             cost.wrong += weight;
-            std::swap(pixels[i], pixels[i / 2]);  // it may well tell against the next hypothesis, too
+            std::swap(pixels[i], pixels[i / 2]);  // it is likely to reject the next hypothesis, too
         } else {
             const bool as_given = is_as_given(pixel, *stack);
             cost.is_as_given = cost.is_as_given && as_given;
@@ -218,7 +218,8 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
     return cost;
 }
 
-// What the members of a family cost at least: the pixels that their widest hypothesis does not reach.
+// A lower bound for the cost of all members of a family: the cost of the pixels that their widest hypothesis does not
+// reach.
 double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most,
                 Steps& steps) {
     Cost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps);
@@ -241,7 +242,7 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
         if (const Cost cost = cost_of(*likely, pixels, Wrong::none, any_bits, steps);
             cost.wrong == 0 && cost.is_as_given)
             return likely;
-    // The first hypothesis that costs less than `most`, or the one that costs the least.
+    // Returns the first hypothesis with a cost below `most` that is_enough, or the one with the least cost.
     const auto choose = [&](double most, auto is_enough) {
         double best = most;
         std::optional<Hypothesis> found;
@@ -261,7 +262,7 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     };
     const auto [least, bits] = choose(any_bits, [](double) { return false; });
     if (!least || allowed == Wrong::some) return least;
-    // Of those that tell it nearly as well the plainest is believed: families and their members stand in that order.
+    // Of those with nearly equal costs the simplest is chosen: families and their members are in that order.
     return choose(1.1 * bits + 64, [](double) { return true; }).first;
 }
 

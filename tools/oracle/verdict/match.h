@@ -1,8 +1,8 @@
-// tools/oracle/verdict/match.h - does a structure under a hypothesis reach a candidate's pixels: one, some, or all of a
-// picture.
+// tools/oracle/verdict/match.h - tests whether a structure under a hypothesis reaches the values of a candidate: at one
+// pixel, in a sample, or in the whole picture.
 //
-// Rule     Pixels whose fragments lie at one depth are tried by every rule for ties; the picture has to keep to one of
-//          them.
+// Rule     If fragments of a pixel have equal depths, every rule for ties is tried; one rule must hold for the whole
+//          picture.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
 #include <optional>
@@ -13,46 +13,47 @@
 
 namespace strata::oracle::verdict {
 
-using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieRule::other does
+using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieRule::other holds
 inline constexpr TieMask all_ties = (2u << ties_count) - 1;
 struct TiesFound {
     TieMask mask = 0;
-    Ties ties{};            // the first that holds
-    PixelList list{};       // what covers the pixel: at an edge perhaps not what was given
-    bool at_edge = false;   // as on a rasterizer that snaps or breaks ties otherwise: covered otherwise, or ...
-    bool is_moved = false;  // colours off by their spread
+    Ties ties{};            // the first rule that holds
+    PixelList list{};       // the fragments that were used: at an edge possibly not the given ones
+    bool at_edge = false;   // needs a rasterizer with other snapping or another tie rule: with other coverage, or ...
+    bool is_moved = false;  // with colours changed by up to their spreads
 };
 
-// Which rules for ties bring the pixel to the candidate's value; all, where it has no ties.
+// The rules for ties under which the pixel has the candidate's value; all rules if it has no ties.
 [[nodiscard]] TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
                                        const std::array<double, 4>& value, StackMaker& maker);
 
-// The structures that a pixel of a sample may have: one for each rule for ties that makes a difference there.
+// The structures that a sampled pixel may have: one per rule for ties with a different result there.
 struct StackedPixel {
     std::vector<Stack> stacks{};
-    std::size_t given = 0;  // so many of them by what covers the pixel as given; the others as TiesFound::at_edge
+    std::size_t given = 0;          // number of structures with the given coverage; the others need TiesFound::at_edge
     std::array<double, 4> value{};  // the candidate's
 };
 [[nodiscard]] StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker);
-// The first of the pixel's structures that reaches its value; null if none does.
+// The first structure of the pixel that reaches its value; null if there is none.
 [[nodiscard]] const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel, Steps& steps);
 [[nodiscard]] bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept;
 
-// The hypothesis that tells the sample in the fewest bits (pricing.h); of `none`, one that holds for all of it.
+// The hypothesis that describes the sample in the fewest bits (pricing.h); with Wrong::none it must hold for every
+// pixel.
 enum class Wrong : std::uint8_t { some, none };
 [[nodiscard]] std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
                                                 Wrong allowed, const std::optional<Hypothesis>& likely = {});
 
-// Those that leave less open than `wide` on the right structure of the sample.
+// The hypotheses whose intervals for the right structure of the sample are clearly narrower than those of `wide`.
 [[nodiscard]] Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample);
 
-// `examples` gets some of the pixels that are wrong or need another rasterizer. Of `none` an account that is wrong is
-// looked at no further than it takes to know that.
+// Checks an account against the whole picture. `examples` receives some of the pixels that are wrong or need another
+// rasterizer. With Wrong::none the check stops soon after the account has failed.
 [[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
                                 Wrong allowed, Sample& examples);
 
-// The best account of the whole picture with these rules, if one holds for every pixel: under `likely`, if that holds.
-// Pixels that speak against one are added to the sample.
+// The best account of the whole picture with these rules, if one holds for every pixel. `likely` is tried first. Pixels
+// that contradict an account are added to the sample.
 [[nodiscard]] std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules,
                                                  const SceneFragments& scene, const Colors& candidate, Sample& sample,
                                                  const std::optional<Hypothesis>& likely = {});

@@ -1,5 +1,5 @@
-// tools/oracle/verdict/parted.h - the pixels of a sample, divided into right and wrong ones by the account that comes
-// closest; what search.cpp and leads.cpp share.
+// tools/oracle/verdict/parted.h - divides the pixels of a sample into right and wrong ones under the closest account;
+// shared by search.cpp and leads.cpp.
 #pragma once
 #include <vector>
 
@@ -12,23 +12,24 @@ using Rules = std::vector<Rule>;
 
 struct PartedPixel {
     const SampledPixel* sampled = nullptr;
-    StackedPixel right{};  // by the right structure
+    StackedPixel right{};  // under the right structure
 };
 
-// The sample's pixels apart: those that the closest account of the right structure calls wrong, and the others.
+// The sampled pixels that are wrong under the closest account of the right structure, and the others.
 struct Parted {
     std::vector<PartedPixel> wrong{}, right{};
 };
 
 [[nodiscard]] Parted parted(const Sample& sample, const Hypothesis& closest);
 
-// Whether a pixel's structures are the right ones; the division of a peel from both ends aside.
+// True if the pixel's structures are the right ones; the position of the division of a peel from both ends is not
+// compared.
 [[nodiscard]] bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel);
 
-// At most `most` of the pixels, evenly chosen.
+// At most `most` of the pixels, at even distances.
 [[nodiscard]] std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, std::size_t most);
 
-// Each rule by itself.
+// One set of rules per rule.
 [[nodiscard]] std::vector<Rules> singles(const std::vector<Rule>& rules);
 
 }  // namespace strata::oracle::verdict

@@ -1,9 +1,9 @@
-// tools/oracle/verdict/pixel_rules.cpp - rules that read layers at another pixel, and rules of the blend itself.
+// tools/oracle/verdict/pixel_rules.cpp - the rules (rule.h) that read layers of another pixel, and those of blending.
 #include "tools/oracle/verdict/structure.h"
 
 namespace strata::oracle::verdict {
 
-// A texture that is read elsewhere has no layer there if the other pixel has none.
+// Replaces layers by those of another pixel; a layer that the other pixel lacks is dropped.
 void StackMaker::read_elsewhere(const Rule& rule, const PixelList& pixel) {
     if (pixel.scene == nullptr) return;
     int x = pixel.x, y = pixel.y;

@@ -1,12 +1,12 @@
-// tools/oracle/verdict/pricing.h - what a picture costs in bits if a hypothesis is to tell it: the measure by which
-// hypotheses are chosen.
+// tools/oracle/verdict/pricing.h - the cost in bits of describing a picture under a hypothesis, by which hypotheses are
+// compared.
 //
-// Rule     A pixel costs what its interval leaves open: the logarithm of the number of values in it. A wrong pixel
-//          costs all its digits, four times: what makes it wrong is a mistake, which has a reason of its own, and no
-//          port is to be accused for a narrow account's sake. That is the principle of the shortest description: one
-//          that leaves much open everywhere does not excuse a few wrong pixels, and one that leaves nothing open does
-//          not accuse a port that rounds in its own way.
-// Numbers  Bits are whole multiples of 2^-16, so that threads may add them up in any order.
+// Rule     A pixel costs the logarithm of the number of values in its interval. A wrong pixel costs four times all of
+//          its digits: it is caused by a mistake, which needs its own explanation, and a port should not be called
+//          wrong only because a narrow hypothesis fits most pixels. By this principle of minimum description length, a
+//          hypothesis with wide intervals everywhere does not excuse a few wrong pixels, and one with narrow intervals
+//          does not reject a port with its own rounding.
+// Numbers  Bits are whole multiples of 2^-16, so the sum does not depend on the order in which threads add them.
 // Source   J. Rissanen, 1978, Modeling by shortest data description.
 #pragma once
 #include <algorithm>
@@ -20,13 +20,13 @@ class Pricing {
   public:
     explicit Pricing(Storage storage) : storage_{storage} {}
     [[nodiscard]] double of(const Reach& reach) const noexcept {
-        double values = 1;  // of three channels
+        double values = 1;  // number of values of the three channels
         for (std::size_t c = 0; c < 3; ++c) values *= 1 + (reach[c].high - reach[c].low) / step(reach[c].magnitude());
         if (reach.sums.front_unit > 0) values = std::min(values, sums_of(reach.sums));
         return std::nearbyint(std::log2(values) * 0x1p16) * 0x1p-16;
     }
     [[nodiscard]] double of_wrong() const noexcept { return 4 * 3 * digits(); }
-    // Of one channel, in bits.
+    // Bits of one channel.
     [[nodiscard]] double digits() const noexcept {
         switch (storage_) {
             case Storage::unorm8: return 8;
@@ -37,10 +37,12 @@ class Pricing {
         }
         return 24;
     }
-    static constexpr double of_edge = 6;  // to say that and how a pixel at an edge is covered otherwise
+    // The cost of describing that a pixel at an edge is covered differently, and how.
+    static constexpr double of_edge = 6;
 
   private:
-    // Each is off by some units in the last place, or by what is left open of a float behind.
+    // The number of possible sums. Each has an error of some units in the last place, or of the interval of a float
+    // back.
     [[nodiscard]] double sums_of(const Sums& sums) const noexcept {
         double values = sums.count();
         for (const Interval& back : sums.back) {
@@ -49,7 +51,7 @@ class Pricing {
         }
         return values;
     }
-    // Between two values that the picture tells apart.
+    // The distance between two values that the picture distinguishes.
     [[nodiscard]] double step(double magnitude) const noexcept {
         if (storage_ == Storage::half || storage_ == Storage::single)
             return std::exp2(-digits()) * std::max(magnitude, 0x1p-14);
@@ -58,7 +60,7 @@ class Pricing {
     Storage storage_;
 };
 
-// What it takes to say which hypothesis it is.
+// The cost of stating the hypothesis itself.
 [[nodiscard]] inline double bits_of(const Hypothesis& h) noexcept {
     double bits = has_front(h.order) && has_back(h.order) ? 8 : 0;
     if (bits > 0 && h.front.storage != h.back.storage) bits += 8;

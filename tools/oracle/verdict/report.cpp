@@ -43,7 +43,7 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
 }
 
-// Where a mistake shows.
+// The pixels at which a mistake is visible.
 std::string reach_of(const Checked& c, const Verdict& v) {
     const std::uint64_t decided = c.changed - c.undecided;
     std::string text = fmt::format("so at all {} that it changes", pixels(c.changed));

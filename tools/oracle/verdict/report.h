@@ -1,4 +1,4 @@
-// tools/oracle/verdict/report.h - a verdict in words and as JSON.
+// tools/oracle/verdict/report.h - a verdict as text and as JSON.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace strata::oracle::verdict {
 
 struct Verdict;
 
-// The verdict on a line, what it rests on below it.
+// The verdict on the first line, its evidence below.
 [[nodiscard]] std::string to_text(const Verdict& verdict, const pipeline::DrawList& list);
 [[nodiscard]] std::string to_json(const Verdict& verdict, const pipeline::DrawList& list);
 

@@ -1,9 +1,8 @@
-// tools/oracle/verdict/rule.h - what a port may do to a pixel's layers instead of compositing them: one mistake, the
-// same at every pixel.
+// tools/oracle/verdict/rule.h - the mistakes that a port may make with a pixel's layers; the same mistake at every
+// pixel.
 //
-// Rule     A rule is a value: a kind and its parameters. StackMaker applies it to a pixel's list; `holds` for a whole
-//          picture is judge.h's affair. Numbers of layers count from the near end from 0, or from the far end where the
-//          kind says so.
+// Rule     A rule is a value: a kind and its parameters. StackMaker (structure.h) applies it to a pixel's list. Layers
+//          are numbered from 0 at the near end, or from the far end if the kind says so.
 // Tests    tests/tools/oracle/verdict/search_test.cpp
 #pragma once
 #include <cstdint>
@@ -14,119 +13,119 @@ namespace strata::oracle::verdict {
 
 enum class RuleKind : std::uint8_t {
     right,
-    // How many layers. n: their number
-    nearest_alone,      // the nearest n
-    farthest_alone,     // the farthest n
-    ends_alone,         // the nearest n and the farthest n, as n passes of a dual peel leave them
-    nearest_lost,       // all but the nearest n
-    farthest_lost,      // all but the farthest n
-    rest_averaged,      // the nearest n, behind them one layer: the average of the others, with their alpha together;
-                        // value: 1 with the mean alpha for each
-    rest_as_submitted,  // the nearest n, behind them the others as they were submitted
-    ends_rest_as_submitted,    // the nearest n, the others as they were submitted, the farthest n
+    // The number of layers. n: how many
+    nearest_alone,   // the nearest n
+    farthest_alone,  // the farthest n
+    ends_alone,      // the nearest n and the farthest n, as after n passes of a dual peel
+    nearest_lost,    // all but the nearest n
+    farthest_lost,   // all but the farthest n
+    rest_averaged,   // the nearest n, and behind them one layer: the average of the others with their combined alpha;
+                     // value: 1 with the mean alpha for each
+    rest_as_submitted,         // the nearest n, and behind them the others in submission order
+    ends_rest_as_submitted,    // the nearest n, the others in submission order, the farthest n
     first_submitted,           // the first n submitted, sorted
     last_submitted,            // the last n submitted, sorted
-    submitted_lost,            // all but number n of those submitted
-    submitted_lost_from_last,  // the same, counted from the last
+    submitted_lost,            // all except number n in submission order
+    submitted_lost_from_last,  // the same, counted from the last submitted one
     odd_lost,                  // the second, the fourth ...
     even_lost,                 // the nearest, the third ...
-    middle_lost,               // of an odd number
+    middle_lost,               // of an odd number of layers
     middle_doubled,
-    ended_early,  // none behind those that let less than `value` through
-    // One layer: n is its number
+    ended_early,  // all behind a transmittance of less than `value`
+    // One layer, with number n
     lost,
     lost_from_far,
     doubled,
     doubled_from_far,
-    swapped,           // with the one behind it
-    swapped_from_far,  // with the one before it
-    merged,            // with the one behind it, by MAX
-    mixed,             // with the one behind it: the average of the two
-    color_of_next,     // it has the colour of the one behind it
+    swapped,           // exchanged with the layer behind it
+    swapped_from_far,  // exchanged with the layer before it
+    merged,            // with the layer behind it, by MAX
+    mixed,             // averaged with the layer behind it
+    color_of_next,     // it has the colour of the layer behind it
     color_of_previous,
     // All layers
-    colors_shifted,    // each has the colour of the one behind it
-    alphas_shifted,    // each has the alpha of the one behind it
-    nearest_repeated,  // each is the nearest
-    nearest_behind,    // the nearest comes behind all others
-    farthest_before,   // the farthest comes before all others
-    pairs_swapped,     // each second one comes before the one that is nearer
-    ordered_in_bits,   // by depths of n bits, equal ones as submitted
-    lost_in_bits,      // all but the first of one depth of n bits
-    sorted_once,       // as submitted, near to far, and neighbours exchanged in one walk
+    colors_shifted,    // each has the colour of the layer behind it
+    alphas_shifted,    // each has the alpha of the layer behind it
+    nearest_repeated,  // each is a copy of the nearest
+    nearest_behind,    // the nearest is behind all others
+    farthest_before,   // the farthest is in front of all others
+    pairs_swapped,     // every second layer is in front of the one before it
+    ordered_in_bits,   // ordered by depths of n bits, equal depths in submission order
+    lost_in_bits,      // all except the first of equal depths of n bits
+    sorted_once,       // in submission order, with one pass of exchanges of neighbours from near to far
     all_doubled,
     reversed,
-    near_reversed,  // the near half, as a peel from both ends divides them
+    near_reversed,  // the near half, as divided by a peel from both ends, is reversed
     far_reversed,
-    submitted_moved,  // n: 0 the first submitted before all others, 1 the last; 2 the first behind all others, 3 the
-                      // last
-    by_centroid,      // by depths of triangles; n: which point of them (setting.h)
-    alphas_as_submitted,    // sorted, but alphas stay in the order of submission
-    colors_as_submitted,    // the same of colours
-    as_submitted,           // the last drawn in front; n: the drawing order (setting.h)
-    as_submitted_reversed,  // the first drawn in front
-    by_instance,            // the last instance in front, each one's layers sorted; n: the order of instances
-    faces_apart,            // back faces behind all front faces, each sorted
-    averaged,               // one layer, of a weighted average; n: which weights and which alpha (structure.cpp)
-    added,                  // colours times alpha added to the background
-    weighted_sum,           // colours times alpha, and the background times 1 less all alphas
-    through_late,           // what a layer lets through counts for its own colour, too
+    submitted_moved,        // n: 0 the first submitted is in front of all others, 1 the last; 2 the first is behind all
+                            // others, 3 the last
+    by_centroid,            // by depths of triangles; n: the point of the triangle (setting.h)
+    alphas_as_submitted,    // sorted, but with the alphas in submission order
+    colors_as_submitted,    // sorted, but with the colours in submission order
+    as_submitted,           // the last drawn is in front; n: the drawing order (setting.h)
+    as_submitted_reversed,  // the first drawn is in front
+    by_instance,            // the last instance is in front, with sorted layers; n: the order of instances
+    faces_apart,            // back faces are behind all front faces, each sorted
+    averaged,               // one layer with a weighted average; n: the weights and the alpha (color_rules.cpp)
+    added,                  // premultiplied colours are added to the background
+    weighted_sum,           // premultiplied colours, and the background times 1 - the sum of alphas
+    through_late,           // a layer's own transmittance is applied to its own colour, too
     multiplied,             // the background times all colours
-    greatest,               // MAX of all colours and the background; n: 1 of colours times alpha
+    greatest,               // MAX of all colours and the background; n 1: of premultiplied colours
     least,                  // MIN
-    composed_twice,         // over nothing, and the result over the background by its alpha again
+    composed_twice,         // composited over nothing, and the result over the background by its alpha again
     nearest_of_instance,
-    // Some layers, by what they are; `scope` says which, n its number
+    // Layers with a property. `scope` is the property, and its number is `of`
     some_lost,
     some_doubled,
-    alpha_below_lost,  // with alpha below `value`
-    alpha_below_kept,  // with alpha not below `value` lost
-    behind_drawn,      // behind one that was drawn before: blended surfaces write depth; n: the drawing order
-    before_drawn,      // before one that was drawn before
-    close_lost,        // within n codes behind the one before it: lost
-    close_merged,      // MAX
+    alpha_below_lost,  // those with alpha below `value` are dropped
+    alpha_below_kept,  // those with alpha of at least `value` are dropped
+    behind_drawn,      // those behind a layer drawn before, as if blended surfaces wrote depth; n: the drawing order
+    before_drawn,      // those in front of a layer drawn before
+    close_lost,        // those within n codes behind the layer before them are dropped
+    close_merged,      // merged by MAX
     close_swapped,
     within_lost,  // the same within `value` of the depth range
     within_merged,
-    // Layers of another pixel: n says of which layers (0 all, else one by its number from 1), dx and dy of which pixel
+    // Layers of another pixel. n: 0 all layers, else one by its number from 1; dx and dy: the pixel
     shifted,
-    halved,    // of one pixel of each two by two: dx and dy from the first; n: from which layer on
+    halved,    // of one pixel of each 2 x 2 pixels: dx and dy from the first; n: from this layer on
     mirrored,  // dx 1: left and right exchanged, dy 1: above and below
     // Pixels whose centre lies on an edge
-    edges_twice,  // both triangles beside it are drawn
-    edges_never,  // neither is
+    edges_twice,  // both triangles at the edge are drawn
+    edges_never,  // neither triangle is drawn
     // The opaque surface and the background
-    hidden_shown,      // those behind the opaque surface over it
-    hidden_alone,      // those behind the opaque surface, and none before it
-    at_opaque_shown,   // those within n codes behind the opaque surface, and at it, too: LEQUAL for LESS
-    near_opaque_lost,  // those within n codes before it
-    opaque_lost,       // the background behind what is visible
-    opaque_ignored,    // the same, and hidden ones shown
-    opaque_in_front,   // nothing blended over it
-    background_lost,   // black behind all; n: 1 behind layers alone, in place of the opaque surface, too
-    background_twice,  // added once more
-    background_added,  // added to the layers, as if they let all of it through
-    background_other,  // another colour, which the candidate has where nothing is
-    surface_lost,      // black behind all, in place of the opaque surface, too
-    surface_mixed,     // `value` of the opaque surface, the rest of the colour that was cleared to
+    hidden_shown,      // those behind the opaque surface are drawn over it
+    hidden_alone,      // only those behind the opaque surface
+    at_opaque_shown,   // also those up to n codes behind the opaque surface, as with LEQUAL instead of LESS
+    near_opaque_lost,  // those up to n codes in front of it are dropped
+    opaque_lost,       // the background replaces it behind visible layers
+    opaque_ignored,    // the same, and hidden layers are drawn
+    opaque_in_front,   // layers are not blended over it
+    background_lost,   // black behind all; n 1: only behind layers, also instead of the opaque surface
+    background_twice,  // added a second time
+    background_added,  // added to the layers as if their transmittance were 1
+    background_other,  // another colour, which the candidate has where nothing is drawn
+    surface_lost,      // black behind all, also instead of the opaque surface
+    surface_mixed,     // `value` of the opaque surface, the rest of the clear colour
     // How layers are blended (composite.h, Mixing)
-    veiled,           // what is let through begins as `value`
-    through_squared,  // a layer lets through 1 less the square of its alpha
-    through_summed,   // 1 less the sum of alphas
-    not_attenuated,   // layers are added as they are, the background attenuated
-    behind_squared,   // what lies behind the front accumulator is attenuated twice
-    behind_inverted,  // by what is not let through
-    few_bits,  // n: bits of the accumulator's colours, times 256 those of what is let through, times 65536 of the
-               // picture, too
-    // Colours, of what `scope` says
+    veiled,           // the transmittance starts at `value`
+    through_squared,  // the transmittance of a layer is 1 - alpha^2
+    through_summed,   // 1 - the sum of alphas
+    not_attenuated,   // layers are added without transmittance; the background is attenuated
+    behind_squared,   // the colour behind the front accumulator is multiplied by the transmittance twice
+    behind_inverted,  // by 1 - the transmittance
+    few_bits,  // n: bits of the accumulator's colours, plus 256 times those of the transmittance, plus 65536 if the
+               // picture has them, too
+    // Colours of the layers in `scope`
     alpha_squared,
     alpha_inverted,
-    alpha_ignored,  // 1
-    alpha_times,    // `value`
-    alpha_root,     // the square root
+    alpha_ignored,  // alpha is 1
+    alpha_times,    // alpha times `value`
+    alpha_root,     // the square root of alpha
     color_squared,
     color_root,
-    solid,  // alpha 1, colours times alpha as before
+    solid,  // alpha is 1, with premultiplied colours unchanged
     premultiplied_twice,
     not_premultiplied,
     red_for_blue,
@@ -139,14 +138,14 @@ enum class RuleKind : std::uint8_t {
     picture_decoded,
     rows_reversed,
     columns_reversed,
-    turned  // by half a turn
+    turned  // rotated by 180 degrees
 };
 inline constexpr std::size_t rule_kind_count = static_cast<std::size_t>(RuleKind::turned) + 1;
 
-// Which layers a rule changes.
+// The layers that a rule changes.
 enum class Scope : std::uint8_t { all, instance, material, back_faces, front_faces, layer, layer_from_far };
 
-// Pixels [x0, x1) x [y0, y1) of the frame, from the top left.
+// Pixels [x0, x1) x [y0, y1) of the frame, from the top left corner.
 struct Region {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     [[nodiscard]] constexpr bool is_everywhere() const noexcept { return x1 == 0; }
@@ -161,13 +160,13 @@ struct Rule {
     std::uint32_t n = 0;
     float value = 0;
     Scope scope = Scope::all;
-    std::uint32_t of = 0;  // the instance's, material's or layer's number
+    std::uint32_t of = 0;  // the number of the instance, material or layer
     int dx = 0, dy = 0;    // pixels to the right and down
-    Region region{};       // where it goes by the rule
+    Region region{};       // the pixels at which the rule applies
     friend bool operator==(const Rule&, const Rule&) = default;
 };
 
-// As JSON names it.
+// The name of the kind in JSON.
 [[nodiscard]] std::string_view name(RuleKind kind) noexcept;
 
 }  // namespace strata::oracle::verdict

@@ -29,7 +29,7 @@ std::string material_name(std::uint32_t n, const pipeline::DrawList& list) {
 
 std::string codes(std::uint32_t n) { return n == 1 ? "one code" : fmt::format("{} codes", n); }
 
-// "back faces", "what has material glass"; nothing for all layers.
+// "back faces", "what has material glass"; empty for all layers.
 std::string some(const Rule& rule, const pipeline::DrawList& list) {
     switch (rule.scope) {
         case Scope::all: return "";
@@ -53,7 +53,7 @@ std::string_view point(std::uint32_t n) {
     return "";  // unreachable: the enum is closed
 }
 
-// Of rules that read elsewhere.
+// The subject of a sentence about rules that read another pixel.
 std::string whose(std::uint32_t n) {
     return n == 0 ? "layers are" : fmt::format("the {} layer is", ordinal(n - 1, "nearest"));
 }

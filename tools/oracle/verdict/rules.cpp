@@ -10,7 +10,8 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-constexpr std::size_t most_of_a_kind = 64;  // instances, materials, alphas: beyond that no rule is made for each
+// Instances, materials, alphas: rules for single ones are made only up to this number.
+constexpr std::size_t most_of_a_kind = 64;
 
 template <class T>
 std::vector<T> few(const std::set<T>& all) {
@@ -97,7 +98,7 @@ void add_orders(Rules& all, const SceneFacts& facts) {
     }
 }
 
-// Some layers, by what they belong to.
+// The scopes of a scene: instances, materials and facings.
 std::vector<Rule> scopes_of(const SceneFacts& facts) {
     std::vector<Rule> scopes;
     if (facts.instances.size() > 1)
@@ -149,14 +150,14 @@ void add_depths(Rules& all, const SceneFacts& facts) {
         if (codes > 0) add_numbered(all, {close_lost, close_merged, close_swapped}, codes, codes + 1);
         if (facts.has_opaque) add_numbered(all, {at_opaque_shown, near_opaque_lost}, codes, codes + 1);
     }
-    // One digit, and two where epsilons are meant to be seen.
+    // Values with one significant digit, or two from 1e-3 on, where epsilons have a visible effect.
     for (const double power : {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1})
         for (int times = 10; times < 100; times += power < 1e-3 ? 10 : 1)
             for (const RuleKind kind : {within_lost, within_merged})
                 if (times * power < 5) all.push_back({.kind = kind, .value = static_cast<float>(times * power / 10)});
 }
 
-// Layers of other pixels.
+// Adds rules that read layers of other pixels.
 void add_elsewhere(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
     const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 3));
@@ -237,7 +238,7 @@ std::vector<Rule> one_of_each_kind(const SceneFacts& facts) {
     of(RuleKind::solid).scope = Scope::layer_from_far;
     of(RuleKind::ended_early).value = 1.0f / 255;
     for (const RuleKind kind : {RuleKind::ordered_in_bits, RuleKind::lost_in_bits}) of(kind).n = 16;
-    // Of what the picture alone says, and of what does not change the structure.
+    // Removes kinds that depend on the picture, and those that do not change the structure.
     std::erase_if(all, [](const Rule& rule) {
         return rule.kind == RuleKind::right || rule.kind == RuleKind::background_other ||
                rule.kind >= RuleKind::picture_encoded;

@@ -1,4 +1,4 @@
-// tools/oracle/verdict/rules.h - the rules that are tried on a scene, and what they say.
+// tools/oracle/verdict/rules.h - lists the rules that are tried on a scene, and describes them in words.
 //
 // Tests    tests/tools/oracle/verdict/search_test.cpp
 #pragma once
@@ -17,25 +17,26 @@ namespace strata::oracle::verdict {
 class Sample;
 class SceneFragments;
 
-// What a scene has, for the rules that can be told apart in it.
+// Facts about a scene that determine which rules can be distinguished in it.
 struct SceneFacts {
-    std::size_t most_layers = 0;  // visible fragments of a pixel
+    std::size_t most_layers = 0;  // largest number of visible fragments of a pixel
     std::vector<std::uint32_t> instances{}, materials{};
-    Rgba background{};            // of background_other
-    std::vector<float> alphas{};  // some of them, ascending, where they are few
+    Rgba background{};            // the colour of background_other
+    std::vector<float> alphas{};  // all distinct alphas, ascending, if there are few
     bool has_opaque = false, has_hidden = false, has_two_facings = false, has_centres_on_edges = false,
          has_other_background = false;
 };
 [[nodiscard]] SceneFacts facts_of(const SceneFragments& scene, const Sample& sample);
 
-// All that are tried, the plainest first.
+// All rules that are tried, the simplest first.
 [[nodiscard]] std::vector<Rule> rules_for(const SceneFacts& facts);
-// One a kind; where the kind has numbers, that which shows the least.
+// One rule per kind; if the kind has parameters, the values with the smallest effect.
 [[nodiscard]] std::vector<Rule> one_of_each_kind(const SceneFacts& facts);
-// The order in which the rules of a pair are applied: what takes part, then its order, then its colours.
+// The order in which two rules are applied: first those that select layers, then those that order them, then those that
+// change colours.
 [[nodiscard]] int stage_of(RuleKind kind) noexcept;
 
-// "only the nearest 3 layers of up to 6 are composited": what a port does that goes by the rule.
+// Describes a port with this mistake: "only the nearest 3 layers of up to 6 are composited".
 [[nodiscard]] std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list);
 [[nodiscard]] std::string sentence(const std::vector<Rule>& rules, const SceneFacts& facts,
                                    const pipeline::DrawList& list);

@@ -52,7 +52,7 @@ Sample Sample::thinned(std::size_t most) const {
 
 namespace {
 
-// About how many a rule has to try at the pixel.
+// An estimate of the number of structures that each rule has to try at the pixel.
 std::size_t structures_at(const PixelList& list) {
     const TieChoices choices = tie_choices({}, list);
     std::size_t own = std::max<std::size_t>(1, choices.permutations);
@@ -78,7 +78,7 @@ Sample Sample::with_few_structures(std::size_t most) const {
 
 namespace {
 
-// A number in [0, 1) that looks random, of a place alone.
+// A pseudo-random number in [0, 1) that depends only on the position.
 double lot_of(int x, int y) noexcept {
     std::uint64_t h = static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint32_t>(y);
     h = (h ^ h >> 33) * 0xff51afd7ed558ccdull;
@@ -89,7 +89,7 @@ double lot_of(int x, int y) noexcept {
 }  // namespace
 
 Sample sampled(const SceneFragments& scene, const Colors& candidate, std::size_t most) {
-    // A pixel's chance grows with its fragments; one without any has that of a quarter of a fragment.
+    // A pixel's chance is proportional to its number of fragments plus a quarter.
     const double pixels = static_cast<double>(scene.width()) * scene.height();
     const double chance = static_cast<double>(most) / (static_cast<double>(scene.count()) + 0.25 * pixels);
     Sample sample{scene.setting()};

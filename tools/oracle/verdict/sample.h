@@ -1,7 +1,6 @@
-// tools/oracle/verdict/sample.h - pixels of a scene with their fragments and the candidate's colours: some, chosen
-// evenly, or those that are added.
+// tools/oracle/verdict/sample.h - a sample of pixels, each with its fragments and the candidate's colour.
 //
-// Rule     The choice depends on pixels' places alone, so it is the same in every run and on every machine.
+// Rule     The selection depends only on the pixels' positions, so it is the same on every machine.
 #pragma once
 #include <array>
 #include <deque>
@@ -12,8 +11,8 @@
 
 namespace strata::oracle::verdict {
 
-// The colours of a candidate, row by row from the top: values of red, green, blue and alpha; grey stands for three
-// channels.
+// The colours of a candidate, row by row from the top, as values of red, green, blue and alpha; grey is used for all
+// three colour channels.
 class Colors {
   public:
     explicit Colors(const Target& target);
@@ -22,7 +21,7 @@ class Colors {
     [[nodiscard]] int height() const noexcept { return target_->height; }
     [[nodiscard]] Code code() const noexcept { return target_->code; }
     [[nodiscard]] bool has_alpha() const noexcept { return target_->channels == 2 || target_->channels == 4; }
-    // Alpha is 1 where there is none.
+    // Alpha is 1 if the candidate has none.
     [[nodiscard]] std::array<double, 4> at(int x, int y) const noexcept;
 
   private:
@@ -31,35 +30,35 @@ class Colors {
 
 struct SampledPixel {
     std::vector<Fragment> fragments{};  // visible ones first
-    PixelList list{};                   // its spans are of `fragments`
+    PixelList list{};                   // its spans point into `fragments`
     std::array<double, 4> value{};      // the candidate's
 };
 
 class Sample {
   public:
     explicit Sample(const Setting& setting) : setting_{&setting} {}
-    Sample(const Sample& other);  // lists of the copy are its own
+    Sample(const Sample& other);  // the lists of the copy point into the copy
     Sample(Sample&&) noexcept = default;
     Sample& operator=(Sample&&) noexcept = default;
     ~Sample() = default;
     void add(const PixelList& list, const std::array<double, 4>& value);
     [[nodiscard]] bool has(int x, int y) const noexcept;
     [[nodiscard]] const std::deque<SampledPixel>& pixels() const noexcept { return pixels_; }
-    // In rows from the top: threads add them in no order.
+    // Sorts by rows from the top, because threads add pixels in any order.
     void sort();
-    // About `most` of them, evenly spread.
+    // About `most` of the pixels, at even distances.
     [[nodiscard]] Sample thinned(std::size_t most) const;
-    // Those whose structures are few (ties and edges make many of them), and of the others as many as `most` structures
-    // allow.
+    // All pixels with few structures (ties and edges make many), and of the others as many as fit into a total of
+    // `most` structures.
     [[nodiscard]] Sample with_few_structures(std::size_t most) const;
     [[nodiscard]] const Setting& setting() const noexcept { return *setting_; }
 
   private:
-    const Setting* setting_;  // the scene's, which outlives the sample
+    const Setting* setting_;  // of the scene, which must outlive the sample
     std::deque<SampledPixel> pixels_{};
 };
 
-// About `most` pixels: those with fragments are preferred, and of these the ones with more.
+// About `most` pixels; the chance of a pixel grows with its number of fragments.
 [[nodiscard]] Sample sampled(const SceneFragments& scene, const Colors& candidate, std::size_t most);
 
 }  // namespace strata::oracle::verdict

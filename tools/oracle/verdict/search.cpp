@@ -10,8 +10,8 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// Whether one of the hypotheses holds for all pixels under the rules, and of codes for most of them without another
-// rasterizer's help. Right pixels that the rules leave alone are right under them, too.
+// True if one of the hypotheses holds for all pixels under the rules; for codes, most pixels must not need another
+// rasterizer. Right pixels that the rules do not change remain right.
 bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, const Setting& setting) {
     struct Left {
         const Compositor* compositor = nullptr;
@@ -23,7 +23,8 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
     if (wide.empty()) return false;
     const bool has_codes = verdict::has_codes(wide[0].hypothesis().result.storage);
     const std::size_t all = parts.wrong.size() + parts.right.size(), most_at_edges = has_codes ? all / 3 : all;
-    std::size_t may_stay = parts.wrong.size() * 3 / 4;  // of the wrong ones: that is the hypothesis' affair, then
+    // Limit of wrong pixels that the rules do not change: those would be due to the hypothesis.
+    std::size_t may_stay = parts.wrong.size() * 3 / 4;
     for (const auto* pixels : {&parts.wrong, &parts.right})
         for (const PartedPixel& pixel : *pixels) {
             const StackedPixel made = stacked(rules, *pixel.sampled, maker);
@@ -54,8 +55,8 @@ std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts,
     return left;
 }
 
-// Two of them, of different kinds, in the order in which they are applied. The rules worth a partner are those that
-// explain the most wrong pixels alone, and then those that change any.
+// Pairs of rules of different kinds, in the order in which they are applied. The candidates for pairs are the rules
+// that alone explain the most wrong pixels, then those that change any.
 std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts, const Hypothesis& closest,
                             const Setting& setting) {
     constexpr std::size_t most_looked_at = 64, most_worth = 60;
@@ -96,13 +97,13 @@ double bits_of(const Checked& checked) {
            static_cast<double>(checked.wrong_pixels.size()) * pricing.of_wrong();
 }
 
-// The hypotheses that hold for nearly all pixels that are right, and leave there no more open than it costs to call the
-// others wrong: what makes these wrong is no rounding.
+// The hypotheses that hold for nearly all right pixels, and whose intervals there cost at most as much as calling the
+// wrong pixels wrong: rounding does not explain these.
 Families possible(const Families& all, const Parted& parts, const Hypothesis& closest, const Setting& setting) {
     const Pricing pricing{closest.result.storage};
     constexpr std::size_t most_looked_at = 300, few = 4, most_structures = 2048;
     std::vector<const PartedPixel*> pixels = thinned(parts.right, most_looked_at);
-    std::size_t structures = 0;  // every hypothesis is held against them: ties and edges make many that tell little
+    std::size_t structures = 0;  // ties and edges make many structures, each tried with every hypothesis
     std::erase_if(pixels, [&](const PartedPixel* pixel) {
         const std::size_t own = pixel->right.stacks.size();
         if (own > few && structures + own > most_structures) return true;
@@ -112,7 +113,7 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
     const std::size_t most_missed = pixels.size() / 50;
     double most_bits = std::numeric_limits<double>::max();
     Steps steps{*setting.work};
-    // Nothing if it is none of them.
+    // The cost of the right pixels; empty if too many are not reached.
     const auto bits_of_right = [&](const Hypothesis& h) -> std::optional<double> {
         const Compositor compositor{h};
         double bits = 0;
@@ -122,7 +123,7 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
                 bits += pricing.of(compositor.reach(*stack));
             } else {
                 if (++missed > most_missed) return std::nullopt;
-                std::swap(pixels[i], pixels[i / 2]);  // it may well tell against the next one, too
+                std::swap(pixels[i], pixels[i / 2]);  // it is likely to reject the next hypothesis, too
             }
             if (bits > most_bits) return std::nullopt;
         }
@@ -153,10 +154,10 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
     return left;
 }
 
-// Of these, those that hold for some of the wrong pixels under the rules.
+// Of these hypotheses, those that reach each of a few wrong pixels under the rules.
 Families possible(const Families& all, const Rules& rules, const Parted& parts, const Setting& setting) {
     constexpr std::size_t most_looked_at = 8;
-    // Few bits, and rounded anyhow: that leaves all open.
+    // A mistake of few bits combined with arbitrary rounding would explain any value.
     const bool has_few_bits = std::ranges::find(rules, RuleKind::few_bits, &Rule::kind) != rules.end();
     StackMaker maker{setting};
     std::vector<StackedPixel> pixels;
@@ -181,19 +182,20 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
     return left;
 }
 
-// Those first that explain the most wrong pixels under the closest hypothesis: accounts of the whole picture are dear.
+// Sorts by the number of wrong pixels explained under the closest hypothesis, because checking the whole picture is
+// expensive.
 std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& closest,
                                 const Setting& setting) {
     constexpr std::size_t most_looked_at = 96;
     const Compositor compositor{closest};
     auto wrong = thinned(parts.wrong, most_looked_at);
-    // What another rasterizer has to help may be a mistake as well.
+    // A pixel that needs another rasterizer may be a mistake as well.
     Steps steps{*setting.work};
     for (const PartedPixel* pixel : thinned(parts.right, 4 * most_looked_at)) {
         const Stack* const found = reaching(compositor, pixel->right, steps);
         if (found != nullptr && !is_as_given(pixel->right, *found)) wrong.push_back(pixel);
     }
-    std::vector<std::pair<std::size_t, std::size_t>> explained(all.size());  // how many, and the number
+    std::vector<std::pair<std::size_t, std::size_t>> explained(all.size());  // number of pixels, and index in `all`
     for (std::size_t i = 0; i < all.size(); ++i) explained[i].second = i;
     setting.work->for_each(all.size(), [&](std::size_t i) {
         StackMaker maker{setting, setting.work->share()};
@@ -210,8 +212,8 @@ std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& par
     return sorted;
 }
 
-// More bits of an account are room for anything: of codes nine for a pixel that it changes and one for each, of floats,
-// whose blends are off by some units in the last place everywhere, a third of all digits.
+// The limit of an account's bits, above which it would fit anything. For codes, nine per changed pixel and one per
+// pixel; for floats, whose blends are inexact everywhere, a third of all digits.
 double most_open(const Checked& account) {
     constexpr double of_changed = 9, of_edge = 6, share_of_digits = 1.0 / 3;
     const Storage storage = account.account.hypothesis.result.storage;
@@ -220,8 +222,7 @@ double most_open(const Checked& account) {
     return of_changed * static_cast<double>(account.changed) + pixels + edges;
 }
 
-// Those of the accounts that hold for the whole picture; of one kind of rules with other numbers the first tells
-// enough.
+// The accounts that hold for the whole picture; of rules that differ only in their numbers, only the first.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
                            const Sample& sample, std::size_t most_tried) {
@@ -242,15 +243,15 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         Sample own = sample.thinned(few_sampled);
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
         auto one = account_for(own_families, rules, scene, candidate, own, likely);
-        // A rule that changes hardly anything that tells is no explanation: among so many rules one fits a few pixels
-        // by chance.
+        // An explanation must change several pixels that the right structure does not reach: among so many rules, some
+        // fit a few pixels by chance.
         if (one && one->changed - one->undecided >= least_decided && one->bits <= most_open(*one))
             found.push_back(*std::move(one));
     }
     return found;
 }
 
-// What leaves much more open than the best one has only room for the picture.
+// Removes accounts that need much more bits than the best one.
 void drop_roomy(std::vector<Checked>& found, double most_bits) {
     std::ranges::stable_sort(found, {}, [](const Checked& c) { return bits_of(c); });
     if (found.empty()) return;
@@ -262,8 +263,9 @@ void drop_roomy(std::vector<Checked>& found, double most_bits) {
 
 std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
                             const Checked& closest, const Sample& sample, int most_rules, const Region& region) {
-    constexpr std::size_t least_of_pairs = 8;  // wrong pixels: fewer tell nothing of two mistakes
-    // Accounts of the whole picture that are tried: a count of work, so that every machine stops at the same.
+    constexpr std::size_t least_of_pairs = 8;  // wrong pixels; with fewer, two mistakes cannot be distinguished
+    // Limits of the accounts that are tried on the whole picture: counts instead of times, so that the result is the
+    // same on every machine.
     constexpr std::size_t most_tried = 24, most_tried_again = 12, most_pairs_tried = 8;
     std::vector<Rule> rules = rules_for(facts_of(scene, sample));
     for (Rule& rule : rules) rule.region = region;
@@ -271,8 +273,8 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
     if (scene.setting().work->is_spent() || (most_rules > 1 && parts.wrong.size() < least_of_pairs)) return {};
     const std::vector<Rules> all =
         most_rules > 1 ? pairs_of(rules, parts, closest.account.hypothesis, scene.setting()) : singles(rules);
-    // What holds for the right pixels first; but a mistake may show at all of them, and another hypothesis call some of
-    // them right.
+    // First uses the hypotheses that hold for the right pixels. If the mistake affects all pixels, these are not right
+    // under the true hypothesis, so all are tried afterwards.
     std::vector<Checked> found;
     const Families likely = possible(definite, parts, closest.account.hypothesis, scene.setting());
     const auto find = [&](const Families& some, std::size_t most) {
@@ -288,7 +290,8 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
 
 namespace {
 
-// Pixels that have one structure tell the most, and of these those that the fewest hypotheses bring to their value.
+// Sorts the pixels with the most information first: those with one structure, and of these the ones that the fewest
+// hypotheses reach.
 void put_telling_first(std::vector<PartedPixel>& pixels, const std::vector<Hypothesis>& each, const Setting& setting) {
     const std::vector<Compositor> compositors(each.begin(), each.end());
     struct Told {
@@ -316,7 +319,7 @@ void put_telling_first(std::vector<PartedPixel>& pixels, const std::vector<Hypot
 
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
                                 const Sample& sample) {
-    constexpr std::size_t most_tried = 8;  // each of them with every hypothesis
+    constexpr std::size_t most_tried = 8;  // each is checked with every hypothesis
     Parted parts;
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
     std::vector<Hypothesis> each;

@@ -1,9 +1,9 @@
-// tools/oracle/verdict/search.h - which mistake in the structure makes a picture that is not right.
+// tools/oracle/verdict/search.h - finds the mistake in the structure of a wrong picture.
 //
-// Rule     Rules are tried on a sample first, under the hypotheses that hold all others, so that most of them fall at
-//          once; what is left has to hold at every pixel under a definite hypothesis. Explanations that cost much more
-//          bits than the best one are none. What explains some wrong pixels alone is a lead: by the pixels that it
-//          explains less the right ones that speak against it.
+// Rule     Rules are first tried on a sample under the widest hypotheses, which rejects most of them quickly; a
+//          remaining rule must hold at every pixel under a definite hypothesis. Explanations that need much more bits
+//          than the best one are dropped. A rule that explains only some wrong pixels is a lead; leads are ranked by
+//          the pixels that they explain, minus a share of the right ones that contradict them.
 // Tests    tests/tools/oracle/verdict/search_test.cpp
 #pragma once
 #include "tools/oracle/verdict/match.h"
@@ -11,20 +11,19 @@
 
 namespace strata::oracle::verdict {
 
-// Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the first is the best.
-// `definite`: the hypotheses under which they have to hold; `closest`: the right structure's account that has the
-// fewest wrong pixels; `sample`: pixels with some of the wrong ones among them; `region`: where a port makes the
-// mistake.
+// Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the best is first.
+// `definite`: the hypotheses under which they must hold; `closest`: the account of the right structure with the least
+// cost; `sample`: pixels, including some wrong ones; `region`: the pixels at which the port makes the mistake.
 [[nodiscard]] std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate,
                                           const Families& definite, const Checked& closest, const Sample& sample,
                                           int most_rules, const Region& region = {});
 
-// The same with one rule, under hypotheses that leave little open: those that explain every pixel of the sample,
-// whether it is right by another one or not.
+// The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
+// the sample, including those that a wider hypothesis would call right.
 [[nodiscard]] std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate,
                                               const Families& narrow, const Sample& sample);
 
-// The rules that explain most of the wrong pixels of a sample, the best first.
+// The rules that explain the most wrong pixels of a sample, the best first.
 [[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample);
 
 }  // namespace strata::oracle::verdict

@@ -58,7 +58,7 @@ Points points_of(const pipeline::Mesh& mesh) {
     return points;
 }
 
-// Ranks by a key, the least first; equal ones as listed.
+// The rank of each key in ascending order; equal keys in the order of the list.
 std::vector<std::uint32_t> ranks(const std::vector<double>& keys) {
     std::vector<std::uint32_t> order(keys.size()), rank(keys.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -74,7 +74,7 @@ Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, c
     std::array<std::vector<double>, instance_order_count> keys;
     for (const pipeline::Instance& instance : list.instances) {
         const Points points = points_of(list.meshes[instance.mesh]);
-        // Eye space looks along -z: the least z is the farthest.
+        // The eye looks along -z, so the smallest z is the farthest.
         const auto eye = [&](const Point& p) { return transformed(view.view, transformed(instance.model, p)); };
         const Point origin = eye({}), box = eye(points.box), mean = eye(points.mean);
         const auto listed = static_cast<double>(keys[0].size());
@@ -88,7 +88,7 @@ Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, c
 
 void find_nearness(const pipeline::DrawList& list, const pipeline::View& view,
                    std::span<const std::uint32_t> instance_of, Setting& setting) {
-    std::size_t first = 0;  // triangle of the instance
+    std::size_t first = 0;  // index of the instance's first triangle
     for (std::size_t t = 0; t < instance_of.size(); ++t) {
         if (t == 0 || instance_of[t] != instance_of[t - 1]) first = t;
         const pipeline::Instance& instance = list.instances[instance_of[t]];

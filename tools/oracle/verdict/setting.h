@@ -1,9 +1,9 @@
-// tools/oracle/verdict/setting.h - what of a scene is the same at all pixels and counts for the order in which a port
-// may draw it.
+// tools/oracle/verdict/setting.h - data of a scene that is the same for all pixels: the orders in which a port may draw
+// its instances and triangles.
 //
 // Rule     Engines sort instances by the depth of some point of each, far first, and draw back faces before front
-//          faces, of each instance or of all. A drawing order is a number: of the points below three times, then of the
-//          faces.
+//          faces, per instance or in the whole scene. A drawing order is a number: 3 times InstanceOrder plus
+//          FaceOrder.
 // Tests    tests/tools/oracle/verdict/setting_test.cpp
 #pragma once
 #include <array>
@@ -27,10 +27,10 @@ namespace strata::oracle::verdict {
 enum class InstanceOrder : std::uint8_t {
     listed,
     listed_backwards,
-    origin,           // depth of its origin
-    box,              // of its bounding box's centre
-    mean,             // of the mean of its vertices
-    box_by_distance,  // distance of the box's centre from the eye
+    origin,           // by depth of its origin
+    box,              // by depth of its bounding box's centre
+    mean,             // by depth of the mean of its vertices
+    box_by_distance,  // by distance of the box's centre from the eye
     box_near_first
 };
 inline constexpr std::uint32_t instance_order_count = 7;
@@ -46,21 +46,21 @@ struct DrawingOrder {
 }
 [[nodiscard]] std::string describe(const DrawingOrder& order);
 
-// What a triangle may be sorted by.
+// The depth by which a triangle may be sorted.
 enum class TrianglePoint : std::uint8_t { mean, window_mean, nearest, farthest };
 inline constexpr std::uint32_t triangle_point_count = 4;
 
 struct Setting {
     Rgba cleared{0, 0, 0, 1};               // the colour where nothing is drawn
-    std::optional<Rgba> seen_background{};  // what the candidate has there, if that is one other colour
-    // By InstanceOrder, then by instance: when it is drawn. Empty: as listed.
+    std::optional<Rgba> seen_background{};  // the candidate's colour there, if it is a single other colour
+    // By InstanceOrder, then by instance: its rank in drawing order. Empty: as listed.
     std::array<std::vector<std::uint32_t>, instance_order_count> rank{};
-    // By TrianglePoint, then by submission number: how near it is, more is nearer. Empty: not known.
+    // By TrianglePoint, then by submission index: a number that is larger for nearer triangles. Empty: not known.
     std::array<std::vector<float>, triangle_point_count> nearness{};
-    std::shared_ptr<Work> work = std::make_shared<Work>();  // what has been tried on the scene
+    std::shared_ptr<Work> work = std::make_shared<Work>();  // the steps of the search on this scene
 };
 
-// Of the triangles that are drawn, `instance_of` each one's instance in the order of submission.
+// Sets `nearness` for the drawn triangles; `instance_of`: the instance of each triangle in submission order.
 void find_nearness(const pipeline::DrawList& list, const pipeline::View& view,
                    std::span<const std::uint32_t> instance_of, Setting& setting);
 [[nodiscard]] Setting setting_of(const pipeline::DrawList& list, const pipeline::View& view, const Rgba& cleared);

@@ -44,7 +44,7 @@ std::size_t largest_group(std::span<const Fragment> sorted) noexcept {
     return largest;
 }
 
-// Whether both depths part the fragments alike, and leave them in one order.
+// True if both depths (code and binary32) have the same ties and the same order.
 bool have_one_key(std::span<const Fragment> sorted) noexcept {
     for (std::size_t i = 1; i < sorted.size(); ++i) {
         const Fragment &a = sorted[i - 1], &b = sorted[i];
@@ -62,7 +62,7 @@ TieChoices tie_choices(std::span<const Rule> rules, const PixelList& list) noexc
         rules, [](const Rule& r) { return r.kind == RuleKind::edges_twice || r.kind == RuleKind::edges_never; });
     const std::span<const Fragment> hidden = rules.empty() ? std::span<const Fragment>{} : list.hidden;
     const std::size_t largest = doubles ? most_permuted : std::max(largest_group(list.visible), largest_group(hidden));
-    // A hidden fragment lies behind every visible one by its code, and may lie before it in binary32.
+    // A hidden fragment is behind every visible one by its code, but may be in front of it by its binary32 depth.
     const bool is_one_key = !doubles && have_one_key(list.visible) && have_one_key(hidden) &&
                             (hidden.empty() || list.visible.empty() ||
                              std::ranges::max(list.visible, {}, &Fragment::shader_z).shader_z <
@@ -73,7 +73,7 @@ TieChoices tie_choices(std::span<const Rule> rules, const PixelList& list) noexc
         if (is_by_code && largest <= 1) choices.same_as[n] = 0;
         if (!is_by_code && is_one_key) choices.same_as[n] = choices.same_as[n - tie_rule_count];
     }
-    // Those of a group of g repeat after g!; larger groups than four keep their order.
+    // The permutations of a group of g fragments repeat after g!; groups of more than four are not permuted.
     constexpr std::array<std::uint32_t, most_permuted + 1> factorials{0, 0, 2, 6, permutations};
     choices.permutations = factorials[std::min(largest, most_permuted)];
     return choices;
@@ -87,7 +87,7 @@ bool is_in(const Rule& rule, const Fragment& f) noexcept {
         case Scope::back_faces: return !f.is_front_facing;
         case Scope::front_faces: return f.is_front_facing;
         case Scope::layer:
-        case Scope::layer_from_far: return true;  // StackMaker::recolor counts
+        case Scope::layer_from_far: return true;  // StackMaker::recolor selects by index
     }
     return true;  // unreachable: the enum is closed
 }
@@ -146,7 +146,7 @@ void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& t
     }
 }
 
-// Fragments that a rule lets take part, by depth.
+// Lists the fragments that the rules include, by depth.
 void StackMaker::list(std::span<const Rule> rules, const PixelList& pixel, const Ties& ties) {
     items_.clear();
     order_.clear();
@@ -189,7 +189,7 @@ void StackMaker::finish(std::span<const Rule> rules) {
         if (item.depth < (depths_ + 1) / 2) stack_.near = stack_.layers.size();
         if (item.depth < depths_ / 2) stack_.near_without_middle = stack_.layers.size();
     }
-    // A port divides what it finds: the layers of a wrong list, not those of the right one.
+    // A port divides the layers that it finds, so a wrong list is divided by its own length.
     if (std::ranges::all_of(rules, [](const Rule& r) { return r.kind == RuleKind::ends_alone; })) return;
     stack_.near = (items_.size() + 1) / 2;
     stack_.near_without_middle = items_.size() / 2;

@@ -1,4 +1,4 @@
-// tools/oracle/verdict/sums.cpp - the values that a float picture has of accumulators of codes.
+// tools/oracle/verdict/sums.cpp - the possible values of a float picture that is computed from accumulators of codes.
 #include <algorithm>
 #include <cmath>
 
@@ -8,18 +8,18 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-constexpr double fine = 0x1p-40;  // codes are quotients, rounded on both sides
+constexpr double fine = 0x1p-40;  // tolerance for codes, which are quotients rounded on both sides
 
-// The whole numbers of a unit in an interval whose ends are some.
+// The codes of a unit within an interval whose ends are codes.
 struct Codes {
     double first = 0, last = 0;
     Codes(Interval of, double unit)
         : first{std::ceil(of.low / unit - 0x1p-8)}, last{std::floor(of.high / unit + 0x1p-8)} {}
 };
 
-// Between two numbers of binary16 of this magnitude.
+// The spacing of binary16 at this magnitude.
 double half_unit(double magnitude) noexcept {
-    return std::scalbn(1.0, std::max(std::ilogb(magnitude), -14) - 10);  // of 0 the least
+    return std::scalbn(1.0, std::max(std::ilogb(magnitude), -14) - 10);  // for 0 the smallest subnormal
 }
 
 }  // namespace
@@ -45,11 +45,11 @@ std::size_t Sums::weights() const noexcept {
 }
 
 bool Sums::hold(const std::array<double, 4>& value) const noexcept {
-    // Whether some front and back of one channel add up to its value.
+    // True if some front and back code of one channel add up to its value.
     const auto adds_up = [&](std::size_t c, double through) {
         const Codes fronts{front[c], front_unit};
         const double off = (std::fabs(value[c]) + back[c].magnitude()) * relative + 0x1p-24 + fine;
-        // No other front leaves something that the back can have.
+        // Limits the front codes to those whose remainder is in the back's interval.
         const double least = value[c] - through * (back[c].high + fine) - off;
         const double most = value[c] - through * (back[c].low - fine) + off;
         const double first = std::max(fronts.first, std::floor(least / front_unit) - 1);

@@ -25,7 +25,7 @@ bool are_apart(const Reach& a, const Reach& b) noexcept {
 
 bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all) {
     std::vector<std::vector<Rule>> ports = all;
-    ports.emplace_back();  // the right one
+    ports.emplace_back();  // the right structure
     const End end{Storage::unorm8, Source::stored, Rounding::nearest};
     const Compositor compositor{{.order = Order::under, .front = end, .back = end, .result = end}};
     const std::size_t n = ports.size();

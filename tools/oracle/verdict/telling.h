@@ -1,4 +1,5 @@
-// tools/oracle/verdict/telling.h - whether a scene tells structures apart that look the same on another one.
+// tools/oracle/verdict/telling.h - tests whether a scene distinguishes mistakes that give equal pictures of another
+// scene.
 //
 // Tests    tests/tools/oracle/verdict/telling_test.cpp
 #pragma once
@@ -10,11 +11,10 @@ namespace strata::oracle::verdict {
 
 class SceneFragments;
 
-// Whether a rule means the same on any scene: not one of a scene's own instances or materials.
+// True if the rules have the same meaning in any scene, so they name no instances or materials.
 [[nodiscard]] bool is_of_any_scene(const std::vector<Rule>& rules) noexcept;
 
-// Whether an 8-bit port that goes by one of them differs from one that goes by any other, and from a right one, beyond
-// rounding.
+// True if 8-bit ports with each of these mistakes, and a right one, all differ from each other by more than rounding.
 [[nodiscard]] bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all);
 
 }  // namespace strata::oracle::verdict

@@ -11,11 +11,11 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// How far colours and alpha may be off, of values in [0, 1].
+// Hypotheses by the possible error of colours and alpha, whose values are in [0, 1].
 struct Choices {
-    Families definite{};  // nothing, or some units in the last place of binary32
-    Families coarse{};    // interpolated or kept in fewer bits
-    Families loose{};     // the same, and blended with errors up to a code a layer
+    Families definite{};  // none, or some units in the last place of binary32
+    Families coarse{};    // interpolated or stored with fewer bits
+    Families loose{};     // as coarse, with blending errors of up to one code per layer
 };
 
 Choices choices(Storage storage) {
@@ -28,7 +28,7 @@ double bits_of(const Checked& c, Storage storage) {
     return c.bits + static_cast<double>(c.wrong_pixels.size()) * Pricing{storage}.of_wrong();
 }
 
-// Of the rules, those that reach every pixel of the sample, too.
+// The rules that also reach every pixel of the sample.
 std::vector<Rule> alike_in(const Sample& sample, const std::vector<Rule>& rules, const Hypothesis& hypothesis) {
     std::vector<std::uint8_t> is_alike(rules.size(), 1);
     parallel_for(rules.size(), 0, [&](std::size_t i) {
@@ -57,7 +57,7 @@ void find_alike(const SceneFragments& scene, const Colors& candidate, Verdict& v
 
 namespace {
 
-// What the candidate has where nothing is drawn, if that is one colour and not the background's.
+// The candidate's colour where nothing is drawn, if it is a single colour and not the background's.
 std::optional<Rgba> other_background(const SceneFragments& scene, const Colors& candidate) {
     constexpr double seen = 1.5 / 255;
     std::mutex mutex;
@@ -80,7 +80,7 @@ std::optional<Rgba> other_background(const SceneFragments& scene, const Colors& 
     return Rgba{static_cast<float>((*color)[0]), static_cast<float>((*color)[1]), static_cast<float>((*color)[2]), 1};
 }
 
-// The candidate's pixels in another order.
+// The candidate with its rows or columns reversed, or both.
 Target rearranged(const Colors& candidate, RuleKind kind) {
     Target target = candidate.target();
     const auto channels = static_cast<std::size_t>(target.channels);
@@ -96,7 +96,7 @@ Target rearranged(const Colors& candidate, RuleKind kind) {
     return target;
 }
 
-// A picture that is right but for where its pixels lie.
+// Tests whether the picture is right except that its rows or columns are reversed.
 std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const Colors& candidate,
                                             const Families& definite, std::size_t most_sampled) {
     for (const RuleKind kind : {RuleKind::rows_reversed, RuleKind::columns_reversed, RuleKind::turned}) {
@@ -112,15 +112,15 @@ std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const C
     return std::nullopt;
 }
 
-// A right account that leaves little open needs no other one beside it: a code, of floats as much or a few bits a
-// pixel.
+// True if a right account needs no comparison with others, because its intervals are narrow: one code, or few bits per
+// pixel for floats.
 bool leaves_little_open(const Checked& right) {
     const bool is_in_codes = has_codes(right.account.hypothesis.result.storage);
     if (!is_in_codes && right.bits <= 4 * static_cast<double>(right.covered)) return true;
     return right.possible <= 1 || (is_in_codes && right.observed <= 1);
 }
 
-// The pixels that tell the most: those with the most layers.
+// The pixels with the most layers, which contain the most information.
 Sample deepest(const Sample& sample, std::size_t most) {
     std::vector<const SampledPixel*> deep;
     for (const SampledPixel& pixel : sample.pixels()) deep.push_back(&pixel);
@@ -132,8 +132,8 @@ Sample deepest(const Sample& sample, std::size_t most) {
     return some;
 }
 
-// What explains the picture in fewer bits than a right account that leaves much open: then the room that it leaves is
-// no evidence.
+// Finds mistakes that explain the picture in fewer bits than a right account with wide intervals. If there are any,
+// fitting these intervals is no evidence that the picture is right.
 std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
                                  const Checked& right, const Sample& even) {
     constexpr std::size_t most = 512, most_structures = 4096;
@@ -146,12 +146,12 @@ std::vector<Checked> told_better(const SceneFragments& scene, const Colors& cand
     return better;
 }
 
-// The right structure's account that tells the picture in the fewest bits, wrong pixels and all. A hypothesis is chosen
-// by some pixels, and again with some of those that turn out wrong.
+// The account of the right structure that describes the picture, including its wrong pixels, in the fewest bits. The
+// hypothesis is chosen on a sample, then again with some of the wrong pixels added.
 Checked closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
                         const Sample& even, Sample& examples) {
     constexpr std::size_t few_sampled = 300, few_added = 75,
-                          few_structures = 1024;  // every hypothesis is held against them
+                          few_structures = 1024;  // each is tried with every hypothesis
     constexpr int most_tries = 4;
     const Storage storage = storage_of(candidate.code());
     Sample sample = even.thinned(few_sampled).with_few_structures(few_structures);
@@ -171,10 +171,10 @@ Checked closest_account(const SceneFragments& scene, const Colors& candidate, co
     return *std::move(best);
 }
 
-// The rectangle that has all wrong pixels, if it is a small part of the picture: the tile of a power of two that it
-// lies in, where there is one.
+// The rectangle of all wrong pixels, if it is a small part of the picture: extended to the tile of 8 to 64 pixels that
+// contains it, if there is one.
 std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int width, int height) {
-    constexpr std::size_t least = 16;  // pixels: fewer tell no mistake from another one
+    constexpr std::size_t least = 16;  // with fewer pixels, mistakes cannot be distinguished
     if (wrong.size() < least) return std::nullopt;
     Region box{width, height, 0, 0};
     for (const std::uint32_t pixel : wrong) {
@@ -202,7 +202,8 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     Verdict verdict{.width = scene.width()};
     const auto is_right = [&](Checked&& right, const Sample& even) {
         verdict.right = std::move(right);
-        // Two codes are what another order of the same blends changes: no room that a mistake would need.
+        // Another order of the same blends can change a value by two codes; such intervals are too narrow for a
+        // mistake.
         const bool is_narrow = has_codes(storage) && verdict.right.possible <= 2;
         work.allow((is_narrow ? limits.mistakes : limits.narrower) + of_fragments);
         verdict.explanations = told_better(scene, candidate, all, verdict.right, even);
@@ -225,7 +226,7 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     Sample sample = even, examples{scene.setting()};
     verdict.right = closest_account(scene, candidate, all.definite, even, examples);
     if (verdict.right.is_whole()) return is_right(std::move(verdict.right), even);
-    // What leaves more open than the closest account has to beat it, or to show that no pixel is far off.
+    // An account with wider intervals than the closest one must cost about as little, or no pixel may be far off.
     constexpr double few_codes = 2;
     const double most_bits = 1.1 * bits_of(verdict.right, storage) + 64;
     for (const Families* some : {&all.definite, &all.coarse, &all.loose}) {

@@ -1,11 +1,12 @@
-// tools/oracle/verdict/verdict.h - is a picture of a scene right, and if not, which fragments did it composite
-// otherwise?
+// tools/oracle/verdict/verdict.h - decides whether a picture of a scene is right, and if not, which fragments it
+// composited differently.
 //
-// Rule     A picture is right if the right structure reaches every pixel under one hypothesis about rounding. Definite
-//          hypotheses (one rounding and one format an end, attributes off by units in the last place at most) come
-//          first. If none holds, a loose one has to tell the picture in fewer bits than the closest definite one with
-//          its wrong pixels (pricing.h). Else the picture is wrong: what explains all of it is a finding, whatever
-//          explains a part of it is a lead. Findings that look the same here are all told; none is preferred.
+// Rule     A picture is right if the right structure reaches every pixel under one rounding hypothesis. Definite
+//          hypotheses (one rounding and one format per end, attributes with an error of at most some units in the last
+//          place) are tried first. If none holds, a loose one must describe the picture in fewer bits than the closest
+//          definite one with its wrong pixels (pricing.h). Otherwise the picture is wrong: a mistake that explains all
+//          of it is an explanation, one that explains a part of it is a lead. Explanations that this scene cannot
+//          distinguish are all reported; none is preferred.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
 #include <string>
@@ -17,36 +18,36 @@ namespace strata::oracle::verdict {
 
 struct Verdict {
     bool is_right = false;
-    int width = 0;  // of the picture
+    int width = 0;  // of the picture, in pixels
     SceneFacts facts{};
-    Checked right{};                      // the right structure's account that is the closest
-    std::vector<Checked> explanations{};  // of a wrong picture
-    std::vector<Lead> leads{};            // where nothing explains all of it
-    // Kinds of mistakes in the structure that the picture does not tell from what is found: of a right one, those that
-    // would look right, too.
+    Checked right{};                      // the closest account of the right structure
+    std::vector<Checked> explanations{};  // mistakes, if the picture is wrong
+    std::vector<Lead> leads{};            // if no mistake explains the whole picture
+    // The kinds of mistakes that give the same picture of this scene: if it is right, those that would be called right,
+    // too.
     std::vector<Rule> alike{};
-    std::size_t kinds = 0;    // of which so many were tried
-    bool is_stopped = false;  // the search ended before all was tried
-    std::string telling{};    // a command whose scene shows the explanations apart, if one is known
+    std::size_t kinds = 0;    // number of kinds that were tried
+    bool is_stopped = false;  // the search ended before all mistakes were tried
+    std::string telling{};    // command of a scene that distinguishes the explanations, if one is known
 
-    // A right port may leave every pixel by rounding of more than two codes, but not all was tried that may tell the
-    // picture more closely.
+    // True if rounding by more than two codes explains every pixel, but the search ended before all mistakes that may
+    // explain the picture better were tried.
     [[nodiscard]] bool is_undecided() const noexcept { return !is_right && explanations.empty() && right.is_whole(); }
 };
 
 class SceneFragments;
 class Colors;
 
-// Of a search, in layers that are listed or composited (work.h): some 15 million of them take a second. Whether a
-// picture is right takes no part of it.
+// Limits of a search, in layers listed or composited (work.h); about 15 million take a second. Deciding that a picture
+// is right is not limited.
 struct SearchLimits {
-    std::uint64_t mistakes = 60'000'000;   // of a wrong picture
-    std::uint64_t narrower = 450'000'000;  // what tells in fewer bits what a right port may leave
+    std::uint64_t mistakes = 60'000'000;   // for the mistake of a wrong picture
+    std::uint64_t narrower = 450'000'000;  // for mistakes that fit better than the wide intervals of a right account
     std::uint64_t leads = 30'000'000;
-    std::uint64_t of_fragment = 4;  // and for each fragment of the scene
+    std::uint64_t of_fragment = 4;  // added per fragment of the scene
 };
 
-// Asks the scene for what else may cover its edges where it has to.
+// Decides. If necessary, makes the scene compute the other coverage of its edges (coverages.h).
 [[nodiscard]] Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits = {});
 
 }  // namespace strata::oracle::verdict

@@ -39,8 +39,8 @@ struct RunOptions {
     std::optional<int> sample;  // --sample: render only the frame of this sample
     pipeline::Resolve resolve = pipeline::Resolve::box;
     bool resolves = false;  // the command accepts frames of all samples
-    bool keeps_no_fragments =
-        false;  // --execution tiled: replay without a record of fragments, whatever --fragment-memory is
+    // --execution tiled: replay without a record of fragments, whatever --fragment-memory is.
+    bool keeps_no_fragments = false;
     std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; empty: the free memory of the machine
     Simd simd = Simd::best;
     std::string stats;                        // --stats; empty: none, "-": standard output

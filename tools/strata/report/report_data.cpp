@@ -301,8 +301,8 @@ class Builder {
     Columns frame_, columns_;              // of the whole frame; of the region
     std::vector<std::uint32_t> in_frame_;  // index in `frame_` of each fragment of the region
     Kept kept_;
-    const peeling::Algorithm* inspected_ =
-        nullptr;  // dual if the profile can run it, else the first algorithm that it can run
+    // Dual if the profile can run it, else the first algorithm that it can run.
+    const peeling::Algorithm* inspected_ = nullptr;
 };
 
 }  // namespace
