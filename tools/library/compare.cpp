@@ -1,4 +1,5 @@
-// tools/library/compare.cpp - a comparison as one message for a failed test, and the pictures that belong to it.
+// tools/library/compare.cpp - formats a comparison as the message of a failed test, and writes the pictures that show
+// the difference.
 #include "strata/compare.h"
 
 #include <cstdlib>
@@ -20,7 +21,7 @@ std::filesystem::path folder_for_pictures() {
     return std::filesystem::absolute(wanted != nullptr && *wanted != 0 ? wanted : "strata-pictures");
 }
 
-// A file name made of the reference's: letters, digits, dots and signs that no file system minds.
+// Derives a file name from the reference's name: characters other than letters, digits, '.', '-' and '_' become '_'.
 std::string file_name(const std::string& name) {
     std::string file = std::filesystem::path(name).filename().string();
     for (char& c : file) {
@@ -31,7 +32,7 @@ std::string file_name(const std::string& name) {
     return file.empty() ? "reference" : file;
 }
 
-// Of a pack, what it expects of one algorithm; of any other file, the file.
+// Reads the expected picture of one algorithm from a pack, or the picture in any other file.
 Picture picture_at(const std::string& path, const std::string& algorithm) {
     const std::filesystem::path place{path};
     std::error_code ignored;
@@ -52,7 +53,7 @@ Picture picture_at(const std::string& path, const std::string& algorithm) {
     throw InputError(path, "algorithm", list, scenes::quoted_with_suggestion(algorithm, names));
 }
 
-// "color at 118 pixels, first at (17, 20)" of each kind that is not forgiven.
+// "color at 118 pixels, first at (17, 20)" for each kind that the tolerances do not accept.
 std::string sentence(const Comparison& found) {
     std::string text;
     for (const oracle::KindReport& kind : found.kinds) {
@@ -67,7 +68,8 @@ std::string sentence(const Comparison& found) {
     return text;
 }
 
-// Where they are, or why they are not: a full disk must not hide the difference.
+// Returns the path of the written pictures, or the reason why they could not be written: a full disk must not hide the
+// difference.
 std::string leave_pictures(const Picture& candidate, const Reference& reference, const Comparison& found) {
     const auto folder = folder_for_pictures();
     const std::string side = (folder / (file_name(reference.name()) + ".side.png")).string();

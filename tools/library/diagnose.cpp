@@ -1,4 +1,4 @@
-// tools/library/diagnose.cpp - one call from a scene and a picture to the mistake that made it.
+// tools/library/diagnose.cpp - finds the mistake in a picture of a scene, in one call.
 #include "strata/diagnose.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// tools/library/names.cpp - names to what they name, and what was probably meant.
+// tools/library/names.cpp - looks up devices and algorithms by name; an unknown name is rejected with the nearest valid
+// one.
 #include "strata/names.h"
 
 #include <vector>

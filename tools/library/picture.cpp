@@ -1,4 +1,4 @@
-// tools/library/picture.cpp - codes between pictures and plain memory, byte by byte.
+// tools/library/picture.cpp - copies the codes of pictures from and to a program's memory, byte by byte.
 #include "strata/picture.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ inline namespace v0_1 {
 
 namespace {
 
-// Throws unless `rows` rows of `row` bytes, `row_bytes` apart, lie within `memory` bytes. Answers how far apart they
-// are.
+// The distance between rows in bytes. Throws InputError unless `rows` rows of `row` bytes at distances of `row_bytes`
+// are within `memory` bytes.
 std::size_t checked_row_bytes(std::size_t memory, std::size_t row, std::size_t rows, std::size_t row_bytes) {
     if (row_bytes == 0) row_bytes = row;
     if (row_bytes < row)
@@ -87,7 +87,7 @@ std::size_t channel_bytes(const Image& image) noexcept {
 }
 
 void to_memory(const Image& image, std::span<std::byte> memory, Rows rows, std::size_t row_bytes) {
-    static_cast<void>(picture_of(image));  // whole, of one sample
+    static_cast<void>(picture_of(image));  // throws unless the image has one sample
     const std::size_t size = channel_bytes(image), height = static_cast<std::size_t>(image.height);
     const std::size_t codes = image.codes.size() / height;
     row_bytes = checked_row_bytes(memory.size(), codes * size, height, row_bytes);

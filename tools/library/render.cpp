@@ -1,4 +1,4 @@
-// tools/library/render.cpp - one call from a scene to what an algorithm makes of it.
+// tools/library/render.cpp - renders a scene with an algorithm, in one call.
 #include "strata/render.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ inline namespace v0_1 {
 
 namespace {
 
-// The list stays in the scene, which outlives the renderer.
+// The renderer refers to the draw list of the scene, which must outlive it.
 peeling::Renderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options) {
     return {scene.list(), scene.view(options.width, options.height), profile, options};
 }
@@ -52,7 +52,7 @@ std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const 
     std::vector<Layer> near_to_far, from_behind;
     for (pipeline::KeptLayer& kept_layer : result.frame.layers) {
         const bool is_back = kept_layer.side == pipeline::Side::back;
-        // A peel from both ends may leave a last layer without a fragment.
+        // A peel from both ends may have an empty last layer.
         if (algorithm.takes_both_ends &&
             std::ranges::all_of(kept_layer.color.codes, [](auto code) { return code == 0; }))
             continue;

@@ -1,4 +1,4 @@
-// tools/library/scene.cpp - triangles out of plain memory, and the camera that belongs to a scene.
+// tools/library/scene.cpp - builds scenes from triangles in a program's memory, and their cameras.
 #include "strata/scene.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ inline namespace v0_1 {
 
 namespace {
 
-// One set of triangles, whose fields errors name.
+// Reads one set of triangles; errors name the field.
 class Fields {
   public:
     explicit Fields(const Triangles& triangles) : thing_{"triangles '" + triangles.name + "'"} {}
@@ -27,7 +27,7 @@ class Fields {
             if (!std::isfinite(values[i]))
                 fail(field + "[" + std::to_string(i) + "]", "a finite number", std::to_string(values[i]));
     }
-    // The vectors of an attribute of `size` floats.
+    // The vectors of an attribute, copied to a vector.
     template <class Vector>
     [[nodiscard]] std::vector<Vector> copied(const char* field, const VertexArray& from) const {
         if (from.count > 0 && from.first == nullptr)
@@ -132,7 +132,8 @@ Scene& Scene::look_at(const LookAt& camera) {
 }
 
 Scene& Scene::orbit(double azimuth_degrees, double elevation_degrees) {
-    static_cast<void>(scenes::orbit_camera(scene_.bounds, azimuth_degrees, elevation_degrees));  // InputError
+    // Throws InputError for invalid angles.
+    static_cast<void>(scenes::orbit_camera(scene_.bounds, azimuth_degrees, elevation_degrees));
     own_view_.reset();
     look_at_.reset();
     orbit_ = {azimuth_degrees, elevation_degrees};

@@ -1,6 +1,6 @@
-// tools/web/header_libraries.cpp - what the packages keep in libraries, and a browser's build has as headers alone:
-// tinygltf's reader, without images and files, and the few functions of Highway that one instruction set needs. And in
-// place of the image module a sentence.
+// tools/web/header_libraries.cpp - definitions that other builds link from packages: tinygltf's reader, without images
+// and file access, and the functions of Highway that one instruction set needs. The image module is replaced by an
+// error message.
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
@@ -18,7 +18,7 @@
 
 namespace tinygltf {
 
-// Its writer's, which is never called.
+// Declared by tinygltf's writer, which is not used.
 bool WriteImageData(const std::string*, const std::string*, const Image*, bool, std::string*, void*) { return false; }
 
 }  // namespace tinygltf

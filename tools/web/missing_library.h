@@ -1,8 +1,8 @@
-// tools/web/missing_library.h - what the C++ library of Debian's Emscripten (libc++ 13) lacks of C++20 and our code
-// uses. Every source of the browser's build has it in front; no other build sees it.
+// tools/web/missing_library.h - the parts of C++20 that this project uses and libc++ 13, the library of Debian's
+// Emscripten, lacks. Only the browser's build includes it, before every source.
 //
-// Rule     Each name means what the standard says of it, for ranges that are containers, arrays or spans. It goes when
-//          libc++ has them.
+// Rule     Each name has the meaning of the standard, for ranges that are containers, arrays or spans. To be removed
+//          when libc++ has all of them.
 #pragma once
 #ifdef __cplusplus
 #include <algorithm>

@@ -1,9 +1,9 @@
-// tools/web/workbench.cpp - what the page asks of the renderer: scenes, pictures, layers and histories, in JSON and
-// plain arrays.
+// tools/web/workbench.cpp - the renderer's interface to the web page: scenes, pictures, layers and histories, as JSON
+// and plain arrays.
 //
-// Rule     A question is an object with "do"; its other fields have the names and meaning of the command's options, so
-//          that `strata render` with the same gives the same digest. The answer is an object, too; one with "error" is
-//          a sentence for people. Arrays that belong to an answer stay where they are until the next question of the
+// Rule     A request is a JSON object with the key "do"; its other keys have the names and meanings of the command's
+//          options, so `strata render` with the same options gives the same digest. The answer is an object; if it has
+//          the key "error", its value is a message. The arrays of an answer are valid until the next request of the
 //          same kind.
 // Tests    tools/web/test.sh
 #include <fmt/format.h>
@@ -32,10 +32,10 @@ namespace strata::web {
 
 class Workbench {
   public:
-    // A .glb or .gltf that questions name as "scene".
+    // Stores a .glb or .gltf file, which requests name as "scene".
     void keep_file(const std::string& name, std::vector<std::byte> bytes) { files_[name] = std::move(bytes); }
 
-    // Throws nothing but std::bad_alloc.
+    // Throws nothing except std::bad_alloc.
     [[nodiscard]] std::string answer(const std::string& question);
 
   private:
@@ -55,10 +55,10 @@ class Workbench {
     pipeline::DeviceProfile profile_;
     peeling::RenderOptions options_;
     pipeline::ColorSpace space_ = pipeline::ColorSpace::encoded;
-    std::vector<std::uint8_t> picture_;  // r, g, b, a, straight
+    std::vector<std::uint8_t> picture_;  // r, g, b, a, not premultiplied
     std::vector<std::uint32_t> codes_;
     tools::Columns columns_;
-    std::vector<std::uint32_t> numbers_[3];  // depth code, triangle, arrival
+    std::vector<std::uint32_t> numbers_[3];  // depth code, triangle, rank in submission order
     std::vector<float> values_[5];           // depth, red, green, blue, alpha
 };
 
@@ -66,7 +66,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Larger pictures have no room beside their fragments in what a browser gives one page.
+// Larger pictures and their fragments would exceed the memory that browsers give a page.
 constexpr int most_side = 2048;
 
 const peeling::Algorithm& algorithm_of(const ordered_json& question) {
@@ -76,7 +76,7 @@ const peeling::Algorithm& algorithm_of(const ordered_json& question) {
     return *algorithm;
 }
 
-// Where an array lies in the memory that the page sees, and how many elements it has.
+// The address of an array in the memory of the page, and its number of elements.
 template <class T>
 ordered_json place_of(const std::vector<T>& values) {
     return {reinterpret_cast<std::uintptr_t>(values.data()), values.size()};
@@ -109,7 +109,7 @@ scenes::Scene Workbench::load(const std::string& name, const scenes::SceneOption
     return scenes::make_procedural(name, options);
 }
 
-// Fields that are absent keep the command's defaults.
+// Missing keys have the command's defaults.
 void Workbench::open(const Json& question) {
     const auto scene = question.at("scene").get<std::string>();
     space_ =
@@ -166,7 +166,7 @@ Workbench::Json Workbench::render(const Json& question) {
     return answer;
 }
 
-// Fragments near to far, as the report has them: by the A-buffer, which every device runs.
+// Fragments from near to far, collected with the A-buffer, which every device can run, as for the report.
 Workbench::Json Workbench::layers(const Json& question) {
     open(question);
     peeling::Renderer renderer{scene_->list, view_, profile_, options_};
@@ -225,7 +225,7 @@ strata::web::Workbench& workbench() {
 
 extern "C" {
 
-// JSON in, JSON out; the answer stays until the next question.
+// Takes and returns JSON; the returned text is valid until the next call.
 const char* strata_ask(const char* question) {
     static std::string answer;
     answer = workbench().answer(question);

@@ -1,6 +1,6 @@
-// An algorithm of one's own with a fragment program and state: each fragment's premultiplied colour is weighed by a
-// table over its depth and added to the sum. The table is the state; it is read by several threads at once, and never
-// written while they run.
+// A user-defined algorithm with a fragment program and state: each fragment's premultiplied colour is multiplied by a
+// weight that a table gives for its depth, and added to the sum. The table is the state; several threads read it at
+// once, and nothing writes to it while they run.
 #include <strata/pipeline/region/region.h>
 #include <strata/strata.h>
 
@@ -14,7 +14,7 @@ class DepthWeights {
   public:
     explicit DepthWeights(std::vector<float> weights) : weights_{std::move(weights)} {}
 
-    // The fragment program: called with up to 256 fragments of different pixels.
+    // The fragment program; called with up to 256 fragments of different pixels.
     void operator()(const FragmentBatch& in, const Loads&, Outputs& out) const {
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             const float z = std::clamp(in.shader_z[i], 0.0f, 1.0f);
@@ -30,7 +30,7 @@ class DepthWeights {
     std::vector<float> weights_;
 };
 
-// The passes: one over the geometry that adds, onto a copy of the opaque scene.
+// The passes: one pass over the geometry adds all fragments to a copy of the opaque scene.
 strata::Algorithm weighted_by_depth(std::vector<float> weights) {
     return strata::own_algorithm("weighted_by_depth", [program = DepthWeights{std::move(weights)}](Region& region) {
         const Target sum = region.make_color();

@@ -1,4 +1,4 @@
-// Compares what a renderer left in memory with the reference; here the memory holds the reference with one pixel
+// Compares a picture in a renderer's memory with the reference. Here the memory contains the reference with one pixel
 // changed.
 #include <strata/strata.h>
 

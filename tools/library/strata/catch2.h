@@ -1,8 +1,8 @@
-// strata/catch2.h - for tests with Catch2: REQUIRE_THAT(picture, strata::MatchesReference("teapot.exr")).
+// strata/catch2.h - a Catch2 matcher: REQUIRE_THAT(picture, strata::MatchesReference("teapot.exr")).
 //
-// Rule     Takes the Picture of a program under test and a file, or a picture with a name. The message of a failure
-//          says the kinds of mistakes, the first pixel of each, and where the pictures are (strata/compare.h). Catch2 2
-//          and 3; the project's own tests run with 2.13.
+// Rule     Compares a Picture with a file, or with a picture that has a name. The message of a failure contains the
+//          kinds of differences, the first pixel of each, and the path of the written pictures (strata/compare.h).
+//          Works with Catch2 2 and 3; the project's own tests use 2.13.
 #pragma once
 #if __has_include(<catch2/matchers/catch_matchers.hpp>)
 #include <catch2/matchers/catch_matchers.hpp>
@@ -43,7 +43,7 @@ class MatchesReference : public CatchMatcher {
 }  // namespace v0_1
 }  // namespace strata
 
-// How Catch2 prints a picture: its numbers alone would fill pages.
+// Prints a picture's size and formats, because its codes would fill pages.
 template <>
 struct Catch::StringMaker<strata::Picture> {
     static std::string convert(const strata::Picture& picture) { return strata::size_text(picture); }

@@ -1,9 +1,10 @@
-// strata/compare.h - pictures of a program under test against reference pictures, for its own tests.
+// strata/compare.h - compares pictures of a program under test with reference pictures.
 //
-// Rule     `compare` tells kinds of mistakes; `check` also puts them into one message for a failed test, and leaves
-//          pictures behind in a folder: NAME.side.png with reference, candidate, heat map and map of kinds side by
-//          side, and NAME.candidate.npy with the codes of the candidate's first target. The folder is STRATA_PICTURES
-//          of the environment, else strata-pictures in the current folder. Equal pictures leave nothing.
+// Rule     `compare` returns the kinds of differences. `check` also formats them as one message for a failed test, and
+//          writes pictures to a folder: NAME.side.png with reference, candidate, heat map and map of kinds side by
+//          side, and NAME.candidate.npy with the codes of the candidate's first target. The folder is the environment
+//          variable STRATA_PICTURES, or by default strata-pictures in the current folder. Nothing is written for equal
+//          pictures.
 // Tests    tests/tools/library/matchers_test.cpp
 #pragma once
 #include <string>
@@ -15,17 +16,17 @@
 namespace strata {
 inline namespace v0_1 {
 
-// compare(reference, candidate, tolerances): exact unless tolerances say otherwise. InputError for pictures of unequal
-// size and for those that share no target.
+// compare(reference, candidate, tolerances): exact unless tolerances are given. Throws InputError for pictures of
+// unequal size or without a common target.
 using oracle::compare;
 using oracle::Comparison;
 using oracle::Tolerances;
 
-// What a picture under test is measured by: a file, a golden pack, or a picture made by render().
+// The reference for a picture under test: a file, a golden pack, or a picture made by render().
 class Reference {
   public:
-    // A pack is named by its folder or its manifest.json. `algorithm` chooses among the pack's; InputError lists them
-    // if it is none of them, or is "" where there are several.
+    // A pack is named by its folder or its manifest.json. `algorithm` selects one of its results; throws InputError,
+    // which lists them, if there is no such algorithm, or if it is "" and the pack has several.
     Reference(const std::string& path, const std::string& algorithm = "");  // NOLINT: a path is a reference
     Reference(const char* path) : Reference(std::string{path}) {}           // NOLINT
     Reference(Picture picture, std::string name);
@@ -42,11 +43,12 @@ class Reference {
 
 struct Checked {
     bool is_accepted = false;
-    // "differs from teapot.exr: color at 118 pixels, first at (17, 20); ...; pictures: /.../teapot.side.png"
+    // For example "differs from teapot.exr: color at 118 pixels, first at (17, 20); ...; pictures:
+    // /.../teapot.side.png".
     std::string message{};
 };
 
-// Never throws for pictures that cannot be compared: that is a failure with a message.
+// Does not throw for pictures that cannot be compared: these are a failure with a message.
 [[nodiscard]] Checked check(const Picture& candidate, const Reference& reference, const Tolerances& tolerances = {});
 
 }  // namespace v0_1

@@ -1,8 +1,8 @@
-// strata/gtest.h - for tests with GoogleTest: EXPECT_THAT(picture, strata::MatchesReference("teapot.exr")), or without
-// gmock EXPECT_TRUE(strata::matches_reference(picture, "teapot.exr")).
+// strata/gtest.h - a GoogleTest matcher: EXPECT_THAT(picture, strata::MatchesReference("teapot.exr")), or without gmock
+// EXPECT_TRUE(strata::matches_reference(picture, "teapot.exr")).
 //
-// Rule     As strata/catch2.h: the message of a failure says the kinds of mistakes, the first pixel of each, and where
-//          the pictures are.
+// Rule     As strata/catch2.h: the message of a failure contains the kinds of differences, the first pixel of each, and
+//          the path of the written pictures.
 #pragma once
 #include <gtest/gtest.h>
 #if __has_include(<gmock/gmock-matchers.h>)
@@ -49,7 +49,7 @@ class ReferenceMatcher {
 }  // namespace v0_1
 
 namespace oracle {
-// How GoogleTest prints a picture: its numbers alone would fill pages.
+// Prints a picture's size and formats, because its codes would fill pages.
 inline void PrintTo(const Picture& picture, std::ostream* out) { *out << size_text(picture); }
 }  // namespace oracle
 }  // namespace strata

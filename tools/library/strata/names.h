@@ -1,4 +1,4 @@
-// strata/names.h - devices and algorithms by their names.
+// strata/names.h - looks up devices and algorithms by name.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,9 +13,10 @@ inline namespace v0_1 {
 using peeling::Algorithm;
 using pipeline::DeviceProfile;
 
-// A built-in profile, or that of a file that ends in .json. InputError lists the names and suggests the nearest.
+// A built-in profile, or the profile in a .json file. Throws InputError, which lists the names and suggests the
+// nearest.
 [[nodiscard]] DeviceProfile profile(const std::string& name_or_path);
-// InputError lists the names and suggests the nearest.
+// Throws InputError, which lists the names and suggests the nearest.
 [[nodiscard]] const Algorithm& algorithm(std::string_view name);
 
 }  // namespace v0_1

@@ -1,9 +1,9 @@
-// strata/render.h - a scene by an algorithm on a device: the picture, its layers, its fragments, every pass, and what
-// happened at a pixel.
+// strata/render.h - renders a scene with an algorithm on a device: the picture, its layers, its fragments, every pass,
+// and the history of a pixel.
 //
-// Rule     A combination that the device cannot run gives no picture: a Rendering of it is_refused(), and whatever is
-//          asked of it throws Refused with the missing feature; every other function here throws at once. Input of no
-//          device throws InputError, which names the field. Calls on several threads do not disturb each other.
+// Rule     If the device cannot run a combination, render() returns a Rendering that is_refused(); its accessors, and
+//          all other functions here, throw Refused with the missing feature. Input that is invalid on every device
+//          throws InputError, which names the field. Concurrent calls on several threads are safe.
 // Tests    tests/tools/library/render_test.cpp
 #pragma once
 #include <memory>
@@ -32,15 +32,16 @@ class Rendering {
     Rendering(const DeviceProfile& profile, peeling::RenderResult&& result);
 
     [[nodiscard]] bool is_refused() const noexcept { return refused_ != nullptr; }
-    // What the device lacks, as a sentence; "" unless it is refused.
+    // The feature that the device lacks, as a sentence; "" unless it is refused.
     [[nodiscard]] std::string refusal() const;
 
-    // Each of these throws Refused where nothing was drawn.
+    // Each of these throws Refused if the rendering was refused.
     [[nodiscard]] const Image& color() const { return drawn().frame.color; }
-    [[nodiscard]] const Image& depth() const { return drawn().frame.depth; }  // of the nearest surface, opaque or not
-    [[nodiscard]] Picture picture() const;                                    // colour and depth, to be compared
+    // Of the nearest surface, opaque or transparent.
+    [[nodiscard]] const Image& depth() const { return drawn().frame.depth; }
+    [[nodiscard]] Picture picture() const;  // colour and depth, for comparisons
     [[nodiscard]] std::string digest() const { return pipeline::digest(color()); }
-    [[nodiscard]] const AuditResult& audit() const { return drawn().audit; }  // zeros without RenderOptions::audit
+    [[nodiscard]] const AuditResult& audit() const { return drawn().audit; }  // all zero without RenderOptions::audit
     [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const { return drawn().frame.diagnostics; }
     [[nodiscard]] int geometry_passes() const { return drawn().frame.passes.geometry; }
 
@@ -54,11 +55,11 @@ class Rendering {
                                const RenderOptions& options = {});
 
 struct Layer {
-    Image color, depth;           // colour straight or times alpha, as Algorithm::premultiplied_layers says
-    bool is_from_behind = false;  // taken by a peel from both ends at the far one
+    Image color, depth;           // colour premultiplied or not, as in Algorithm::premultiplied_layers
+    bool is_from_behind = false;  // peeled from the far end, by an algorithm that peels both ends
 };
 
-// Near to far.
+// The layers from near to far.
 [[nodiscard]] std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
                                         const RenderOptions& options = {});
 
@@ -66,17 +67,17 @@ struct Layer {
 [[nodiscard]] std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& algorithm,
                                                       const DeviceProfile& profile, const RenderOptions& options = {});
 
-// Every pass with all targets as it leaves them; the last entry is the picture.
+// Every pass with the contents of all targets after it; the last entry is the picture.
 [[nodiscard]] std::vector<oracle::PassShown> passes(const Scene& scene, const Algorithm& algorithm,
                                                     const DeviceProfile& profile, const RenderOptions& options = {});
 
-// What happened at the pixel, from the top left; oracle::to_text, to_json and to_svg tell it.
+// The history of pixel x, y, from the top left; oracle::to_text, to_json and to_svg format it.
 [[nodiscard]] oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algorithm,
                                       const DeviceProfile& profile, const RenderOptions& options = {});
 
-// An algorithm of the caller's own, on the devices that have what its passes use: `body` is run on regions of the frame
-// (pipeline/region/region.h), of several threads at once and some of them twice. With `whole_frame` it runs once, on
-// one thread.
+// A user-defined algorithm, for the devices that have the features used by its passes. `body` is called for regions of
+// the frame (pipeline/region/region.h), on several threads at once, and for some regions twice. With `whole_frame` it
+// is called once, on one thread.
 [[nodiscard]] Algorithm own_algorithm(std::string name, std::function<void(pipeline::Region&)> body,
                                       bool whole_frame = false);
 

@@ -1,8 +1,8 @@
-// strata/scene.h - what is drawn: a glTF file, a built-in scene, or triangles from a program's own memory; and the
-// camera.
+// strata/scene.h - builds the scene to render: from a glTF file, a built-in scene, or triangles in a program's own
+// memory; and its camera.
 //
 // Rule     Triangles are drawn in the order in which they are added. Without a camera, positions of added triangles are
-//          clip space (x, y and z from -1 to 1, w = 1), and a loaded scene is seen by its own view or by the orbit of
+//          in clip space (x, y and z from -1 to 1, w = 1), and a loaded scene has its own view or the default orbit of
 //          `strata render`.
 // Tests    tests/tools/library/scene_test.cpp
 #pragma once
@@ -23,11 +23,11 @@ using pipeline::View;
 using scenes::LookAt;
 using scenes::SceneOptions;
 
-// An attribute of the vertices in the caller's memory: `count` times so many floats, whose beginnings lie
-// `stride_bytes` apart (0: one behind the other). It is read while add() runs, and may begin at any byte.
+// A vertex attribute in the caller's memory: `count` vectors of floats, whose first bytes are `stride_bytes` apart (0:
+// without gaps). It is read by add() only, and need not be aligned.
 struct VertexArray {
     const void* first = nullptr;
-    std::size_t count = 0;  // vertices
+    std::size_t count = 0;  // number of vertices
     std::size_t stride_bytes = 0;
 
     VertexArray() = default;
@@ -37,30 +37,30 @@ struct VertexArray {
 
 struct Triangles {
     std::string name{};
-    VertexArray positions{};  // x y z
-    VertexArray colors{};     // red green blue alpha, straight; none: `color` alone
-    std::span<const std::uint32_t>
-        indices{};  // three a triangle; none: three vertices a triangle, one behind the other
-    // Times the vertices' colours.
+    VertexArray positions{};                   // x y z
+    VertexArray colors{};                      // red green blue alpha, not premultiplied; empty: only `color`
+    std::span<const std::uint32_t> indices{};  // three per triangle; empty: every three vertices are a triangle
+    // Multiplied with the vertices' colours.
     std::array<float, 4> color{1, 1, 1, 1};
-    bool is_transparent = true;  // false: drawn before all transparent triangles, and hides what lies behind
+    bool is_transparent = true;  // false: drawn before all transparent triangles, and hides those behind it
     bool is_double_sided = true;
-    std::optional<std::array<double, 16>> model{};  // object to world, by columns; none: the identity
+    std::optional<std::array<double, 16>> model{};  // object to world, column by column; empty: the identity
 };
 
 class Scene {
   public:
     Scene() = default;
-    // As the command takes it: a .gltf, .glb, .obj, .ply, .stl or .off file, or a built-in scene such as "teapot".
-    // InputError.
+    // The same names as for the command: a .gltf, .glb, .obj, .ply, .stl or .off file, or a built-in scene such as
+    // "teapot". Throws InputError.
     explicit Scene(const std::string& spec, const SceneOptions& options = {});
 
-    // Copies them. InputError names the field ("triangles 'door': colors.count: expected 3 or none, found 2").
+    // Copies the triangles. Throws InputError, which names the field ("triangles 'door': colors.count: expected 3 or
+    // none, found 2").
     Scene& add(const Triangles& triangles);
 
-    Scene& look(const View& view);                                   // both matrices as they are
-    Scene& look_at(const LookAt& camera);                            // as gluLookAt and gluPerspective
-    Scene& orbit(double azimuth_degrees, double elevation_degrees);  // the whole scene
+    Scene& look(const View& view);                                   // uses both matrices unchanged
+    Scene& look_at(const LookAt& camera);                            // like gluLookAt and gluPerspective
+    Scene& orbit(double azimuth_degrees, double elevation_degrees);  // shows the whole scene
 
     [[nodiscard]] const pipeline::DrawList& list() const noexcept { return scene_.list; }
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return scene_.warnings; }

@@ -1,4 +1,4 @@
-// source/arrays.cpp - codes as NumPy arrays, and back.
+// source/arrays.cpp - converts codes of pictures to NumPy arrays, and arrays to pictures.
 #include <algorithm>
 #include <cstring>
 

@@ -1,8 +1,9 @@
-// source/bindings.h - the parts of the extension, and how values cross between the library and Python.
+// source/bindings.h - the parts of the Python extension module, and the conversion of values between the library and
+// Python.
 //
-// Rule     The interpreter's lock is released while the library works. What holds 32-bit codes of one word a channel
-//          (binary32, D24, D32F, integers) becomes an array that shares the library's memory; narrower codes are packed
-//          once.
+// Rule     The global interpreter lock is released while the library works. Targets whose codes have 32 bits per
+//          channel (binary32, D24, D32F, integers) become arrays that share the library's memory; narrower codes are
+//          copied once.
 #pragma once
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -15,7 +16,7 @@ namespace strata::python {
 
 namespace py = pybind11;
 
-// A read-only array in memory that `owner` keeps; no strides: one element behind the other.
+// A read-only array in memory that `owner` keeps alive; without strides the elements are contiguous.
 template <class Owner>
 [[nodiscard]] py::array shared_array(const py::dtype& type, std::vector<py::ssize_t> shape,
                                      std::vector<py::ssize_t> strides, const void* first,
@@ -27,21 +28,22 @@ template <class Owner>
     return array;
 }
 
-// (height, width) or (height, width, channels) of the stored codes; samples are a further axis before the channels.
+// An array of the stored codes with the shape (height, width) or (height, width, channels); multisampled targets have a
+// further axis before the channels.
 [[nodiscard]] py::array as_array(const std::shared_ptr<const Image>& image);
-// An image that is a part of what `owner` holds.
+// An array of an image that is a member of `owner`.
 template <class Owner>
 [[nodiscard]] py::array as_array(const std::shared_ptr<Owner>& owner, const Image& image) {
     return as_array(std::shared_ptr<const Image>{owner, &image});
 }
 [[nodiscard]] py::array as_array(oracle::Target&& target);
 
-// A picture of an array with one, three or four channels; `meaning` is "color", "depth" or "" (by the array's shape and
-// type).
+// A picture from an array with one, three or four channels; `meaning` is "color", "depth", or "" to derive it from the
+// array's shape and type.
 [[nodiscard]] Picture picture_of_array(const py::array& array, const std::string& meaning);
 
-// RenderOptions from keywords, of which `origin` is the profile's; TypeError for a name that is none, InputError for a
-// value that is none.
+// Converts keyword arguments to RenderOptions; `origin` is set in the profile. Throws TypeError for an unknown keyword
+// and InputError for an invalid value.
 [[nodiscard]] RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile);
 
 void bind_scene(py::module_& module);

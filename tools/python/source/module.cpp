@@ -1,4 +1,4 @@
-// source/module.cpp - the module, its exceptions, and the lists of names.
+// source/module.cpp - defines the Python module, its exceptions, and its lists of names.
 #include <strata/peeling/registry.h>
 #include <strata/scenes/files/system_error.h>
 

@@ -1,4 +1,4 @@
-// source/options.cpp - keywords of a call as RenderOptions, each name and each value checked.
+// source/options.cpp - converts keyword arguments to RenderOptions; each name and each value is checked.
 #include <strata/rasterizer/base/enum_values.h>
 #include <strata/scenes/nearest_name.h>
 
@@ -22,7 +22,7 @@ Enum named(const std::string& field, const py::handle& value) {
                      scenes::quoted_with_suggestion(text, {enum_names<Enum>.begin(), enum_names<Enum>.end()}));
 }
 
-// What keywords are about: the options of a frame, and the corner at which its device's memory begins.
+// The settings that keywords can change: the options of a frame, and the origin of the device's window.
 struct Told {
     RenderOptions options;
     std::optional<pipeline::Origin> origin;

@@ -1,4 +1,4 @@
-// source/results.cpp - pictures, layers, passes, fragments, histories and comparisons for Python.
+// source/results.cpp - the Python classes of pictures, layers, passes, fragments, histories and comparisons.
 #include <strata/scenes/files/image_io.h>
 #include <strata/tools/oracle/drawings.h>
 
@@ -8,7 +8,7 @@ namespace strata::python {
 
 namespace {
 
-// A call of the library with the lock released, and its result in memory that arrays may share.
+// Calls the library with the interpreter lock released. The result is shared, so arrays can refer to its memory.
 template <class Work>
 auto unlocked(const Work& work) {
     py::gil_scoped_release without_lock;

@@ -1,4 +1,5 @@
-// source/scene.cpp - scenes from files, formulas and arrays. Arrays are read where they lie, whatever their strides.
+// source/scene.cpp - Python scenes from files, built-in scenes and arrays. Arrays are read in place, with any strides
+// between rows.
 #include "bindings.h"
 
 namespace strata::python {
@@ -7,7 +8,7 @@ namespace {
 
 using Floats = py::array_t<float, 0>;
 
-// Rows of `size` floats; the floats of a row lie side by side, the rows anywhere.
+// An array with rows of `size` floats. The floats of a row must be contiguous, the rows need not be.
 VertexArray vertices_of(const char* field, const Floats& array, py::ssize_t size) {
     const bool fits = array.ndim() == 2 && array.shape(1) == size && array.strides(1) == sizeof(float) &&
                       (array.shape(0) < 2 || array.strides(0) >= size * py::ssize_t{sizeof(float)});

@@ -1,4 +1,5 @@
-// Models: integers for blends of 8-bit codes; port_model.h, a port written step by step, for everything else.
+// Tests the intervals of pixel values against integer arithmetic for blends of 8-bit codes, and otherwise against
+// port_model.h, which blends step by step like a port.
 #include "tools/oracle/verdict/composite.h"
 
 #include <catch2/catch.hpp>
@@ -26,8 +27,8 @@ Stack one_layer(int s, int a, int d) {
             .background = {value(d), value(d), value(d), 1}};
 }
 
-// How many of all sources, alphas and targets, the latter `step` apart, one layer brings to anything but the code that
-// integers give.
+// The number of combinations of source, alpha and target (every `step`-th target) for which one layer reaches any code
+// but the one that integer arithmetic gives.
 std::uint64_t strays_of_one_layer(Rounding rounding, int step, int (*model)(int t)) {
     const Compositor compositor{of_codes(Order::over, Source::stored, rounding)};
     std::uint64_t strays = 0;
@@ -46,7 +47,7 @@ int cut_code(int t) { return t / 255; }
 
 Stack random_stack(std::mt19937_64& random, std::size_t most) {
     const auto unit = [&] {
-        // Every fourth number lies on a code or half way between two, where rounding decides.
+        // Every fourth number is a code or the middle of two codes, where rounding decides.
         const auto n = static_cast<float>(random() >> 40) * 0x1p-24f;
         return random() % 4 == 0 ? static_cast<float>(random() % 511) / 510.0f : n;
     };
@@ -71,7 +72,7 @@ std::vector<Hypothesis> all_of(Storage result) {
     return all;
 }
 
-// Ports of every hypothesis on `lists` random lists each.
+// Counts the random lists, `lists` per hypothesis, whose model result is outside the interval.
 Outside outside_of(Storage result, int lists, std::uint64_t seed) {
     Outside outside;
     std::mt19937_64 random{seed};
@@ -93,8 +94,8 @@ Outside outside_of(Storage result, int lists, std::uint64_t seed) {
 
 }  // namespace
 
-// Two layers over a background: what each mixing leaves of red, by hand.
-TEST_CASE("a port's own way of blending reaches the value that is worked out by hand, and no other") {
+// Two layers over a background; the expected red for each mixing is worked out by hand.
+TEST_CASE("each variant of blending reaches the value that is worked out by hand and no other") {
     const End floats{Storage::single, Source::unrounded, Rounding::nearest};
     const Compositor under{{.order = Order::under, .front = floats, .back = floats, .result = floats}};
     Stack stack{.layers = {{.color = {1, 0, 0, 0.25f}}, {.color = {0.5f, 0, 0, 0.75f}}}, .background = {1, 1, 1, 1}};
@@ -113,25 +114,26 @@ TEST_CASE("a port's own way of blending reaches the value that is worked out by 
     CHECK(red({.behind = Behind::twice}) == Approx(0.25 + 0.75 * 0.375 + 0.1875 * 0.1875));
     CHECK(red({.behind = Behind::inverted}) == Approx(0.25 + 0.75 * 0.375 + 0.8125));
     CHECK(red({.attenuates = false}) == Approx(0.25 + 0.375 + 0.1875));
-    // Of two bits: 0.25 is a third of 1 and 0.75 two; 1/3 + 2/3 of 0.4 is 0.6, two thirds; 2/3 of 0.2 is nothing.
+    // With two bits 0.25 is 1/3 and 0.75 is 2/3; 1/3 + 2/3 of 0.4 is 0.6 and becomes 2/3; 2/3 of 0.2 becomes 0.
     stack.layers[1].color[3] = 0.8f;
     CHECK(red({.color_bits = 2, .weight_bits = 2}) == Approx(2.0 / 3));
     const Compositor over{{.order = Order::over, .front = floats, .back = floats, .result = floats}};
     stack.mixing = {.behind = Behind::twice};
-    CHECK(over.reach(stack)[0].low > over.reach(stack)[0].high);  // nothing in front, so nothing to weigh by
+    CHECK(over.reach(stack)[0].low > over.reach(stack)[0].high);  // there is no front accumulator for this mixing
 }
 
-TEST_CASE("one layer of 8-bit codes reaches the code that integers give, and no other") {
+TEST_CASE("one layer of 8-bit codes reaches exactly the code that integer arithmetic gives") {
     CHECK(strays_of_one_layer(Rounding::nearest, 15, nearest_code) == 0);
     CHECK(strays_of_one_layer(Rounding::cut, 15, cut_code) == 0);
 }
 
-TEST_CASE("one layer of 8-bit codes reaches the integers' code for every source, alpha and target", "[exhaustive]") {
+TEST_CASE("one layer of 8-bit codes reaches the code of integer arithmetic for every source and alpha and target",
+          "[exhaustive]") {
     CHECK(strays_of_one_layer(Rounding::nearest, 1, nearest_code) == 0);
     CHECK(strays_of_one_layer(Rounding::cut, 1, cut_code) == 0);
 }
 
-TEST_CASE("two layers of 8-bit codes reach the code that integers give, and no other") {
+TEST_CASE("two layers of 8-bit codes reach exactly the code that integer arithmetic gives") {
     const Compositor over{of_codes(Order::over, Source::stored, Rounding::nearest)};
     std::uint64_t strays = 0;
     for (int s = 0; s < 256; s += 17)
@@ -149,7 +151,7 @@ TEST_CASE("two layers of 8-bit codes reach the code that integers give, and no o
     CHECK(strays == 0);
 }
 
-TEST_CASE("no port of any format, order and rounding leaves the interval of its hypothesis") {
+TEST_CASE("the results of ports of every format and order and rounding are inside the interval of their hypothesis") {
     for (const Storage result : {Storage::unorm8, Storage::unorm16, Storage::half, Storage::single}) {
         const Outside outside = outside_of(result, 20, 7);
         INFO(name(result) << ": " << outside.first);
@@ -157,7 +159,7 @@ TEST_CASE("no port of any format, order and rounding leaves the interval of its 
     }
 }
 
-TEST_CASE("no port leaves the interval of its hypothesis: ten million lists", "[exhaustive]") {
+TEST_CASE("the results of ports are inside the interval of their hypothesis for ten million lists", "[exhaustive]") {
     for (const Storage result : {Storage::unorm8, Storage::unorm16, Storage::half, Storage::single}) {
         const int lists = static_cast<int>(2'500'000 / all_of(result).size()) + 1;
         const Outside outside = outside_of(result, lists, 8);
@@ -166,7 +168,8 @@ TEST_CASE("no port leaves the interval of its hypothesis: ten million lists", "[
     }
 }
 
-TEST_CASE("the widest hypothesis of a family holds what its members reach, and that of an order what its families do") {
+TEST_CASE(
+    "the widest hypothesis of a family includes what its members reach and that of an order includes its families") {
     std::mt19937_64 random{9};
     const Families all = families(Storage::unorm8, {0, 0x1p-12}, Looseness::loose);
     const std::vector<Hypothesis> wide = widest(all);

@@ -1,5 +1,5 @@
-// Expected values: pictures of rasterizers that break ties or snap otherwise, drawn by the machine with another
-// profile.
+// Tests verdicts on pictures of rasterizers with other tie rules or other snapping, which the renderer draws under
+// another profile.
 #include "tools/oracle/verdict/coverages.h"
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ oracle::Target picture_by(OpenedScene scene, const pipeline::DeviceProfile& prof
 
 }  // namespace
 
-TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right, and its pixels at edges are counted") {
+TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right and its pixels at edges are counted") {
     OpenedScene opened{"teapot", 48, 36};
     for (pipeline::Material& material : opened.scene.list.materials) material.unlit = true;
     pipeline::DeviceProfile coarse = opened.profile;
@@ -35,7 +35,7 @@ TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right, and its pi
     CHECK(judged(opened, exact).right.at_edges == 0);
 }
 
-TEST_CASE("a picture of another profile is right: its colours, depths and coverage are off by what snapping changes",
+TEST_CASE("a picture of another profile is right because snapping explains its colours and depths and coverage",
           "[long]") {
     for (const char* const name : {"teapot", "showroom"}) {
         const OpenedScene opened{name, 40, 30};
@@ -46,7 +46,7 @@ TEST_CASE("a picture of another profile is right: its colours, depths and covera
     }
 }
 
-// Exchanges the nearest two layers of every pixel that may have them so.
+// The number of pixels whose nearest two layers may be exchanged.
 std::size_t exchangeable(const OpenedScene& opened) {
     SceneFragments fragments = opened.fragments();
     fragments.find_coverages();
@@ -68,14 +68,14 @@ std::size_t exchangeable(const OpenedScene& opened) {
     return pixels;
 }
 
-TEST_CASE("layers that cross may change places beside the line where they do, parallel ones nowhere") {
+TEST_CASE("layers that cross may exchange their order next to the line of intersection and parallel layers nowhere") {
     CHECK(exchangeable(OpenedScene{"random:seed=3,triangles=40", 32, 32}) > 0);
     CHECK(exchangeable(OpenedScene{"planes:count=2,gap=4096,cells=1", 32, 32}) == 0);
 }
 
-TEST_CASE("a pixel at no edge may be covered by nothing else") {
+TEST_CASE("a pixel away from all edges has no other coverage") {
     OpenedScene opened{"teapot", 48, 36};
-    opened.options.threads = 1;  // tiles are counted
+    opened.options.threads = 1;  // the tiles are counted
     SceneFragments fragments = opened.fragments();
     fragments.find_coverages();
     std::size_t at_edges = 0, pixels = 0;

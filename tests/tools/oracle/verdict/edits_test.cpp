@@ -1,4 +1,4 @@
-// Expected values: pictures of ports that lose layers by a loop of their own (wrong_ports.h).
+// Tests the mistakes found at single pixels, on pictures of ports that lose known layers (wrong_ports.h).
 #include "tools/oracle/verdict/edits.h"
 
 #include <catch2/catch.hpp>
@@ -13,11 +13,11 @@ namespace {
 
 constexpr int side = 32;
 
-// A picture that lacks each list's second layer in its left half, and its nearest one in its right half; beside it
-// where the nearest is lost.
+// A picture without the second layer of each list in its left half and without the nearest one in its right half, and
+// the number of layers of each pixel.
 struct TwoMistakes {
     OpenedScene opened{"showroom", side, side};
-    std::vector<std::size_t> layers{};  // of each pixel
+    std::vector<std::size_t> layers{};  // per pixel: the number of its layers
     oracle::Target picture{};
 
     TwoMistakes() {
@@ -37,7 +37,7 @@ bool says(const std::vector<Rule>& rules, RuleKind kind) {
 
 }  // namespace
 
-TEST_CASE("the map of edits tells two mistakes apart by where each shows", "[long]") {
+TEST_CASE("the map of edits distinguishes two mistakes by the pixels at which each is visible", "[long]") {
     const TwoMistakes port;
     SceneFragments fragments = port.opened.fragments();
     const Colors colors{port.picture};
@@ -55,11 +55,11 @@ TEST_CASE("the map of edits tells two mistakes apart by where each shows", "[lon
         if (!is_changed) CHECK(map.of_pixel[p] == EditMap::right);
     }
     CHECK(wrong == counted);
-    CHECK(wrong > changed * 9 / 10);  // what is lost may be hardly seen
+    CHECK(wrong > changed * 9 / 10);  // some lost layers are hardly visible
     CHECK(map.not_explained * 5 < wrong);
 }
 
-TEST_CASE("one pixel's edits name the layer that it lacks, and none where it is right", "[long]") {
+TEST_CASE("the edits of a pixel name the layer that it lacks and are empty where the pixel is right", "[long]") {
     const TwoMistakes port;
     SceneFragments fragments = port.opened.fragments();
     const Colors colors{port.picture};
@@ -82,11 +82,11 @@ TEST_CASE("one pixel's edits name the layer that it lacks, and none where it is 
     CHECK(named == asked);
 }
 
-TEST_CASE("a pixel that no rule gives tells which of its layers do, in which order") {
+TEST_CASE("for a pixel that no rule explains a subset and an order of its layers is found") {
     const OpenedScene opened{"hard:case=inside-out", side, side};
     std::vector<std::size_t> layers;
     const auto rotate =
-        [&](PortList& l) {  // the nearest three layers of five and more: the third, the nearest, the second
+        [&](PortList& l) {  // of the nearest three layers of at least five: the third, the nearest, the second
             layers.push_back(l.visible.size());
             if (l.visible.size() == 5) std::rotate(l.visible.begin(), l.visible.begin() + 2, l.visible.begin() + 3);
         };

@@ -1,5 +1,5 @@
-// Expected values: pictures of the machine itself are right by definition, whatever its accumulators and its picture
-// keep.
+// Tests that the renderer's own pictures, which are right by definition, are called right with every format of
+// accumulators and picture.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -19,7 +19,7 @@ struct Formats {
     pipeline::Format color{}, back{}, result{};
 };
 
-// Of the accumulators and of the picture; a back of its own is dual's alone.
+// Formats of the accumulators and of the picture; only dual has a separate back format.
 std::vector<Formats> all_of(const std::string& algorithm) {
     std::vector<Formats> all;
     for (const pipeline::Format color : kept_formats)
@@ -29,8 +29,7 @@ std::vector<Formats> all_of(const std::string& algorithm) {
     return all;
 }
 
-// Under a hypothesis that leaves nothing to units in the last place but what binary32 has, and without another
-// rasterizer's help.
+// True if the picture is right under a hypothesis without slack, or with that of binary32, and with its given coverage.
 bool is_right(const SceneFragments& fragments, const oracle::Target& picture) {
     const Colors colors{picture};
     Sample sample = sampled(fragments, colors, 512);
@@ -38,7 +37,7 @@ bool is_right(const SceneFragments& fragments, const oracle::Target& picture) {
     return account_for(definite, {}, fragments, colors, sample).has_value();
 }
 
-// Pictures that are not: their names.
+// The names of the formats whose pictures are not right in this sense.
 std::vector<std::string> not_right_alone(OpenedScene opened) {
     SceneFragments fragments = opened.fragments();
     std::vector<std::string> names;
@@ -58,18 +57,18 @@ std::vector<std::string> not_right_alone(OpenedScene opened) {
 
 }  // namespace
 
-TEST_CASE("an exact algorithm's picture is right whatever the accumulators and the picture keep") {
+TEST_CASE("a picture of an exact algorithm is right with every format of accumulators and picture") {
     OpenedScene opened{"teapot", 32, 24};
     opened.profile = *pipeline::find_profile("geforce8_dx101");
     CHECK(not_right_alone(opened) == std::vector<std::string>{});
-    opened.options.alpha = 0.97f;  // what is let through is small, and told as 1 less what is not
+    opened.options.alpha = 0.97f;  // the transmittance is small, and is computed as 1 - coverage
     CHECK(not_right_alone(opened) == std::vector<std::string>{});
 }
 
-TEST_CASE("a float picture has the values that accumulators of codes add up to, and no others") {
+TEST_CASE("a float picture has exactly the values that sums of accumulator codes can have") {
     constexpr double code = 1.0 / 255;
     const Interval fronts{10 * code, 11 * code}, backs{100 * code, 101 * code};
-    // A third of the back is let through: 10 + 100 / 3, 10 + 101 / 3, and the same of 11.
+    // A transmittance of 1/3: 10 + 100 / 3, 10 + 101 / 3, and the same with 11.
     Sums sums{.front_unit = code,
               .back_unit = code,
               .front = {fronts, fronts, fronts},
@@ -80,12 +79,12 @@ TEST_CASE("a float picture has the values that accumulators of codes add up to, 
     CHECK(sums.count() == 64);
     for (const double codes : {10 + 100 / 3.0, 10 + 101 / 3.0, 11 + 100 / 3.0, 11 + 101 / 3.0}) CHECK(holds(codes));
     for (const double codes : {10 + 100.5 / 3, 10.5 + 100 / 3.0, 43.5, 44.0, 44.1}) CHECK_FALSE(holds(codes));
-    // Numbers of binary16 near 100 / 255 lie 2^-12 apart.
+    // Binary16 values near 100 / 255 are 2^-12 apart.
     sums.back_unit = 0;
     sums.is_back_half = true;
     CHECK(holds(10 + 1608 * 0x1p-12 * 255 / 3));
     CHECK_FALSE(holds(10 + 1608.5 * 0x1p-12 * 255 / 3));
-    sums.is_back_half = false;  // binary32: all between
+    sums.is_back_half = false;  // binary32: all values in between
     CHECK(holds(10 + 100.5 / 3));
     CHECK_FALSE(holds(10.5 + 100 / 3.0));
 }

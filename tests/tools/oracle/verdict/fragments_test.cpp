@@ -1,5 +1,5 @@
-// Expected values: Renderer::fragments, which lists a frame's fragments in the order of submission by another way;
-// hidden and sorted here.
+// Tests the lists of fragments against Renderer::fragments, which returns a frame's fragments in submission order; the
+// test hides and sorts them itself.
 #include "tools/oracle/verdict/fragments.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using strata::test::OpenedScene;
 
 namespace {
 
-// What a walk tells, pixel by pixel: primitives of visible and hidden ones, in their order.
+// Per pixel, the primitives of its visible and of its hidden fragments, in the order of a traversal.
 struct Told {
     std::vector<std::uint32_t> visible{}, hidden{};
     Rgba behind{};
@@ -41,8 +41,8 @@ std::vector<Told> told_of(const SceneFragments& scene) {
 
 }  // namespace
 
-TEST_CASE("every pixel is told once, with its fragments near to far, visible ones before hidden ones") {
-    const OpenedScene opened{"showroom", 100, 80};  // more than a tile
+TEST_CASE("every pixel is visited once with its visible fragments from near to far followed by its hidden ones") {
+    const OpenedScene opened{"showroom", 100, 80};  // more than one tile
     const SceneFragments scene{opened.input(), std::uint64_t{1} << 30};
     peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, opened.options};
     const peeling::FrameFragments all = renderer.fragments(*peeling::find_algorithm("front_to_back"));
@@ -63,13 +63,13 @@ TEST_CASE("every pixel is told once, with its fragments near to far, visible one
     CHECK(scene.count() == all.all.size());
 }
 
-TEST_CASE("a walk without memory draws the scene again and tells the same") {
+TEST_CASE("a traversal without memory renders the scene again and gives the same lists") {
     const OpenedScene opened{"teapot", 150, 150};  // with blank tiles
     CHECK(told_of(SceneFragments{opened.input(), 0}) ==
           told_of(SceneFragments{opened.input(), std::uint64_t{1} << 30}));
 }
 
-TEST_CASE("a fragment knows its instance and its facing, and a pixel the opaque colour behind it") {
+TEST_CASE("a fragment has its instance and its facing and a pixel has the opaque colour behind it") {
     const OpenedScene opened{"showroom", 64, 64};
     const SceneFragments scene{opened.input(), std::uint64_t{1} << 30};
     std::map<bool, int> facings;

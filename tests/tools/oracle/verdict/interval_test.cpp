@@ -1,4 +1,4 @@
-// Expected values: whole numbers over 2^80, in 256 bits.
+// Tests interval arithmetic against exact integers over 2^80, with 256 bits.
 #include "tools/oracle/verdict/interval.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -14,15 +14,15 @@ using Whole = boost::multiprecision::int256_t;
 // n / 2^40.
 double small(std::int64_t n) { return static_cast<double>(n) * 0x1p-40; }
 
-// Whether low <= n / 2^80 <= high, exactly: x 2^80 has no fraction for the values here but those below 2^-80, which are
-// cut toward the safe side.
+// True if low <= n / 2^80 <= high. Exact: x 2^80 is a whole number for all values here, except below 2^-80, where it is
+// truncated to the stricter side.
 bool encloses(const Interval& x, const Whole& n) {
     return Whole{std::ceil(std::ldexp(x.low, 80))} <= n && n <= Whole{std::floor(std::ldexp(x.high, 80))};
 }
 
 }  // namespace
 
-TEST_CASE("an interval's sum, product and mixture hold the exact result of every pair of operands") {
+TEST_CASE("the sum and product and mixture of intervals contain the exact result of every pair of operands") {
     std::mt19937_64 random{20};
     const auto number = [&] { return static_cast<std::int64_t>(random() >> 22) - (std::int64_t{1} << 41); };
     const auto share = [&] { return static_cast<std::int64_t>(random() >> 24); };
@@ -39,7 +39,7 @@ TEST_CASE("an interval's sum, product and mixture hold the exact result of every
     CHECK(outside == 0);
 }
 
-TEST_CASE("intervals of more than one number hold the results of numbers within them") {
+TEST_CASE("intervals of several numbers contain the results of all numbers within them") {
     std::mt19937_64 random{21};
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     std::uint64_t outside = 0;
@@ -55,7 +55,7 @@ TEST_CASE("intervals of more than one number hold the results of numbers within 
     CHECK(outside == 0);
 }
 
-TEST_CASE("an interval of one number stays narrow: rounding outward costs some units in the last place") {
+TEST_CASE("an interval of one number stays narrow because outward rounding costs only some units in the last place") {
     const Interval third = Interval::of(1.0 / 3), mixture = mixed(third, Interval::of(0.75), Interval::of(0.25));
     CHECK(mixture.high - mixture.low < 1e-14);
     CHECK((third * third).high - (third * third).low < 1e-15);

@@ -1,4 +1,4 @@
-// Expected values: the picture of each kind of mistake, whose cause is known because it was made by it.
+// Tests the search on one picture per kind of mistake, made with that mistake.
 #include <catch2/catch.hpp>
 #include <mutex>
 #include <set>
@@ -12,7 +12,7 @@ using namespace strata::test;
 
 namespace {
 
-// The picture of an 8-bit port that makes these mistakes, front to back.
+// The picture of an 8-bit port with these mistakes that blends front to back.
 oracle::Target picture_by(const SceneFragments& scene, const std::vector<Rule>& rules) {
     const int width = scene.width(), height = scene.height();
     oracle::Target picture{
@@ -41,7 +41,7 @@ std::uint32_t farthest(const oracle::Target& a, const oracle::Target& b) {
     return most;
 }
 
-// Kinds that are named by others alone, though these leave other pictures.
+// The kinds for which only other kinds are reported, although these give other pictures.
 std::vector<std::string> misnamed_in(const std::string& scene, int width, int height) {
     const OpenedScene opened{scene, width, height};
     const SceneFragments fragments = opened.fragments();
@@ -70,6 +70,6 @@ std::vector<std::string> misnamed_in(const std::string& scene, int width, int he
 
 }  // namespace
 
-TEST_CASE("no kind of mistake is named where another one made the picture", "[exhaustive]") {
+TEST_CASE("no kind of mistake is reported for a picture that another kind made", "[exhaustive]") {
     CHECK(misnamed_in("showroom", 32, 32) == std::vector<std::string>{});
 }

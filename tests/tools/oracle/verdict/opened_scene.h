@@ -1,4 +1,5 @@
-// tests/tools/oracle/verdict/opened_scene.h - a scene with a view, a profile and options, and pictures of it.
+// tests/tools/oracle/verdict/opened_scene.h - loads a scene with a view, a profile and options, and renders pictures of
+// it.
 #pragma once
 #include <string>
 
@@ -30,7 +31,7 @@ struct OpenedScene {
     [[nodiscard]] oracle::verdict::SceneFragments fragments() const {
         return oracle::verdict::SceneFragments{input(), std::uint64_t{1} << 30};
     }
-    // Nothing where the profile lacks something.
+    // Empty if the profile lacks a feature.
     [[nodiscard]] std::optional<oracle::Target> picture(const std::string& algorithm, pipeline::Format format) const {
         peeling::RenderOptions chosen = options;
         chosen.color_format = format;
@@ -42,7 +43,7 @@ struct OpenedScene {
     }
 };
 
-// What is said of a picture of the scene.
+// The verdict on a picture of the scene.
 [[nodiscard]] inline oracle::verdict::Verdict judged(const OpenedScene& opened, const oracle::Target& picture) {
     oracle::verdict::SceneFragments fragments = opened.fragments();
     return judge(fragments, oracle::verdict::Colors{picture});

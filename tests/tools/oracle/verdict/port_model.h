@@ -1,6 +1,6 @@
-// tests/tools/oracle/verdict/port_model.h - a port as a program would be written: layers composited step by step in the
-// formats that a hypothesis names. It shares no function and no constant with the product; where a port is free, a seed
-// decides.
+// tests/tools/oracle/verdict/port_model.h - a model of a port: composites layers step by step in the formats that a
+// hypothesis states. It shares no function and no constant with the product. Where the hypothesis leaves a choice, a
+// random generator decides.
 #pragma once
 #include <array>
 #include <cmath>
@@ -57,7 +57,7 @@ class PortModel {
         return s == Storage::unorm8 ? 255 : s == Storage::unorm10 ? 1023 : s == Storage::unorm16 ? 65535 : 0;
     }
 
-    // To 11 bits, halves to even, or cut.
+    // Rounds to 11 bits: to nearest with ties to even, or truncated.
     static double as_half(double v, bool cuts) {
         if (v == 0) return 0;
         int exponent = 0;
@@ -67,7 +67,7 @@ class PortModel {
         return unit * (cuts ? std::trunc(n) : std::nearbyint(n));
     }
 
-    // A blend's exact result, or nearly that, as it is kept.
+    // Stores a blend's result, which is exact or nearly so, in the format of the end.
     double kept(const End& end, double v) {
         const int top = levels(end.storage);
         if (end.storage == Storage::single) return as_single(v);
@@ -77,7 +77,7 @@ class PortModel {
         switch (end.rounding) {
             case Rounding::nearest:
             case Rounding::products: return std::floor(code + 0.5) / top;
-            // An exact whole number of codes may have come out a little less.
+            // A result that is exactly a code may have been computed slightly below it.
             case Rounding::cut: return std::floor(code + 1e-9) / top;
             case Rounding::held: return flips() ? std::floor(code + 0.5) / top : as_single(v);
             case Rounding::any: break;
@@ -87,7 +87,7 @@ class PortModel {
         return way == 3 ? as_single(v) : whole / top;
     }
 
-    // A source as it is blended.
+    // The source as it is blended, after its conversion.
     double taken(const End& end, double v) {
         const int top = levels(end.storage);
         const bool is_rounded = end.source != Source::unrounded && (end.source != Source::any || flips());
@@ -120,7 +120,7 @@ class PortModel {
         const bool is_premultiplied = premultiplies(end);
         for (std::size_t c = 0; c < 4; ++c) {
             const double given = c == 3 ? 1.0 : double{layer.color[c]};
-            // As a program multiplies: in binary32.
+            // A program multiplies in binary32.
             const double source = c == 3             ? (is_premultiplied ? alpha : 1.0)
                                   : is_premultiplied ? taken(end, as_single(given * layer.color[3]))
                                                      : taken(end, given);
@@ -143,7 +143,7 @@ class PortModel {
                                                    : taken(end, layer.color[c]) * alpha;
             sum[c] = kept(end, sum[c] + through * source);
         }
-        // Half of the ports keep coverage.
+        // Half of the ports store coverage instead of transmittance.
         sum[3] = flips() ? kept(end, through * (1 - alpha)) : 1 - kept(end, 1 - through * (1 - alpha));
     }
 

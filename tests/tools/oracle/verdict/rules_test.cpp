@@ -1,4 +1,4 @@
-// Expected values: a list of five fragments; what each rule leaves of it is written down by hand.
+// Tests every rule on a list of five fragments. The expected layers are written by hand.
 #include "tools/oracle/verdict/rules.h"
 
 #include <algorithm>
@@ -13,13 +13,13 @@ using namespace strata::oracle::verdict;
 
 namespace {
 
-// Near to far; the red of each is its number, and its submission number stands in `submitted`.
+// Five fragments from near to far; the red of each is its index, and `submitted` has its submission index.
 struct Five {
     std::vector<Fragment> all{};
     Setting setting{};
     Five() {
         constexpr std::uint32_t submitted[] = {3, 0, 4, 1, 2};
-        constexpr float depths[] = {0.1f, 0.12f, 0.4f, 0.6f, 0.9f};  // the first two are one depth of three bits
+        constexpr float depths[] = {0.1f, 0.12f, 0.4f, 0.6f, 0.9f};  // the first two are equal in three bits
         for (std::size_t i = 0; i < 5; ++i)
             all.push_back({.color = {static_cast<float>(i), 0.25f, 0.75f, 0.125f * static_cast<float>(i + 1)},
                            .code = static_cast<std::uint32_t>(100 * (i + 1)),
@@ -49,7 +49,7 @@ using Reds = std::vector<int>;
 
 }  // namespace
 
-TEST_CASE("rules that choose and order layers leave those that they say, near to far") {
+TEST_CASE("rules that choose and order layers leave the described layers from near to far") {
     using enum RuleKind;
     const Five list;
     const auto reds = [&](RuleKind kind, std::uint32_t n = 0) { return list.reds({.kind = kind, .n = n}, true); };
@@ -63,10 +63,10 @@ TEST_CASE("rules that choose and order layers leave those that they say, near to
     CHECK(reds(ordered_in_bits, 3) == Reds{1, 0, 2, 3});
     CHECK(reds(lost_in_bits, 3) == Reds{0, 2, 3});
     CHECK(reds(lost_in_bits, 8) == Reds{0, 1, 2, 3});
-    CHECK(reds(sorted_once) == Reds{1, 0, 2, 3});  // as submitted: 1, 3, 0, 2
+    CHECK(reds(sorted_once) == Reds{1, 0, 2, 3});  // in submission order: 1, 3, 0, 2
     CHECK(reds(hidden_alone) == Reds{4});
     CHECK(list.reds({.kind = hidden_alone}) == Reds{0, 1, 2, 3, 4});
-    // Of four the middle is none.
+    // Four layers have no middle one.
     CHECK(reds(middle_lost) == Reds{0, 1, 2, 3});
     Five odd;
     odd.all.resize(3);
@@ -74,14 +74,14 @@ TEST_CASE("rules that choose and order layers leave those that they say, near to
     CHECK(odd.reds({.kind = middle_doubled}) == Reds{0, 1, 1, 2});
 }
 
-TEST_CASE("rules of colours and of what lies behind change what they say") {
+TEST_CASE("rules of colours and of the background change the described values") {
     using enum RuleKind;
     const Five list;
     CHECK(list.with({.kind = channel_lost, .n = 2}).layers[1].color == Rgba{1, 0.25f, 0, 0.25f});
     CHECK(list.with({.kind = alpha_root}).layers[1].color[3] == 0.5f);
     const Stack late = list.with({.kind = through_late});
     CHECK(late.layers[1].is_premultiplied);
-    CHECK(late.layers[1].color == Rgba{0.1875f, 0.046875f, 0.140625f, 0.25f});  // alpha 0.25 times 0.75
+    CHECK(late.layers[1].color == Rgba{0.1875f, 0.046875f, 0.140625f, 0.25f});  // alpha 0.25 times transmittance 0.75
     const Stack under_all = list.with({.kind = background_added});
     CHECK(under_all.layers.size() == 5);
     CHECK(under_all.layers[0].color == Rgba{0.5f, 0.5f, 0.5f, 0});
@@ -96,9 +96,9 @@ TEST_CASE("rules of colours and of what lies behind change what they say") {
     CHECK(seen.with({.kind = background_other}, true).background == Rgba{0.5f, 0.5f, 0.5f, 1});
 }
 
-TEST_CASE("rules of submission, of halves and of single layers change what they say") {
+TEST_CASE("rules of submission and of halves and of single layers change the described layers") {
     using enum RuleKind;
-    const Five list;  // four visible ones, submitted as 1, 3, 0, 2 from the near end
+    const Five list;  // four visible fragments, from near to far submitted as 1, 3, 0, 2
     const auto reds = [&](RuleKind kind, std::uint32_t n = 0) { return list.reds({.kind = kind, .n = n}, true); };
     CHECK(reds(submitted_lost, 0) == Reds{0, 2, 3});
     CHECK(reds(submitted_lost_from_last, 0) == Reds{0, 1, 3});
@@ -119,7 +119,7 @@ TEST_CASE("rules of submission, of halves and of single layers change what they 
     CHECK(last.layers[2].color[3] == 0.375f);
 }
 
-TEST_CASE("rules of the blend set what they say, and a few bits as many as they say") {
+TEST_CASE("rules of the blend set their mixing and few_bits sets its numbers of bits") {
     using enum RuleKind;
     const Five list;
     CHECK(list.with({.kind = veiled, .value = 0.25f}).mixing.first_through == 0.25f);
@@ -145,7 +145,7 @@ TEST_CASE("layers that are composited twice as a whole have the alpha of all of 
     CHECK(stack.layers[0].color == Rgba{0.5f, 0.25f, 0, 0.75f});
 }
 
-TEST_CASE("every kind of rule has a name, a sentence and a place in a pair of its own") {
+TEST_CASE("every kind of rule has a unique name and a sentence and a stage in pairs") {
     SceneFacts facts{.most_layers = 6};
     pipeline::DrawList list;
     list.meshes.resize(1);

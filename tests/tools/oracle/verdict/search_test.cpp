@@ -1,5 +1,5 @@
-// Expected values: ports of the test that change their lists by a loop of their own (wrong_ports.h); the machine's own
-// peels that are stopped.
+// Tests the search for mistakes on pictures of ports that the test makes by changing their lists (wrong_ports.h), and
+// of the renderer's own peels that are stopped early.
 #include "tools/oracle/verdict/search.h"
 
 #include <catch2/catch.hpp>
@@ -92,13 +92,14 @@ const std::vector<WrongPort>& wrong_ports() {
 
 }  // namespace
 
-TEST_CASE("a port's mistake in the structure is found from its picture alone, whatever its order of blending",
+TEST_CASE("a mistake of a port in the structure is found from its picture alone for every order of blending",
           "[long]") {
     const OpenedScene opened{"showroom", 48, 48};
     std::vector<std::string> missed;
     std::size_t number = 0;
     for (const WrongPort& port : wrong_ports()) {
-        // One order of blending a port, in turn: three times the pictures would find nothing more.
+        // Each port has one of the orders of blending, alternating, because testing all three for each port would find
+        // nothing more.
         const Order orders[] = {Order::over, Order::under, Order::both_ends};
         const Order order = orders[number++ % 3];
         const Verdict verdict = judged(opened, picture_of_port(opened, port_of_codes(order), port.change));
@@ -107,13 +108,13 @@ TEST_CASE("a port's mistake in the structure is found from its picture alone, wh
     CHECK(missed == std::vector<std::string>{});
 }
 
-TEST_CASE("a port that changes nothing is right by every order of blending") {
+TEST_CASE("a port that changes nothing is right with every order of blending") {
     const OpenedScene opened{"showroom", 32, 32};
     for (const Order order : {Order::over, Order::under, Order::both_ends})
         CHECK(judged(opened, picture_of_port(opened, port_of_codes(order), {})).is_right);
 }
 
-TEST_CASE("a peel that is stopped is told by the layers that it has composited") {
+TEST_CASE("a peel that is stopped early is described by the layers that it has composited") {
     OpenedScene opened{"showroom", 48, 48};
     opened.options.max_passes = 2;  // of three layers
     CHECK(found(judged(opened, *opened.picture("front_to_back", pipeline::Format::rgba8))).contains("nearest_alone 2"));
@@ -121,14 +122,13 @@ TEST_CASE("a peel that is stopped is told by the layers that it has composited")
     CHECK(found(judged(opened, *opened.picture("dual", pipeline::Format::rgba8))).contains("ends_alone 1"));
 }
 
-TEST_CASE("a mistake is found in a picture of floats, too, whose rounding leaves units in the last place open") {
+TEST_CASE("a mistake is found in a picture of floats although rounding leaves some units in the last place open") {
     const OpenedScene opened{"showroom", 32, 32};
     for (const pipeline::Format format : {pipeline::Format::rgba16f, pipeline::Format::rgba32f})
         CHECK(found(judged(opened, *opened.picture("unsorted", format))).contains("as_submitted 0"));
 }
 
-TEST_CASE("layers that are lost in the middle of many are found, though a port that cuts could lose as much",
-          "[long]") {
+TEST_CASE("layers that are lost in the middle of many are found although truncation could lose as much", "[long]") {
     const OpenedScene opened{"hard:case=inside-out", 32, 32};
     Hypothesis floats = port_of_codes(Order::both_ends);
     floats.front = floats.back = {Storage::single, Source::unrounded, Rounding::nearest};
@@ -140,7 +140,7 @@ TEST_CASE("layers that are lost in the middle of many are found, though a port t
     CHECK(found(verdict).contains("ends_alone 5"));
 }
 
-TEST_CASE("a picture that is right but for the order of its rows is told so") {
+TEST_CASE("a picture that is right except for reversed rows is reported as such") {
     const OpenedScene opened{"showroom", 32, 32};
     oracle::Target picture = picture_of_port(opened, port_of_codes(Order::under), {});
     for (std::size_t y = 0; y < 16; ++y)
@@ -152,7 +152,7 @@ TEST_CASE("a picture that is right but for the order of its rows is told so") {
     CHECK(found(verdict) == std::set<std::string>{"rows_reversed 0"});
 }
 
-TEST_CASE("another background is told with its colour") {
+TEST_CASE("another background is reported with its colour") {
     const OpenedScene opened{"showroom", 32, 32};
     const auto change = [](PortList& l) {
         if (!l.has_opaque) l.background = {1, 0.6f, 0.2f, 1};
@@ -162,11 +162,11 @@ TEST_CASE("another background is told with its colour") {
     CHECK(verdict.facts.background == Rgba{1, 0.6f, 0.2f, 1});
 }
 
-TEST_CASE("what explains a part of the wrong pixels is a lead and no finding", "[long]") {
+TEST_CASE("a rule that explains only some of the wrong pixels is a lead and not an explanation", "[long]") {
     const OpenedScene opened{"showroom", 32, 32};
     std::size_t number = 0;
     const auto change = [&](PortList& l) {
-        if (number++ % 2 == 0) lose(l, 0);  // by no rule that a pixel's list tells
+        if (number++ % 2 == 0) lose(l, 0);  // no rule on a pixel's list describes this choice
     };
     const Verdict verdict = judged(opened, picture_of_port(opened, port_of_codes(Order::over), change));
     CHECK_FALSE(verdict.is_right);

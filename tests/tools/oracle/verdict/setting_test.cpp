@@ -1,4 +1,4 @@
-// Expected values: two instances whose points are worked out by hand.
+// Tests the drawing orders on two instances whose centres are worked out by hand.
 #include "tools/oracle/verdict/setting.h"
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using namespace strata::oracle::verdict;
 
 namespace {
 
-// A long triangle along x and -z: its origin, its box's centre and the mean of its vertices lie at different depths.
+// A long triangle along x and -z, whose origin, box centre and mean of vertices have different depths.
 pipeline::Mesh triangle(float first_z, float second_z, float third_z) {
     pipeline::Mesh mesh;
     mesh.positions = {{0, 0, first_z}, {1, 0, second_z}, {0, 1, third_z}};
@@ -24,7 +24,7 @@ const Ranks& rank(const Setting& setting, InstanceOrder order) { return setting.
 
 }  // namespace
 
-TEST_CASE("a drawing order's number says how instances and faces are drawn") {
+TEST_CASE("the number of a drawing order determines how instances and faces are ordered") {
     for (std::uint32_t i = 0; i < instance_order_count; ++i)
         for (std::uint32_t f = 0; f < face_order_count; ++f) {
             const DrawingOrder order = drawing_order(i * face_order_count + f);
@@ -34,22 +34,22 @@ TEST_CASE("a drawing order's number says how instances and faces are drawn") {
     CHECK(describe(drawing_order(0)) != describe(drawing_order(1)));
 }
 
-TEST_CASE("instances are ranked by the depth of their origin, their box's centre and their vertices' mean") {
+TEST_CASE("instances are ranked by the depth of their origin or of their box centre or of the mean of their vertices") {
     pipeline::DrawList list;
-    // Boxes: centres at -5 and -4.5; means: -11/3 and -17/3; all origins at 0.
+    // Box centres are at -5 and -4.5, means at -11/3 and -17/3, all origins at 0.
     list.meshes = {triangle(-1, -1, -9), triangle(-1, -8, -8)};
     list.materials.resize(1);
     list.instances = {{.mesh = 0, .material = 0}, {.mesh = 1, .material = 0}};
     const Setting setting = setting_of(list, {}, {0, 0, 0, 1});
     CHECK(rank(setting, InstanceOrder::listed) == Ranks{0, 1});
     CHECK(rank(setting, InstanceOrder::listed_backwards) == Ranks{1, 0});
-    CHECK(rank(setting, InstanceOrder::origin) == Ranks{0, 1});  // equal: as listed
-    CHECK(rank(setting, InstanceOrder::box) == Ranks{0, 1});     // the first is farther, and drawn first
+    CHECK(rank(setting, InstanceOrder::origin) == Ranks{0, 1});  // equal depths: in list order
+    CHECK(rank(setting, InstanceOrder::box) == Ranks{0, 1});     // the first is farther and is drawn first
     CHECK(rank(setting, InstanceOrder::mean) == Ranks{1, 0});
     CHECK(rank(setting, InstanceOrder::box_near_first) == Ranks{1, 0});
 }
 
-TEST_CASE("an instance's own place and the camera count for its depth") {
+TEST_CASE("the depth of an instance depends on its model matrix and on the camera") {
     pipeline::DrawList list;
     list.meshes = {triangle(0, 0, 0)};
     list.materials.resize(1);
@@ -57,7 +57,7 @@ TEST_CASE("an instance's own place and the camera count for its depth") {
     list.instances[0].model[3][2] = -2;
     list.instances[1].model[3][2] = -3;
     CHECK(rank(setting_of(list, {}, {}), InstanceOrder::origin) == Ranks{1, 0});
-    pipeline::View behind;  // turned round: what was far is near
+    pipeline::View behind;  // rotated, so the far instance is near
     behind.view[2][2] = behind.view[0][0] = -1;
     behind.view[3][2] = -10;
     CHECK(rank(setting_of(list, behind, {}), InstanceOrder::origin) == Ranks{0, 1});

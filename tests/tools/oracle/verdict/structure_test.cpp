@@ -1,4 +1,4 @@
-// Expected values: lists of a few fragments, layers written down by hand as keys-and-counts.md 2.2 has them.
+// Tests the layers of lists with equal depths. The expected layers are written by hand from keys-and-counts.md 2.2.
 #include "tools/oracle/verdict/structure.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace strata::oracle::verdict;
 
 namespace {
 
-// Depths as codes; the red of each is its number.
+// Fragments with these depth codes; the red of each is its index.
 std::vector<Fragment> fragments(const std::vector<std::uint32_t>& codes) {
     std::vector<Fragment> all;
     for (const std::uint32_t code : codes)
@@ -39,9 +39,8 @@ Layers layers(const std::vector<std::uint32_t>& codes, TieRule rule) {
 
 }  // namespace
 
-TEST_CASE("of fragments at one depth a rule keeps the first, the last, or all in its order") {
-    const std::vector<std::uint32_t> codes{1, 1, 2, 3,
-                                           3};  // three depths: the middle one belongs to the near half, or not
+TEST_CASE("of fragments at equal depths a rule keeps the first or the last or all in its order") {
+    const std::vector<std::uint32_t> codes{1, 1, 2, 3, 3};  // of three depths the middle one may belong to either half
     CHECK(layers(codes, TieRule::first) == Layers{{0, 1, 2, 3, 4}, 3, 2});
     CHECK(layers(codes, TieRule::last) == Layers{{1, 0, 2, 4, 3}, 3, 2});
     CHECK(layers(codes, TieRule::unique) == Layers{{0, 2, 3}, 2, 1});
@@ -50,7 +49,7 @@ TEST_CASE("of fragments at one depth a rule keeps the first, the last, or all in
     CHECK(layers({}, TieRule::first) == Layers{{}, 0, 0});
 }
 
-TEST_CASE("fragments at one depth merge by MAX: premultiplied in the near half, straight in the far half") {
+TEST_CASE("fragments at equal depths merge by MAX premultiplied in the near half and straight in the far half") {
     std::vector<Fragment> all = fragments({1, 1, 2, 2});
     all[0].color = {1.0f, 0.25f, 0, 0.25f};
     all[1].color = {0.5f, 0.5f, 0, 0.75f};
@@ -60,12 +59,12 @@ TEST_CASE("fragments at one depth merge by MAX: premultiplied in the near half, 
     StackMaker maker{setting};
     const Stack& stack = maker.right({.visible = all}, {TieRule::merged, DepthKey::code});
     REQUIRE(stack.layers.size() == 2);
-    CHECK(stack.layers[0].color == Rgba{0.5f, 0.5f, 0, 0.75f});  // (0.375, 0.375, 0) times alpha
+    CHECK(stack.layers[0].color == Rgba{0.5f, 0.5f, 0, 0.75f});  // (0.375, 0.375, 0) premultiplied
     CHECK(stack.layers[1].color == Rgba{1.0f, 0.5f, 0, 0.75f});
     CHECK(stack.near == 1);
 }
 
-TEST_CASE("depths are compared as stored or as a program sees them, and a pixel has ties if the two differ") {
+TEST_CASE("depths are compared as stored codes or as binary32 and a pixel has ties if these order it differently") {
     std::vector<Fragment> all = fragments({5, 5});
     all[0].shader_z = 0.75f;
     all[1].shader_z = 0.5f;
@@ -78,13 +77,13 @@ TEST_CASE("depths are compared as stored or as a program sees them, and a pixel 
     CHECK(has_ties(all));
     CHECK(has_ties(fragments({1, 1})));
     CHECK_FALSE(has_ties(fragments({1, 2, 3})));
-    all[1].code = 6;  // stored in the other order
+    all[1].code = 6;  // stored in the opposite order
     CHECK(has_ties(all));
 }
 
 namespace {
 
-// Few depths, so that most lists have ties, by one key or by both; submitted in a random order.
+// Few different depths, so that most lists have ties by one key or both; submission order is random.
 std::vector<Fragment> random_fragments(std::size_t count, std::mt19937& random) {
     std::vector<Fragment> all;
     for (std::size_t i = 0; i < count; ++i) {
@@ -101,7 +100,7 @@ std::vector<Fragment> random_fragments(std::size_t count, std::mt19937& random) 
 
 }  // namespace
 
-TEST_CASE("rules for ties that are left out give what those that stand for them give") {
+TEST_CASE("omitted rules for ties give the same structures as the rules that represent them") {
     std::mt19937 random{7};
     const Setting setting;
     StackMaker maker{setting}, other{setting};

@@ -1,4 +1,4 @@
-// Expected values: a scene of one layer hides what a scene of many shows.
+// Tests which scenes distinguish mistakes: a scene with one layer hides those that are visible with many layers.
 #include "tools/oracle/verdict/telling.h"
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@ using namespace strata;
 using namespace strata::oracle::verdict;
 using namespace strata::test;
 
-TEST_CASE("a scene of many layers tells mistakes apart, one without their layers does not") {
+TEST_CASE("a scene with many layers distinguishes mistakes and one without these layers does not") {
     const std::vector<Rule> second{{.kind = RuleKind::lost, .n = 1}}, reversed{{.kind = RuleKind::reversed}},
         ninth{{.kind = RuleKind::lost, .n = 8}};
     const OpenedScene deep{"showroom", 32, 32}, shallow{"teapot", 32, 24};
@@ -17,10 +17,10 @@ TEST_CASE("a scene of many layers tells mistakes apart, one without their layers
     CHECK(tells_apart(many, {second, reversed}));
     CHECK_FALSE(tells_apart(many, {second, second}));
     CHECK(tells_apart(few, {second, reversed}));
-    CHECK_FALSE(tells_apart(few, {second, ninth}));  // which is a right port here
+    CHECK_FALSE(tells_apart(few, {second, ninth}));  // `ninth` changes nothing in this scene
 }
 
-TEST_CASE("a rule of one instance or material says nothing of other scenes") {
+TEST_CASE("a rule about one instance or material does not apply to other scenes") {
     CHECK(is_of_any_scene({{.kind = RuleKind::reversed}, {.kind = RuleKind::some_lost, .scope = Scope::back_faces}}));
     CHECK_FALSE(is_of_any_scene({{.kind = RuleKind::some_lost, .scope = Scope::instance}}));
     CHECK_FALSE(is_of_any_scene({{.kind = RuleKind::reversed}, {.kind = RuleKind::decoded, .scope = Scope::material}}));

@@ -1,5 +1,5 @@
-// Expected values: pictures of the machine itself are right by definition; pictures changed by hand are wrong where
-// they were changed.
+// Tests verdicts on the renderer's own pictures, which are right by definition, and on copies that are wrong at changed
+// pixels.
 #include "tools/oracle/verdict/verdict.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ constexpr pipeline::Format formats[] = {pipeline::Format::rgba8, pipeline::Forma
 
 Verdict judged(SceneFragments& fragments, const oracle::Target& picture) { return judge(fragments, Colors{picture}); }
 
-// Pictures of every exact algorithm in every format that are not called right: their names.
+// The names of all exact algorithms and formats whose pictures are not called right.
 std::vector<std::string> not_right(const OpenedScene& opened) {
     SceneFragments fragments = opened.fragments();
     std::vector<std::string> names;
@@ -31,7 +31,7 @@ std::vector<std::string> not_right(const OpenedScene& opened) {
 
 }  // namespace
 
-TEST_CASE("every exact algorithm's own picture is right by structure, in every format", "[long]") {
+TEST_CASE("the picture of every exact algorithm in every format is right", "[long]") {
     CHECK(not_right(OpenedScene{"showroom", 40, 30}).empty());
     OpenedScene ties{"random:seed=7,triangles=60", 24, 24};
     CHECK(not_right(ties) == std::vector<std::string>{});
@@ -39,20 +39,20 @@ TEST_CASE("every exact algorithm's own picture is right by structure, in every f
     CHECK(not_right(ties) == std::vector<std::string>{});
 }
 
-TEST_CASE("a pixel changed beyond what rounding may do is wrong, and it alone") {
+TEST_CASE("a pixel changed by more than rounding allows is the only wrong one") {
     const OpenedScene opened{"teapot", 48, 36};
     oracle::Target picture = *opened.picture("dual", pipeline::Format::rgba8);
     SceneFragments fragments = opened.fragments();
     const Verdict right = judged(fragments, picture);
     CHECK(right.is_right);
     CHECK(right.right.pixels == 48 * 36);
-    picture.codes[4 * (30 * 48 + 24)] += 4;  // on the plane, where no snapping moves colours
+    picture.codes[4 * (30 * 48 + 24)] += 4;  // on a plane that faces the eye, where snapping changes no colour
     const Verdict wrong = judged(fragments, picture);
     CHECK_FALSE(wrong.is_right);
     CHECK(wrong.right.wrong_pixels == std::vector<std::uint32_t>{30 * 48 + 24});
 }
 
-TEST_CASE("a picture blended in the order of submission is wrong") {
+TEST_CASE("a picture blended in submission order is wrong") {
     const OpenedScene opened{"teapot", 48, 36};
     SceneFragments fragments = opened.fragments();
     const Verdict found = judged(fragments, *opened.picture("unsorted", pipeline::Format::rgba8));
@@ -60,7 +60,7 @@ TEST_CASE("a picture blended in the order of submission is wrong") {
     CHECK(found.right.wrong_pixels.size() > 50);
 }
 
-TEST_CASE("the hypothesis that is named has the formats that the picture was made with") {
+TEST_CASE("the reported hypothesis has the formats with which the picture was made") {
     const OpenedScene opened{"showroom", 64, 64};
     SceneFragments fragments = opened.fragments();
     const Verdict codes = judged(fragments, *opened.picture("front_to_back", pipeline::Format::rgba8));

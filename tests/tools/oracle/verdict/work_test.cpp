@@ -1,4 +1,4 @@
-// Expected values: counts, which are the same whatever threads do; what a stopped search may say.
+// Tests that a search counts the same steps with any number of threads, and the verdict of a search that was stopped.
 #include "tools/oracle/verdict/work.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ Counted counted(const OpenedScene& opened, const oracle::Target& picture, const 
 
 constexpr SearchLimits nothing{.mistakes = 0, .narrower = 0, .leads = 0, .of_fragment = 0};
 
-// A port whose blends cut: right, but that leaves much open.
+// A port that truncates in blends: right, but with wide intervals.
 Hypothesis port_that_cuts() {
     Hypothesis cuts = port_of_codes(Order::both_ends);
     cuts.front.rounding = cuts.back.rounding = Rounding::cut;
@@ -34,7 +34,7 @@ Hypothesis port_that_cuts() {
 
 }  // namespace
 
-TEST_CASE("a batch is done whole, and none is begun when the work is spent") {
+TEST_CASE("a batch is completed and no further one is started after the limit is reached") {
     Work work;
     work.allow(100);
     std::atomic<int> begun = 0;
@@ -53,7 +53,8 @@ TEST_CASE("a batch is done whole, and none is begun when the work is spent") {
     CHECK(begun == once);
 }
 
-TEST_CASE("one pixel of a float picture is looked for within the limit, and counts the same on any number of threads") {
+TEST_CASE(
+    "the search for one pixel of a float picture stays within the limit with the same count on any number of threads") {
     OpenedScene opened{"teapot", 24, 18};
     oracle::Target picture = *opened.picture("front_to_back", pipeline::Format::rgba32f);
     std::uint32_t& red = picture.codes[std::size_t{4} * (9 * 24 + 12)];
@@ -67,7 +68,7 @@ TEST_CASE("one pixel of a float picture is looked for within the limit, and coun
     CHECK(counted(opened, picture).work == one.work);
 }
 
-TEST_CASE("a search that is stopped names no mistake and says that it was stopped") {
+TEST_CASE("a stopped search reports no mistake and says that it was stopped") {
     const OpenedScene opened{"showroom", 24, 24};
     const auto lose_second = [](PortList& l) {
         if (l.visible.size() > 1) l.visible.erase(l.visible.begin() + 1);
@@ -84,7 +85,7 @@ TEST_CASE("a search that is stopped names no mistake and says that it was stoppe
     CHECK(to_text(stopped.verdict, opened.scene.list).find("stopped at its limit") != std::string::npos);
 }
 
-TEST_CASE("a picture that leaves much open is not decided where the search is stopped") {
+TEST_CASE("a picture with wide intervals has no verdict if the search is stopped") {
     const OpenedScene opened{"hard:case=inside-out", 8, 8};
     const oracle::Target picture = picture_of_port(opened, port_that_cuts(), {});
     CHECK(counted(opened, picture).verdict.is_right);

@@ -1,5 +1,5 @@
-// tests/tools/oracle/verdict/wrong_ports.h - pictures of ports that composite other fragments than they should: lists
-// of Renderer::fragments, changed by a function of the test, blended step by step by port_model.h.
+// tests/tools/oracle/verdict/wrong_ports.h - pictures of ports that composite wrong fragments: the lists of
+// Renderer::fragments are changed by a function of the test, and blended step by step by port_model.h.
 #pragma once
 #include <functional>
 
@@ -8,15 +8,15 @@
 
 namespace strata::test {
 
-// A pixel's fragments as a port has them: near to far, equal depths as submitted.
+// The fragments of a pixel, near to far, equal depths in submission order.
 struct PortList {
     std::vector<pipeline::CapturedFragment> visible{}, hidden{};
-    Rgba background{};  // the opaque surface's colour, or what the frame was cleared to
+    Rgba background{};  // colour of the opaque surface, or the clear colour
     bool has_opaque = false;
 };
 using ChangeList = std::function<void(PortList&)>;
 
-// 8-bit accumulators, rounded to nearest, in this order.
+// 8-bit accumulators with rounding to nearest and this order of blending.
 inline oracle::verdict::Hypothesis port_of_codes(oracle::verdict::Order order) {
     using namespace oracle::verdict;
     const End end{Storage::unorm8, Source::stored, Rounding::nearest};
@@ -24,14 +24,14 @@ inline oracle::verdict::Hypothesis port_of_codes(oracle::verdict::Order order) {
         .order = order, .front = end, .back = end, .result = {Storage::unorm8, Source::unrounded, Rounding::nearest}};
 }
 
-// The picture of a port that changes every list. `seed` decides where a port is free.
+// The picture of a port that applies a change to every list. `seed` decides where the hypothesis leaves a choice.
 inline oracle::Target picture_of_port(const OpenedScene& opened, const oracle::verdict::Hypothesis& hypothesis,
                                       const ChangeList& change, std::uint64_t seed = 1) {
     peeling::RenderOptions options = opened.options;
     options.audit = false;
     peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, options};
     const peeling::FrameFragments all = renderer.fragments(*peeling::find_algorithm("front_to_back"));
-    // The opaque scene is what is left of a frame whose layers are all cut away: one pass of an empty peel.
+    // The opaque scene is rendered as a frame whose transparent layers are all discarded: one pass of an empty peel.
     pipeline::DrawList opaque = opened.scene.list;
     std::erase_if(opaque.instances, [&](const pipeline::Instance& i) {
         return opaque.materials[i.material].alpha_mode == pipeline::AlphaMode::blend;
@@ -58,7 +58,7 @@ inline oracle::Target picture_of_port(const OpenedScene& opened, const oracle::v
         if (change) change(list);
         oracle::verdict::Stack stack{.background = list.background};
         for (const pipeline::CapturedFragment& f : list.visible) stack.layers.push_back({.color = f.color});
-        // A peel from both ends divides depths, not layers.
+        // A peel from both ends divides the depths into halves, not the layers.
         std::size_t depths = 0;
         std::vector<std::size_t> depth_of;
         for (std::size_t i = 0; i < list.visible.size(); ++i) {
