@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes tests/RELIABILITY.md: what is guaranteed, how often it was tried, and what is not guaranteed.
+"""Writes tests/RELIABILITY.md: the guarantees, how often each was tested, and what is not guaranteed.
 
     tools/test.sh --instrumented              # the builds under sanitizers
-    tests/reliability.py build/release        # runs what counts, some minutes on a free machine, and writes the page
+    tests/reliability.py build/release        # runs the commands that count, some minutes on an idle machine, and writes the page
 
 The page has at most 600 words. BUILD_FOLDER/reliability/TABLE.md has every row with its command and the faults that it found. A figure is what
 its command printed; if a command finds a fault, nothing is written. The output of a command is stored in BUILD_FOLDER/reliability, so that
@@ -106,7 +106,7 @@ def figures_of(command, pattern, build):
     found = [match.groups() for match in re.finditer(pattern, kept.read_text())]
     if not found:
         sys.exit(f"reliability.py: {words}: {kept} has no figure")
-    # Of a figure that is printed more than once, the sum.
+    # The sum of a figure that is printed several times.
     return [f"{sum(int(one[i]) for one in found):,}" for i in range(len(found[0]))]
 
 

@@ -1,6 +1,6 @@
-"""What the tests in a browser share: whether there is one, Chromium without a window, and what must hold of every page.
+"""Functions that the browser tests share: is Chromium installed, how is it started without a window, and checks for every page.
 
-With STRATA_AXE=FILE (axe.min.js of the npm package axe-core) a page is searched for what keeps people out.
+With STRATA_AXE=FILE (axe.min.js of the npm package axe-core) a page is also checked for accessibility.
 """
 import os
 import shutil
@@ -9,7 +9,7 @@ SKIPPED = 77
 
 
 def missing():
-    """What this machine lacks for such a test, as a sentence; "" if it has all."""
+    """The package that this machine lacks for a browser test, as a sentence; "" if nothing is missing."""
     try:
         import selenium  # noqa: F401
     except ImportError:
@@ -20,7 +20,7 @@ def missing():
 
 
 def skips():
-    """Says what is missing. True if the test cannot run."""
+    """Prints what is missing; returns True if the test must be skipped."""
     if missing():
         print(missing())
         return True
@@ -30,7 +30,7 @@ def skips():
 
 
 def browser(*more, size="1280,1000", downloads=None):
-    """Headless Chromium, with further arguments of its command line."""
+    """Starts headless Chromium with additional command-line arguments."""
     from selenium import webdriver
     from selenium.webdriver.chrome.options import Options
     from selenium.webdriver.chrome.service import Service
@@ -44,19 +44,19 @@ def browser(*more, size="1280,1000", downloads=None):
 
 
 def console(driver, *allowed):
-    """Errors and warnings of the console but those that hold one of the `allowed` words."""
+    """Errors and warnings on the console, except those that contain one of the `allowed` words."""
     return [e["message"] for e in driver.get_log("browser")
             if e["level"] in ("SEVERE", "WARNING") and not any(word in e["message"] for word in allowed)]
 
 
 def loaded(driver):
-    """What the page has fetched from anywhere but itself."""
+    """Addresses from which the page has loaded something other than itself."""
     names = driver.execute_script("return performance.getEntriesByType('resource').map((e) => e.name)")
     return [name for name in names if not name.startswith("data:")]
 
 
 def violations(driver):
-    """Rules of axe-core that the page breaks; none where STRATA_AXE names no file."""
+    """The rules of axe-core that the page violates; empty if STRATA_AXE is not set."""
     if "STRATA_AXE" not in os.environ:
         return []
     with open(os.environ["STRATA_AXE"], encoding="utf-8") as file:

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Opens the page of every command with --report, and of reproduce, in headless Chromium: plain_pages.py STRATA
 
-Each must say something, show its pictures, load nothing, leave the console empty, break no rule of axe-core (STRATA_AXE), fit a screen of 390
-pixels, and its tables sort by keyboard. With STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium.
+Each page must have text, show its pictures, load no other file, log nothing to the console, violate no rule of axe-core (STRATA_AXE), fit a screen
+390 pixels wide, and its tables must sort by keyboard. STRATA_SCREENSHOTS=FOLDER stores pictures there. Skips with a message and exit status 77
+without Chromium, its driver or Selenium.
 """
 import os
 import subprocess
@@ -11,7 +12,7 @@ import tempfile
 
 import pages
 
-# A line of shell, and the page that it leaves.
+# A shell command, and the page that it writes.
 PAGES = {
     "render": ("strata render teapot --size 320x300 --algorithm dual,unsorted,a_buffer -q --report render.html", "render.html"),
     "passes": ("strata passes teapot --size 96x72 -o passes --report passes.html", "passes.html"),
@@ -36,7 +37,7 @@ def column(driver, number):
 
 
 def check_sorting(driver):
-    """By keyboard: the first heading of the first table, up and down."""
+    """Sorts by the first heading of the first table with the keyboard, ascending and descending."""
     from selenium.webdriver.common.keys import Keys
     buttons = driver.find_elements("css selector", "table.sorts th button")
     if not buttons:
@@ -54,7 +55,7 @@ def check_sorting(driver):
 
 
 def check_phone(driver):
-    """Whether the page is wider than a screen of 390 pixels, or numbers of a scale overlap there."""
+    """Checks that the page is not wider than a screen of 390 pixels, and that numbers of a scale do not overlap there."""
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 800, "deviceScaleFactor": 1, "mobile": True})
     wrong = [] if driver.execute_script("return document.documentElement.scrollWidth") <= 390 else ["wider than a phone"]
     wrong += driver.execute_script("return [...document.querySelectorAll('caption, figcaption')].filter((c) => c.getBoundingClientRect().right > 390)"
@@ -72,11 +73,11 @@ def check(driver, name, path):
     broken = driver.execute_script("return [...document.images].filter((i) => !i.complete || i.naturalWidth === 0).map((i) => i.alt)")
     wrong += [f"no picture of {alt}" for alt in broken]
     wrong += check_phone(driver)
-    if name != "reproduce":  # its pictures are files beside it
+    if name != "reproduce":  # its pictures are separate files
         wrong += [f"loaded {what}" for what in pages.loaded(driver)]
     if not driver.title or not driver.find_elements("tag name", "h1"):
         wrong.append("no title")
-    if name != "render":  # report_page.py moves everything that is on it
+    if name != "render":  # report_page.py tests the controls of this page
         wrong += check_sorting(driver)
     wrong += [f"the console says {line}" for line in pages.console(driver)]
     if "STRATA_SCREENSHOTS" in os.environ:

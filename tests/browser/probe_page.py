@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Measures headless Chromium with the page of a kit, by keyboard alone: probe_page.py STRATA
+"""Measures headless Chromium with the page of a probe kit, using only the keyboard: probe_page.py STRATA
 
-The page must draw without an error on the console, load nothing, say what it cannot draw, and offer an archive that `strata infer` reads. The
-profile that comes out must draw every pixel of the kit and of twenty unseen scenes as the browser did. With STRATA_KEEP=FOLDER the answers and what was
-inferred stay there. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
+The page must draw without an error on the console, load no other file, report what it cannot draw, and offer an archive that `strata infer` reads.
+The inferred profile must draw every pixel of the kit and of twenty unseen scenes like the browser. STRATA_KEEP=FOLDER stores the answers and the
+inferred profile there. Skips with a message and exit status 77 without Chromium, its driver or Selenium (Debian: chromium, chromium-driver,
+python3-selenium).
 """
 import json
 import os
@@ -13,12 +14,12 @@ import tempfile
 
 import pages
 
-# The fields that coverage rests on.
+# The fields of a profile that determine coverage.
 COVERAGE = ["raster.subpixel_bits", "raster.snap", "raster.tie_rule"]
 
 
 def answers(driver, folder, downloads):
-    """Opens the kit's page, presses Enter twice, and gives back the archive."""
+    """Opens the kit's page, presses Enter twice, and returns the downloaded archive."""
     from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import WebDriverWait
     driver.get("file://" + os.path.join(folder, "probe.html"))
@@ -43,7 +44,7 @@ def answers(driver, folder, downloads):
 
 
 def check_quiet(driver):
-    errors, loaded = pages.console(driver, "ReadPixels"), pages.loaded(driver)  # that reading back takes time is no error
+    errors, loaded = pages.console(driver, "ReadPixels"), pages.loaded(driver)  # slow read-back is not an error
     return [f"the console says {errors}"] * bool(errors) + [f"the page loaded {loaded}"] * bool(loaded)
 
 
@@ -53,7 +54,7 @@ def infer(strata, archive, profile):
 
 
 def compared(strata, archive, profile, count):
-    """Pixels of every unseen scene, and how many differ."""
+    """Compares every unseen scene: the number of pixels, and the number that differ."""
     ended = subprocess.run([strata, "probe", "--unseen", str(count), "--y", "down", "--profile", profile, "--compare", archive, "--json"],
                            capture_output=True, text=True)
     return json.loads(ended.stdout)["scenes"]

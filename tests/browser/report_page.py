@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Opens a report in headless Chromium, moves everything that moves, and holds what it shows against the program: report_page.py STRATA
+"""Opens a report in headless Chromium, uses all of its controls, and compares what it shows with the program's output: report_page.py STRATA
 
-The page must draw without an error on the console, its numbers must be those of `strata explain` and `strata render`, it must work by keyboard
-alone and load nothing from anywhere. With STRATA_AXE=FILE (axe.min.js of the npm package axe-core) it is searched for what keeps people
-out; with STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian:
+The page must draw without an error on the console, its numbers must be those of `strata explain` and `strata render`, it must be usable with only the
+keyboard and load no other file. With STRATA_AXE=FILE (axe.min.js of the npm package axe-core) it is checked for accessibility;
+STRATA_SCREENSHOTS=FOLDER stores pictures there. Skips with a message and exit status 77 without Chromium, its driver or Selenium (Debian:
 chromium, chromium-driver, python3-selenium).
 """
 import json
@@ -23,7 +23,7 @@ SCENES = [
 
 
 class Page:
-    """A report in a browser, and the program that made it."""
+    """A report in a browser, and the program that wrote it."""
 
     def __init__(self, driver, strata, scene, folder):
         self.driver, self.strata, self.scene, self.wrong = driver, strata, scene, []
@@ -50,7 +50,7 @@ class Page:
         return self.js("return document.getElementById(arguments[0]).textContent", place)
 
     def check_pictures(self):
-        """The picture by the last algorithm, at the right of a divider at 0, is what render writes."""
+        """Checks that the picture of the last algorithm, to the right of a divider at 0, has the codes that render writes."""
         names = [c for c in self.js("return [...document.getElementById('right').options].map((o) => o.value)")]
         self.set("divide", 0)
         for name in names:
@@ -66,14 +66,14 @@ class Page:
                     resolve(Array.from(x.getImageData(0, 0, c.width, c.height).data)); };
                     i.src = 'data:image/png;base64,' + arguments[0]; })""", base64_of(path))
                 apart = max(abs(a - b) for a, b in zip(drawn, wanted)) if len(drawn) == len(wanted) else 256
-                # Linear light is encoded by the script's own pow.
+                # The script's own pow encodes linear light.
                 limit = 1 if "linear" in self.scene else 0
                 if apart > limit:
                     self.wrong.append(f"{self.scene[0]}: {name}: the page's picture differs from render's by {apart}")
         return names
 
     def check_controls(self):
-        """Whatever can be moved changes what it says it changes."""
+        """Checks that every control changes the part of the page that it controls."""
         before = self.pixels("layer-color")
         if int(self.js("return document.getElementById('layer').max")) > 0:
             self.set("layer", 1)
@@ -93,7 +93,7 @@ class Page:
         self.expect("passes are sorted", column, sorted(column))
 
     def check_pixel(self):
-        """The pixel that is chosen first, by mouse and keyboard, against strata explain."""
+        """Compares the pixel selected first, then by mouse and by keyboard, with strata explain."""
         from selenium.webdriver.common.keys import Keys
         x, y = int(self.js("return document.getElementById('x').value")), int(self.js("return document.getElementById('y').value"))
         canvas = self.driver.find_element("id", "map-canvas")
@@ -109,7 +109,7 @@ class Page:
         bits = sorted(re.findall(r"z [^ ]+ \(([0-9a-f]{8})\)", told))
         shown = sorted(self.js("return [...document.querySelectorAll('#fragments tr td:nth-child(6)')].map((c) => c.textContent)"))
         self.expect("depths in hexadecimal are explain's", shown, bits)
-        # What dual merges is told of each fragment; the others by name.
+        # Dual merges fragments, which are compared one by one; other algorithms are compared by name.
         takes = len(re.findall(r"takes #", told))
         table = self.js("return [...document.querySelectorAll('#fragments tr')].map((r) => [...r.cells].map((c) => c.textContent))")
         column = table[0].index(algorithm) if algorithm in table[0] else None
@@ -120,17 +120,17 @@ class Page:
         self.expect("explain took some", takes > 0, True)
 
     def check_access(self):
-        """No rule of axe-core is broken, where STRATA_AXE names its axe.min.js."""
+        """Checks that the page violates no rule of axe-core, if STRATA_AXE names axe.min.js."""
         self.expect("axe-core finds nothing", pages.violations(self.driver), [])
 
     def check_quiet(self):
-        # That pictures are read back is this test's own doing.
+        # The warning about reading pictures back is caused by this test.
         self.expect("the console is empty", pages.console(self.driver, "willReadFrequently"), [])
         self.expect("nothing was loaded", pages.loaded(self.driver), [])
 
 
 def check_without_exact(driver, strata):
-    """A report without a_buffer has no differences: none is drawn, as black would say that all is right, and it says why."""
+    """Checks that a report without a_buffer shows no difference images, because black ones would mean that all is right, and gives the reason."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([strata, "report", "planes:count=3", "--size", "32x24", "--algorithm", "dual,unsorted", "-q", "-o", folder], check=True)
         driver.get("file://" + os.path.join(folder, "report.html"))

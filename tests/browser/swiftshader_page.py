@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Holds the profile swiftshader to headless Chromium: swiftshader_page.py STRATA
+"""Compares the profile swiftshader with the SwiftShader renderer of headless Chromium: swiftshader_page.py STRATA
 
-Chromium's SwiftShader draws the kit and thirty unseen scenes on its page; the profile must have every pixel of them: coverage, colours (8 bits,
-binary16, binary32, blended too) and depths (16 bits and binary32, and the binary32 that buffers of 24 bits hold). Exit status 77, said aloud,
-without Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
+Chromium's SwiftShader draws the kit and thirty unseen scenes on its page; the profile must reproduce every pixel of them: coverage, colours (8 bits,
+binary16, binary32, blended too) and depths (16 bits and binary32, and the binary32 that buffers of 24 bits hold). Skips with a message and exit
+status 77 without Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
 """
 import json
 import os
@@ -25,7 +25,7 @@ def drawn(driver, strata, folder, downloads, *what):
 
 
 def differing(strata, archive, *what):
-    """Names of scenes with what differs, and the pixels and scenes compared."""
+    """The names of scenes that differ and how, and the numbers of pixels and scenes compared."""
     ended = subprocess.run([strata, "probe", *what, "--y", "down", "--profile", "swiftshader", "--compare", archive, "--json"],
                            capture_output=True, text=True)
     scenes = json.loads(ended.stdout)["scenes"]
@@ -35,7 +35,7 @@ def differing(strata, archive, *what):
 
 
 def float_depths(strata, kit, archive, folder):
-    """Names of scenes with a buffer of 24 bits whose texels are not, bit for bit, what the profile stores."""
+    """The names of scenes with a 24-bit depth buffer whose texels differ in any bit from the depths that the profile stores."""
     subprocess.run([strata, "probe", "--profile", "swiftshader", "-o", folder], check=True)
     with open(os.path.join(kit, "kit.json"), encoding="utf-8") as file:
         names = [item["name"] for item in json.load(file)["items"] if item["depth"] == "d24"]

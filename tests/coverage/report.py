@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Which branches the tests take, from what `llvm-cov export` says of each program: tools/coverage.sh calls it.
+"""Reports which branches the tests take, from the output of `llvm-cov export` for each test program; called by tools/coverage.sh.
 
     tests/coverage/report.py EXPORT.json...         # shares of each folder, and what is missing, line by line
     tests/coverage/report.py EXPORT.json... --md    # the same into build/coverage/RESULTS.md; what is below the aim into tests/coverage/RESULTS.md
 
-A branch is one side of a condition or a case. It stands at a place of the source: what is compiled in several forms (templates,
-kernels) counts once, and as taken if any form takes it. Left out are conditions that the compiler decides, comparisons that it
-makes (`= default`), and the default that a switch over all values of an enum has not. MC/DC asks of each operand of && and || that
-it alone has turned a decision round; it is counted for the decisions of the fragment stages and of the rasterizer's rules.
-tests/coverage/reviewed.txt has the rest, reviewed by hand: file | line of the source | reason.
+A branch is one outcome of a condition, or a case, at a position of the source. Code that is compiled in several forms (templates, kernels) counts
+once, and as taken if any form takes it. Not counted are conditions that the compiler evaluates, comparisons that it generates (`= default`), and the
+missing default of a switch over all values of an enum. MC/DC requires for each operand of && and || a test in which that operand alone changes the
+decision; it is counted for the fragment stages and the rasterizer's rules. tests/coverage/reviewed.txt lists the remaining branches, reviewed by
+hand: file | line of the source | reason.
 """
 import bisect
 import json
@@ -23,23 +23,23 @@ IN_DECISION = 6  # the kind of a branch that belongs to a decision of more than 
 
 
 def executed_at(segments, starts, place):
-    """How often the source at (line, column) was run."""
+    """How often the source at (line, column) was executed."""
     index = bisect.bisect_right(starts, place) - 1
     return segments[index][2] if index >= 0 and segments[index][3] else 0
 
 
 def is_nobodys(lines, place):
-    """The default of a switch that lists all values, and what the compiler makes of `= default`."""
+    """True for the default of a switch that lists all values, and for code that the compiler generates for `= default`."""
     line = lines[place[0] - 1]
     return line[:place[1] - 1].rstrip().endswith("switch (") or line.rstrip().endswith("= default;")
 
 
 class Counts:
-    """Of one source, from all programs that hold it."""
+    """The counts of one source file, from all programs that contain it."""
 
     def __init__(self, name):
         self.name, self.lines = name, (ROOT / name).read_text().splitlines()
-        self.sums = {}  # of a branch's place: how often taken, how often not
+        self.sums = {}  # by the branch's position: how often taken, how often not
         self.executed, self.decisions = set(), []
 
     def add(self, file):
@@ -54,19 +54,19 @@ class Counts:
         self.decisions += file["mcdc_records"]
 
     def is_folded(self, place):
-        """No form of the source decides it at run time."""
+        """True if the compiler evaluates the condition in every compiled form."""
         return self.sums[place] == [0, 0] and place in self.executed
 
     def branches(self):
         return {p: s for p, s in sorted(self.sums.items()) if not self.is_folded(p) and not is_nobodys(self.lines, p)}
 
     def conditions(self):
-        """{place of a condition: whether it alone turned its decision round}."""
+        """{position of a condition: whether it alone has changed its decision}."""
         places = sorted(p for p in self.sums if p[4] == IN_DECISION)
         found = {}
         for begin_line, begin, end_line, end, _, _, shown in self.decisions:
             inside = [p for p in places if (begin_line, begin) <= p[:2] and p[2:4] <= (end_line, end)]
-            if len(inside) != len(shown):  # a decision within an operand of another
+            if len(inside) != len(shown):  # a decision inside an operand of another one
                 inside = [(begin_line, begin, i, end, IN_DECISION) for i in range(len(shown))]
             for place, is_shown in zip(inside, shown):
                 if place not in self.sums or not self.is_folded(place):

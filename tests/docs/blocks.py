@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Runs the console blocks of a page and compares what they print: blocks.py PAGE PROGRAM_FOLDER
 
-A block is a fence of the language `console`. A line `$ COMMAND` is run by bash, the lines up to the next one are what it prints,
-standard output and standard error together. `...` stands for any text within a line, a line of it alone for any lines. A command that
-a line ends with a backslash goes on in the next one. All blocks of a page run one after the other in one empty folder, with
-PROGRAM_FOLDER first on the path and this checkout in STRATA_SOURCE. A command that ends with another status than 0 must say so itself
-(`|| echo "status $?"`).
-A fence of a language and a name (`python port.py`) is a file of that name, there from that place of the page on; a second one of the
-same name goes on with it. A fence of a language and `from PATH` shows a part of a file of this checkout, word by word.
-Exit status 1, and what was printed, where a page is wrong; 77 where the program is not there.
+A block is a fence of the language `console`. bash executes each line `$ COMMAND`; the lines up to the next command are its output, standard output
+and standard error together. `...` stands for any text within a line, a line with only `...` for any lines. A command whose line ends in a backslash
+continues on the next line. All blocks of a page run one after another in the same, initially empty folder, with
+PROGRAM_FOLDER first on the path and this checkout in STRATA_SOURCE. A command whose status is not 0 must print it (`|| echo "status $?"`).
+A fence with a language and a name (`python port.py`) is a file of that name, available to all later blocks; a second fence of the same name is
+appended. A fence with a language and `from PATH` must be a literal part of that file of this checkout. Exit status 1, with the actual output, if a
+page is wrong; 77 if the program is missing.
 """
 import os
 import re
@@ -20,7 +19,7 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 
 
 def blocks_of(text):
-    """The fenced blocks: what stands behind the fence, its line, from 1, and the lines within it."""
+    """The fenced blocks: the text after the opening fence, its line number from 1, and the lines inside."""
     found, block, start, kind = [], None, 0, ""
     for number, line in enumerate(text.splitlines(), 1):
         if block is None and line.startswith("```"):
@@ -36,7 +35,7 @@ def blocks_of(text):
 
 
 def steps_of(first, block):
-    """The commands of a block: line, command, expected lines."""
+    """The commands of a block: line number, command, expected lines."""
     steps, goes_on = [], False
     for number, line in enumerate(block, first + 1):
         if goes_on:
@@ -52,7 +51,7 @@ def steps_of(first, block):
 
 
 def pattern_of(lines):
-    """A regular expression of all that is printed."""
+    """A regular expression for the whole expected output."""
     parts = []
     for line in lines:
         if line.strip() == "...":
@@ -63,7 +62,7 @@ def pattern_of(lines):
 
 
 def complaint_of_step(command, expected, folder, environment):
-    """What is wrong with one command; None if it prints what the page says."""
+    """A description of the difference; None if the command prints the expected lines."""
     ended = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=environment,
                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     printed = ended.stdout.decode("utf-8", "replace")
@@ -77,7 +76,7 @@ def complaint_of_step(command, expected, folder, environment):
 
 
 def complaint_of_part(path, block):
-    """Whether a block that is said to be a part of a file is one."""
+    """A description of the difference if the block is not part of the named file; None if it is."""
     try:
         with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
             whole = file.read()
@@ -87,7 +86,7 @@ def complaint_of_part(path, block):
 
 
 def run_page(page, programs):
-    """The complaints about a page, and how many commands and quoted parts it has."""
+    """The faults of a page, and its numbers of commands and quoted parts."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     environment = dict(os.environ, PATH=programs + os.pathsep + os.environ["PATH"], LC_ALL="C.UTF-8", STRATA_SOURCE=SOURCE)

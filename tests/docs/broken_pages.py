@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts mistakes into a page and sees blocks.py find each: broken_pages.py PROGRAM_FOLDER"""
+"""Inserts mistakes into a page and checks that blocks.py finds each of them: broken_pages.py PROGRAM_FOLDER"""
 import os
 import sys
 import tempfile

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The truth of the table of engines (tools/port/engines) is computed without Strata; here the two are held against each other, at every pixel
-that is away from a tie: fragments_test.py STRATA. Exit status 77, and a sentence, without NumPy."""
+"""Compares the fragments and exact colours that tools/port/engines computes without Strata with Strata's, at every pixel that is not near a tie:
+fragments_test.py STRATA. Skips with a message and exit status 77 without NumPy."""
 import pathlib
 import subprocess
 import sys
@@ -9,12 +9,12 @@ import tempfile
 sys.dont_write_bytecode = True
 ENGINES = pathlib.Path(__file__).resolve().parents[2] / "tools" / "port" / "engines"
 sys.path.insert(0, str(ENGINES))
-FEWEST_DECIDED = 0.7  # of the frame's pixels
-MOST = 0.001  # codes of 8 bits, of a picture in binary32
+FEWEST_DECIDED = 0.7  # fraction of the frame's pixels
+MOST = 0.001  # largest difference, in 8-bit codes, from a picture in binary32
 
 
 def pictures_differ(strata, folder, name):
-    """What is wrong with a scene; "" if nothing is."""
+    """A description of the differences of a scene; "" if there are none."""
     import pictures
     import rules
     import table

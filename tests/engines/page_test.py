@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs the blocks of tools/docs/engines.md: page_test.py PROGRAM_FOLDER. Exit status 77, and a sentence, if an engine is missing."""
+"""Runs the blocks of tools/docs/engines.md: page_test.py PROGRAM_FOLDER. Skips with a message and exit status 77 if an engine is missing."""
 import os
 import sys
 

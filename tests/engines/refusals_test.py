@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The drivers of engines draw a pack as it is or refuse it, by the place that they cannot draw: refusals_test.py STRATA."""
+"""Tests that the engine drivers (tools/port/engines) reject packs that they cannot draw exactly, with the JSON pointer of the unsupported feature:
+refusals_test.py STRATA."""
 import json
 import pathlib
 import subprocess
@@ -10,7 +11,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "port" / "engines"))
 import pack_scene  # noqa: E402
 
-# Words of `strata golden`, and what the refusal begins with; "" for none.
+# Arguments of `strata golden`, and the beginning of the expected error; "" if the pack can be drawn.
 CASES = [
     (["planes:count=2"], ""),
     (["planes:count=2", "--alpha", "0.5"], "/state/alpha: expected null, found {"),
@@ -34,7 +35,7 @@ def refusal_of(strata, words, pack):
 
 
 def masked(pack):
-    """The pack with an alpha test in its material."""
+    """The pack with an alpha test added to its material."""
     manifest = json.loads((pack / "manifest.json").read_text())
     manifest["scene"]["materials"][0]["alpha_mode"] = "mask"
     (pack / "manifest.json").write_text(json.dumps(manifest))

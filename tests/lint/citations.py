@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Checks that what the repository's text points at is there: sections of the specification, errata, quoted words, links, files; and that pages of
-results are short.
+"""Checks that references in the repository's text exist: sections of the specification, errata, quotations, links, files; and that result pages are
+short.
 
 usage: citations.py REPOSITORY
 
-Exit status 1 and a line for each thing that is not there; 77 without git. A page is a Markdown file in a folder `reference`; its name is unique
+Exit status 1 and one line per missing target; 77 without git. A page is a Markdown file in a folder `reference`; its name is unique
 in the repository. Text that git tracks is read without line ends and comment signs, so that a citation may break over lines.
 
     depth.md 4.4                      the page has a heading with that number
     depth.md 2, 3 and 4.4; 2 to 5     so for each number that is written. A number after a comma counts as a section: put a colon or a semicolon
                                       before other numbers
-    depth.md 4.4, "It needs"          the words stand in the last section that is named or below it, whatever the line ends, backticks, asterisks
+    depth.md 4.4, "It needs"          the words are in the last section named or in its subsections, whatever the line breaks, backticks, asterisks
     errata.md                         a file of that name is there; names in capitals, like README, are checked as paths and links alone
     E16                               errata.md has the heading `E16:`
     audit_test, "every tie policy"    the file of that test has the words
@@ -41,15 +41,15 @@ TEST_FILE = re.compile(r"(?<![\w/*])([a-z0-9_]+_test\.(?:cpp|py|sh))\b")
 SOURCE_NAME = re.compile(r"`([\w*-]+\.(?:h|cpp|py|sh|\*))`")
 TEST_NAME = re.compile(r"`?(?<![\w/*.-])([a-z0-9_*]+_test)\b(?!\.)")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
-# Written by the program, so in no checkout.
+# Written by a program, so not in a checkout.
 MADE = {"report.md"}
-# Words of the pipeline's state that look like the names of tests, and fields that look like names of files.
+# Names of pipeline state that look like names of tests, and fields that look like names of files.
 STATE = {"alpha_test", "depth_test", "stencil_test", "raster.*"}
-# It holds what this must find.
+# These files contain wrong references on purpose.
 WRONG_ON_PURPOSE = {"tests/lint/faults.py"}
 FEWEST_CITATIONS = 300
-RESULTS = ("RESULTS.md", "MISTAKES.md", "BLIND.md", "gallery.md", "PERFORMANCE.md", "PEELS.md", "DIFFERENCES.md")  # written by programs
-MOST_WORDS = 600  # of such a page: the rows belong into build/
+RESULTS = ("RESULTS.md", "MISTAKES.md", "BLIND.md", "gallery.md", "PERFORMANCE.md", "PEELS.md", "DIFFERENCES.md")  # written by scripts
+MOST_WORDS = 600  # limit of such a page; complete tables are written to build/
 
 
 def plain(words):
@@ -57,7 +57,7 @@ def plain(words):
 
 
 def slug(title):
-    """A heading's anchor as Markdown viewers make it."""
+    """The anchor that Markdown viewers give a heading."""
     return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
 
 
@@ -143,7 +143,7 @@ class Checker:
                     self.fault(where, f'names the case "{words}" of {match[1]}, but {files[0]} has no such words')
 
     def exists(self, path):
-        """A path of a file or folder; * and {a,b} as a shell has them, and a test's or header's name without its ending."""
+        """True if a file or folder exists; * and {a,b} as in a shell; the ending of tests and headers may be missing."""
         braces = re.search(r"\{([^}]*)\}", path)
         if braces:
             return all(self.exists(path[:braces.start()] + part + path[braces.end():]) for part in braces[1].split(","))
@@ -155,7 +155,7 @@ class Checker:
         for match in PATH.finditer(text.flat):
             path = match[0].rstrip(".,")
             if re.search(r"(?:^|/)[A-Z]+(?:_\w+)?(?:\.\w+)?(?:/|$)", path) and not self.exists(path):
-                continue  # FOLDER, SCENE: the reader's own word
+                continue  # FOLDER, SCENE: placeholders
             if not self.exists(path):
                 self.fault(text.where(match.start()), f"names {path}, but the repository has no such file")
         for match in TEST_FILE.finditer(text.flat):
@@ -163,7 +163,7 @@ class Checker:
                 self.fault(text.where(match.start()), f"names {match[1]}, but the repository has no such test")
 
     def check_names(self, text):
-        """Names of sources and tests in backticks, in the specification and in READMEs."""
+        """Checks names of sources and tests in backticks, in the specification and in READMEs."""
         for match in SOURCE_NAME.finditer(text.flat):
             if match[1] not in STATE and not fnmatch.filter(self.bases, match[1]):
                 self.fault(text.where(match.start()), f"names {match[1]}, but no file of the repository is called so")

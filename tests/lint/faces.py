@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Counts the member functions of a region's types: faces.py REPOSITORY [--list].
 
-What an algorithm's author sees of Region has at most 30, none of the types has more than 40 with its private ones. Constructors, destructors
-and what is deleted are not counted, overloads are. Exit status 1 and a line for each type that has more.
+The public interface of Region has at most 30, and every type at most 40 including private ones. Constructors, destructors and deleted functions are
+not counted; overloads are. Exit status 1 and a line for each type that has more.
 """
 import argparse
 import pathlib

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Puts faults into a small repository and into copies of the specification's pages, and checks that citations.py and specification_covers.py find them.
+"""Inserts faults into a small repository and into copies of the specification's pages, and checks that citations.py and specification_covers.py find
+them.
 
 usage: faults.py REPOSITORY
 
-Exit status 1 and a line for each fault that was not found, or was told with other words.
+Exit status 1 and one line per fault that was not found, or was reported with other words.
 """
 import sys
 
@@ -22,7 +23,7 @@ SOUND = {
     "README.md": "# All\n[ties](peeling/reference/layers.md#11-ties), `peel_test`, `peel.cpp`, `peeling/{peel.cpp,reference}`\n",
 }
 
-# (file, words that stand there, words put in their place or None to remove the file, words of the fault)
+# (file, text in it, replacement or None to remove the file, words of the expected report)
 CITATIONS = [
     ("peeling/peel.cpp", "layers.md 1 and", "layers.md 3 and", "peeling/peel.cpp:1: cites layers.md 3, but peeling/reference/layers.md has no section 3"),
     ("peeling/peel.cpp", "1 and 1.1;", "1 and 1.2;", "has no section 1.2"),

@@ -4,8 +4,8 @@
 usage: folders.py REPOSITORY [--longest-chain N]
 
 `LIBRARIES` lists the folders of each library from the lowest to the highest; a file may include files of its own
-folder, of lower folders, and of lower libraries. A file that stands at a library's door (in no folder) is above all folders of its library.
-Exit status 1 and a line for each thing that does not hold.
+folder, of lower folders, and of lower libraries. A file directly in a library, in no folder, is above all folders of its library. Exit status 1 and
+one line per violation.
 """
 import argparse
 import os
@@ -21,7 +21,7 @@ LIBRARIES = {
     "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
     "tools": ["port", "hardware_check", "oracle", "probe", "library", "python", "recipes", "strata", "lab", "bench", "web"],
 }
-# Which libraries a library stands on. scenes stands beside peeling.
+# The libraries that each library may include. scenes and peeling do not include each other.
 BELOW = {
     "rasterizer": [],
     "pipeline": ["rasterizer"],
@@ -53,7 +53,7 @@ def folder_of(file):
 
 
 def height(library, folder):
-    """The number of a folder in its library, from below; the door is the highest unless the library lists it as ""."""
+    """The index of a folder in its library, from the lowest; files in no folder are highest unless the library lists them as ""."""
     folders = LIBRARIES[library]
     matches = [r for r in folders if r and (folder == r or folder.startswith(r + "/"))]
     if matches:
@@ -80,7 +80,7 @@ def arrows_up(found):
 
 
 def longest_chain(found):
-    """The files of the longest chain of includes; a circle is cut where it closes."""
+    """The files of the longest chain of includes; a cycle is cut where it closes."""
     best, on_the_way = {}, set()
 
     def chain(file):
@@ -98,7 +98,7 @@ def longest_chain(found):
 
 
 def circles(found):
-    """Headers that include each other in a circle; `X_draw.h` at the end of its own `X.h` is one header in two files."""
+    """Headers that include each other in a cycle; an `X_draw.h` included at the end of its `X.h` counts as the same header."""
     state = {}
 
     def visit(file, way):

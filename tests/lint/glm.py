@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Checks that GLM is storage: its name stands in the headers of vectors alone, and each of its functions is deleted there.
+"""Checks that GLM is used only for storage: only the headers of vectors may name it, and each of its functions is deleted there.
 
 usage: glm.py REPOSITORY GLM_FOLDER
 
 rasterizer/base/no_arithmetic.h deletes GLM's operators and functions for our types, so that the compiler finds a call; vector_test
-asserts that it does. This finds what the compiler cannot: another way to GLM (an include, its namespace), and a function that a
-newer GLM brings and that file does not know. GLM_FOLDER holds GLM's headers (glm/geometric.hpp and so on).
+asserts that it does. This script finds what the compiler cannot: other uses of GLM (an include, its namespace), and functions of a newer GLM that the
+file does not delete. GLM_FOLDER holds GLM's headers (glm/geometric.hpp and so on).
 
-Neither sees a conversion between GLM's types: a Vec3 made of a Vec3d, or of doubles, rounds without a word.
-Exit status 1 and a line for each thing that does not hold.
+Neither detects conversions between GLM's types: a Vec3 constructed from a Vec3d, or from doubles, is rounded silently. Exit status 1 and one line per
+violation.
 """
 import os
 import re
@@ -19,11 +19,11 @@ import specification
 FOLDERS = ["rasterizer", "pipeline", "peeling", "scenes", "tools", "tests"]
 DELETED_IN = "rasterizer/base/no_arithmetic.h"
 OWNERS = ["rasterizer/base/vector.h", DELETED_IN]  # may name GLM
-# What <glm/mat4x4.hpp> may bring along. Integers and packing have headers of their own, which are not included.
+# The headers that <glm/mat4x4.hpp> may include. Integers and packing have separate headers, which are not included.
 FUNCTION_HEADERS = ["common", "exponential", "geometric", "matrix", "trigonometric", "vector_relational"]
-# Functions of integers and truth values alone: none of our types is one.
+# Functions of only integers and booleans, which none of our types is.
 OTHER_TYPES = {"intBitsToFloat", "uintBitsToFloat", "frexp", "ldexp", "any", "all", "not_"}
-# Without these the headers were not understood.
+# If one of these is missing, the headers were not parsed correctly.
 EXPECTED = {"dot", "cross", "normalize", "transpose", "inverse", "mix", "sqrt", "lessThan"}
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 

@@ -1,4 +1,4 @@
-"""The repository as text, and the specification as pages with numbered sections: what the tests of the specification read."""
+"""Reads the repository as text, and the specification as pages with numbered sections, for the tests of the specification."""
 import bisect
 import os
 import re
@@ -12,11 +12,11 @@ NUMBERED = re.compile(r"^(\d+(?:\.\d+)*) +(.*)$")
 
 
 class NoCheckout(Exception):
-    """The list of files comes from git; without it nothing can be checked."""
+    """The list of files comes from git; without a checkout nothing can be checked."""
 
 
 class Text:
-    """A file as one line: comment signs and line ends are dropped, so that a sentence is found wherever its lines break."""
+    """A file as one line without comment signs and line ends, so that a sentence is found wherever its lines break."""
 
     def __init__(self, name, content):
         self.name, self.content = name, content
@@ -34,7 +34,7 @@ class Text:
 
 
 class Section:
-    """A numbered section: its own text ends at the next numbered heading, `text` runs on to the end of its subsections."""
+    """A numbered section: its own text ends at the next numbered heading; `text` continues to the end of its subsections."""
 
     def __init__(self, page, number, title, own, text):
         self.page, self.number, self.title, self.own, self.text = page, number, title, own, text
@@ -78,7 +78,7 @@ def sections_of(page, content):
 
 
 class Checkout:
-    """The files of a git checkout, new ones that git does not ignore among them; NoCheckout where there is none."""
+    """The files of a git checkout, including new ones that git does not ignore. Throws NoCheckout if there is none."""
 
     def __init__(self, root):
         self.root, self._read = root, {}
@@ -98,14 +98,14 @@ class Checkout:
 
 
 class Given:
-    """Files that are nowhere but in the caller's table {name: text}."""
+    """Files that exist only in the caller's table {name: text}."""
 
     def __init__(self, texts):
         self.names, self.read = sorted(texts), texts.get
 
 
 def read(path):
-    """A file's text; None if it is none."""
+    """A file's text; None if it is not a text file."""
     with open(path, "rb") as file:
         content = file.read()
     if b"\0" in content:

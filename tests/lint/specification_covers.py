@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that the specification has a rule for whatever a user can name: fields, algorithms, errata, formats, depth paths, faults.
+"""Checks that the specification has a rule for everything that a user can name: fields, algorithms, errata, formats, depth paths, faults.
 
 usage: specification_covers.py REPOSITORY [--list]
 
@@ -12,8 +12,8 @@ The lists come from the sources. The specification must have, of each
     depth path                  a heading of depth.md with its name, and a formula below
     fault of the diagnostics    a full row in the table of keys-and-counts.md 7.2
 
---list prints where each is. Exit status 1 and a line for each that is missing; also where a list has become shorter, because then the sources are
-no longer read rightly.
+--list prints the location of each. Exit status 1 and one line per missing rule; also if a list has become shorter, because then the sources are no
+longer parsed correctly.
 """
 import argparse
 import glob
@@ -28,11 +28,11 @@ FORMATS = "pipeline/formats/format.h"
 PATHS = "rasterizer/rules/rules.h"
 FAULTS = "pipeline/frame/diagnostics.h"
 SOURCES = (FIELDS, FORMATS, PATHS, FAULTS)
-# The files of the algorithms, and the headers that declare what the fields are; each read as one text.
+# The files of the algorithms, and the headers that declare the fields; each is read as one text.
 ALGORITHMS = ("peeling/algorithms/*.cpp", "peeling/algorithms/*/*.cpp")
 DECLARATIONS = ("rasterizer/rules/*.h", "pipeline/device/*.h", "pipeline/formats/*.h")
 PAGES = ("algorithms.md", "depth.md", "devices.md", "errata.md", "formats.md", "keys-and-counts.md")
-# How many there were when this was written: a parser that finds fewer has gone blind.
+# The numbers when this script was written; a parser that finds fewer is broken.
 FEWEST = {"field": 60, "algorithm": 20, "erratum": 26, "format": 16, "depth path": 6, "fault": 14}
 FEWEST_WORDS = 6
 RANGE = r"(?<![\w.]){}(?: to |, [\d, ]*or ){}(?!\w|\.\d)"
@@ -41,7 +41,7 @@ NAME = '[`"]{}[`"]'
 
 
 class Blind(Exception):
-    """A source no longer looks as it is read here."""
+    """A source no longer has the form that this script parses."""
 
 
 # --- what there is
@@ -63,7 +63,7 @@ def values_of(owner, member, declarations):
 
 
 def profile_fields(text, declarations):
-    """{field: {value: pattern by which its bullet names it}}: each value of a choice, a number's range, nothing for true and false."""
+    """{field: {value: pattern by which its bullet names it}}: each value of an enumeration, the range of a number, empty for booleans."""
     owners = dict(re.findall(r"using (\w+) = (?:\w+::)*(\w+);", text))
     table = text[text.find("constexpr std::array fields{"):]
     fields = {}
@@ -119,7 +119,7 @@ def has_formula(text):
 
 
 def field(page, key, values):
-    """A bullet of devices.md (not of the table of values) that opens with the field, has words, and names each value or both ends."""
+    """Finds the bullet of devices.md (not the table of values) that begins with the field, has a description, and names each value or both ends."""
     for section in page.sections.values():
         for item in items(section.own):
             opening = re.match(r"- ((?:`[^`]+`(?:, )?)+)(.*)", item)
@@ -154,7 +154,7 @@ def row(page, number, word, columns):
 
 
 def erratum(page, word):
-    """A heading, words of what is printed or done, and a test."""
+    """Finds the erratum's heading, text about what is printed or done instead, and a test."""
     for section in page.sections.values():
         if section.title.startswith(word + ":"):
             return (section, "") if re.search(r"\*Test\*:\s*[a-z_0-9]+_test", section.own) else (None, f"{section} names no test of it")
@@ -176,7 +176,7 @@ def find(pages, kind, word, values):
 
 
 def check(sources, pages):
-    """Faults, and what was found where."""
+    """The faults, and where each rule was found."""
     faults, places = [], []
     for name in PAGES:
         if name not in pages:

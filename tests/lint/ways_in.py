@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Checks the ways into the project: what is installed for whom, and that the scripts can be read by bash.
+"""Checks the entry points of the project: which packages each script installs, and that bash can parse the scripts.
 
 usage: ways_in.py REPOSITORY
 
-tools/packages.txt is lines `set package # why`. The demo installs the sets `program` and `program?` alone, which the libraries that the program's CMake
-files ask for come from and nothing else; its report has a light background, for the built-in scenes are dark on black.
-Exit status 1 and a line for each thing that does not hold.
+tools/packages.txt is lines `set package # why`. The demo installs only the sets `program` and `program?`, which must be exactly the packages that the
+program's CMake files need; its report has a light background, because the built-in scenes are dark on black. Exit status 1 and one line per
+violation.
 """
 import os
 import re
@@ -16,10 +16,10 @@ import tempfile
 import specification
 
 SETS = {"program", "program?", "tests", "tests?", "all?", "headers"}
-# What only tests and tools of their own labels use.
+# Packages that only tests and separately labelled tools need.
 NOT_FOR_THE_PROGRAM = {"zsh", "fish", "parallel", "gnuplot-nox", "catch2", "libboost-dev", "libgmp-dev", "libmpfr-dev", "clang", "valgrind", "locales",
                        "libegl-dev", "libgl1-mesa-dri"}
-# Packages by the name that a CMake file of the program finds them with.
+# Packages by the names with which the program's CMake files find them.
 FOUND_BY = {"TBB": "libtbb-dev", "OpenEXR": "libopenexr-dev", "OpenImageIO": "libopenimageio-dev", "PNG": "libpng-dev", "ZLIB": "zlib1g-dev",
             "fmt": "libfmt-dev", "CLI11": "libcli11-dev", "benchmark": "libbenchmark-dev", "nlohmann_json": "nlohmann-json3-dev", "glm": "libglm-dev",
             "TinyGLTF": "libtinygltf-dev", "assimp": "libassimp-dev", "PkgConfig": "pkg-config"}
@@ -31,7 +31,7 @@ def read(root, path):
 
 
 def packages(root):
-    """{package: set}, and what is wrong with the list."""
+    """{package: set}, and the faults of the list."""
     found, wrong = {}, []
     for number, line in enumerate(read(root, "tools/packages.txt").splitlines(), 1):
         if not line or line.startswith("#"):
@@ -90,7 +90,7 @@ exit {status}
 
 
 def installation(root):
-    """tools/setup.sh with an apt-get of ours on a machine that lacks everything: progress alone is on the screen, all that was said if it fails."""
+    """Runs tools/setup.sh with a fake apt-get on a machine without any package: only the progress is printed, or the whole output if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         def run(status):
             for name, text in {"apt-get": APT_GET.replace("{status}", str(status)), "dpkg-query": "#!/bin/sh\nexit 1\n", "sudo": '#!/bin/sh\nexec "$@"\n'}.items():

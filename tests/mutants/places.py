@@ -1,7 +1,7 @@
-"""Where a source can be changed by one step, and the source with all these changes in it, each chosen by its number at run time.
+"""Finds the places where a source can be mutated by one step, and writes the source with all mutants in it; a number selects one at run time.
 
-A change is text put before and behind a place: `a < b` becomes `a < Less<17>{} < b`. The source format tells operators from
-brackets and references: a binary operator alone has a space on both sides. Constant expressions keep their value.
+A mutant is text inserted before and after a place: `a < b` becomes `a < Less<17>{} < b`. The source format tells operators from
+brackets and references: only a binary operator has a space on both sides. Constant expressions are not changed.
 """
 import bisect
 import re
@@ -18,7 +18,7 @@ BINARY = re.compile(r"(?<= )(<=|>=|==|!=|<|>|\+|-)(?= )")
 NUMBER = re.compile(r"(?<![\w.'])(?<![pPeE][+-])(?:0x[0-9a-fA-F']+|\d[\d']*(?:\.\d*)?)(?:[uUlLzZ]*|f)(?![\w.'])")
 ENUMERATOR = re.compile(r"\b([A-Z]\w*)::([a-z_]\w*)\b(?!\s*[<(:])")
 CONDITION = re.compile(r"\bif \(")
-# An assignment or a call that stands alone. Two words before the sign declare something.
+# An assignment or a call that is a statement of its own. Two words before the operator are a declaration.
 STATEMENT = re.compile(r"^( *)((?:\+\+|--)[\w.\[\]()>-]+|([\w.:>\[\]()+-][\w.:>\[\]()+ -]*?)(?: [-+*/|&^]?=| <<=| >>=) [^;{}]*|([a-z_][\w.:>-]*)\([^;{}]*\));$", re.M)
 NOT_DROPPED = re.compile(r"^(?:return|if|for|while|else|case|assert|static_assert|static_cast|co_\w+|throw|delete)\b|[\w>\])] +\w")
 NO_STATEMENT = re.compile(r"= (?:default|delete|0)$")
@@ -31,19 +31,19 @@ class Place:
     begin: int
     end: int
     change: str  # for the report
-    prefix: str  # with {n} for the number
+    prefix: str  # with {n} for the mutant's number
     suffix: str
     line: int = 0
     number: int = 0
 
 
 def masked(text):
-    """The text with comments and directives blanked and strings made words, every other character in its place."""
+    """The text with comments and directives blanked and strings replaced by words; all other characters keep their positions."""
     return STRINGS.sub(lambda m: re.sub(r"[^\n]", "s" if m.group()[0] in "\"'" else " ", m.group()), text)
 
 
 def enums_of(texts):
-    """{enum: [enumerators]} of all scoped enums that number their values themselves."""
+    """{enum: [enumerators]} of all scoped enums whose values are numbered implicitly."""
     found = {}
     for text in texts:
         for name, body in re.findall(r"enum class (\w+)[^{;]*\{([^}]*)\}", masked(text)):
@@ -54,7 +54,7 @@ def enums_of(texts):
 
 
 def operand_ends(code, at, step):
-    """From an && or || at `at`, where its operand on one side ends."""
+    """The end of an operand of the && or || at `at`, on one side."""
     depth, i = 0, at
     opening, closing = ("([{", ")]}") if step > 0 else (")]}", "([{")
     while 0 <= i < len(code):
@@ -87,14 +87,14 @@ def operands(code):
 
 
 def is_whole(operand):
-    """No half of a pair of brackets: a comma between template arguments looks like an operand's end."""
+    """False for half of a pair of brackets: a comma between template arguments looks like the end of an operand."""
     brackets = re.sub(r"->| <=?(?= )| >=?(?= )|<<|>>", "", operand)
     pairs = all(brackets.count(a) == brackets.count(b) for a, b in ("()", "[]", "<>"))
     return bool(operand) and pairs and not re.search(r"\.\.\.|[{}]|\[\[", operand)
 
 
 def closing(code, at):
-    """Where the bracket that was opened before `at` is closed."""
+    """The position where the bracket opened before `at` is closed."""
     depth = 1
     while depth > 0:
         depth += {"(": 1, ")": -1}.get(code[at], 0)
@@ -157,7 +157,7 @@ def places_in(file, text, enums, is_kernel):
 
 
 def with_changes(text, places):
-    """The source with every change in it. Of two that begin at one place the longer is outside, whatever its kind."""
+    """The source with all mutants in it. Of two that begin at the same position the longer one is outside."""
     inserted = []
     for p in places:
         inserted.append((p.begin, 1, -(p.end - p.begin), p.prefix.format(n=p.number)))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compares a rule written again from the specification with the machine.
+"""Compares an independent implementation of a rule, written from the specification, with the renderer.
 
-usage: compare.py BOOK_CASES RULE [CASES] [SEED]
+usage: compare.py CASES_PROGRAM RULE [CASES] [SEED]
 
-BOOK_CASES is the program of tests/specification, RULE one of window_z, dual and blend; 5,000 cases unless said otherwise. window_z.py, dual.py
-and blend.py were written from the pages of the reference folders alone, by an author who had not seen the code. Exit status 1 and the
+CASES_PROGRAM is the program specification_cases of this folder, RULE is window_z, dual or blend; 5,000 cases by default. window_z.py, dual.py
+and blend.py were written only from the pages of the reference folders, by an author who had not seen the code. Exit status 1 and the
 first case if an answer differs.
 """
 import importlib

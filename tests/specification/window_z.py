@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The word that profile `geforce3` stores at D24: path `window_z`, rule `chip` (depth.md 4.4).
+"""The depth code that profile `geforce3` stores at D24: path `window_z`, rule `chip` (depth.md 4.4).
 
 Input lines:  x0 y0 z0 x1 y1 z1 x2 y2 z2 px py   (corners in 1/16 pixel, y down; z as bits of binary32 in buffer units)
-Output lines: the code, decimal.  Integers, but for the reciprocal, which the page has in binary64.
+Output lines: the code, decimal.  All arithmetic is in integers, except the reciprocal, which the page computes in binary64.
 """
 import math
 import sys
@@ -44,7 +44,7 @@ def edge_values(x0, y0, x1, y1, x2, y2, column, row):
 
 
 def reciprocal(edges):
-    """(R, s): r = R 2^-s of the sum of cut edge values: depth.md 4.4. Python's floats are binary64."""
+    """(R, s): r = R 2^-s of the sum of truncated edge values: depth.md 4.4. Python's floats are binary64."""
     total = (float(edges[0]) + float(edges[1])) + float(edges[2])
     low = 1.0 / total
     if math.frexp(total)[0] != 0.5:
@@ -62,13 +62,13 @@ def reference_corner(e):
 
 
 def cut(value, bits):
-    """A natural number's leading significant bits, the rest made 0: numbers.md 3.5."""
+    """A natural number truncated to its leading significant bits: numbers.md 3.5."""
     drop = value.bit_length() - bits
     return value >> drop << drop if drop > 0 else value
 
 
 def cut_to_place(value, unit, place):
-    """value 2^unit cut toward zero to a multiple of 2^place (numbers.md 3.6), as an integer times 2^unit."""
+    """value 2^unit truncated toward zero to a multiple of 2^place (numbers.md 3.6), as an integer times 2^unit."""
     drop = place - unit
     if drop <= 0:
         return value

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Two runs of `strata cost` are told to be the same, or not, for the reason that they are or not.
+"""Tests tools/cost/same.py, which decides whether two runs of `strata cost` agree, on invented runs with known changes.
 
 usage: cost_same.py SAME_PY
 
-Model: runs made up by hand, of which the test knows what was changed. Exit status 1 and a line for each thing that does not hold.
+Exit status 1 and one line per wrong decision.
 """
 import json
 import os
@@ -20,7 +20,8 @@ def time(median, least, greatest):
 
 
 def write_run(folder, error=0.5, times=(), first_lines=()):
-    """A run of CELLS cells, each at 2 (1.5 to 2.5), by default and literally, but for `times`: {cell: time}; chain cells have none."""
+    """A run of CELLS cells, each with the time 2 (1.5 to 2.5) by default and in literal execution, except those in `times`: {cell: time}; chain cells
+    have none."""
     os.makedirs(folder)
     cells = [{"cell": i, "scene": "s", "knob": "k", "value": f"v{i}", "rmse": error if i == 7 else 1.0} for i in range(CELLS)]
     with open(os.path.join(folder, "results.jsonl"), "w", encoding="utf-8") as file:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The page of tools/invariance/report.py: what it says of made-up rows of a sweep. usage: invariance_page.py REPOSITORY
+"""Tests the page that tools/invariance/report.py writes for invented rows of a sweep. usage: invariance_page.py REPOSITORY
 
-Model: rows typed out, whose safe intervals and counts are known. Plots are not drawn: their commands are looked at.
+The rows are written by hand, so their safe intervals and counts are known. Plots are not drawn: the test checks their commands.
 """
 import pathlib
 import re
@@ -41,7 +41,7 @@ def text_of(rows):
 
 
 def rows_of_table(page, heading):
-    """The first table behind a heading: rows of cells."""
+    """The first table after a heading: rows of cells."""
     lines = page[page.index(heading):].splitlines()
     first = next(i for i, line in enumerate(lines) if line.startswith("|"))
     table = []
@@ -53,7 +53,7 @@ def rows_of_table(page, heading):
 
 
 def check_headline():
-    """Two depth ranges, of which one has no safe bias: the head says one of two."""
+    """With two depth ranges, one of which has no safe bias, the headline says one of two."""
     page = text_of([row(0), row(1, near=0.1, safe_bias=NONE), replaced(2)])
     yield "the head counts depth ranges", "A constant bias peels 1 of 2 choices of scene, format and depth range without error" in page
     yield "the safe one is named with its range", "teapot on geforce3, `d24`, far/near 100: 3 to 30 codes" in page
@@ -61,7 +61,7 @@ def check_headline():
 
 
 def check_rows():
-    """Sweeps over each knob: no two rows of a table are alike."""
+    """In a sweep over each knob no two rows of a table are equal."""
     for name, values in {"size": [{"width": 64}, {"width": 65}], "profile": [{"profile": "a"}, {"profile": "b"}],
                          "bits": [{"subpixel_bits": 4}, {"subpixel_bits": 8}], "near": [{"near": 1.0}, {"near": 2.0}],
                          "alpha": [{"alpha": 0.5}, {"alpha": 0.25}], "camera": [{"camera": "a.json"}, {"camera": "b.json"}],
@@ -75,7 +75,7 @@ def check_rows():
 
 
 def check_band():
-    """The band of the plot ends where the text says, beyond the largest bias that was tried."""
+    """The band of the plot ends at the value in the text, beyond the largest tested bias."""
     SCRIPTS.clear()
     biases = [row(i, remedy="none" if bias == 0 else f"bias:{bias}", bias_constant=float(bias)) for i, bias in enumerate([0, 1, 4, 16])]
     page = text_of(biases)
@@ -86,7 +86,7 @@ def check_band():
 
 
 def check_short():
-    """The page that is kept: the counts of the rows typed here, the remedies that were tried on a peel that needs one, and few words."""
+    """The short page has the counts of these rows, the remedies tried on a peel that needs one, and few words."""
     biases = [row(i, remedy="none" if bias == 0 else f"bias:{bias}", bias_constant=float(bias), duplicated=0 if bias == 4 else 8, lost=0 if bias == 4 else 9)
               for i, bias in enumerate([0, 1, 4, 16])]
     many = [row(9 + i, near=0.5 / (i + 1), differing=i) for i in range(300)]
@@ -99,7 +99,7 @@ def check_short():
 
 
 def check_html():
-    """The page has the look of strata's pages: light and dark, and a width for phones."""
+    """The page has the style of strata's pages: light and dark, and a layout for phones."""
     page = report.html_of(sections.page("A <title>", [row(0), replaced(1)]))
     yield "it has a dark mode", "prefers-color-scheme: dark" in page
     yield "it fits a phone", "width=device-width" in page

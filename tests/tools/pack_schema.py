@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Reads packs as another program would, by PACK.md and its schema alone.
+"""Reads packs as another program would, using only tools/oracle/PACK.md and its schema.
 
 usage: pack_schema.py STRATA SCHEMA
 
-Model: the JSON Schema, IEEE-754 by struct, sums of bytes, shapes. Each manifest must fit the schema and must fail once a key is taken
-away or added. Exit status 1 and a line for each thing that does not hold; 77 where python3-jsonschema is not installed.
+Expected values come from the JSON Schema, IEEE 754 by Python's struct, sums of bytes, and shapes. Each manifest must match the schema, and must not
+match it after any key is removed or added. Exit status 1 and one line per fault; 77 where python3-jsonschema is not installed.
 """
 import copy
 import json
@@ -38,7 +38,7 @@ def expect(holds, sentence):
 
 
 def numbers(value):
-    """Every {"decimal", "bits"} below a value."""
+    """Every {"decimal", "bits"} inside a value."""
     if isinstance(value, dict):
         if set(value) == {"decimal", "bits"}:
             yield value
@@ -97,7 +97,7 @@ def check_targets(manifest):
 
 
 def check_schema_bites(validator, manifest):
-    """Without any one key of any one object, or with one more, the manifest must not fit."""
+    """A manifest without any one key of any object, or with an additional key, must not match."""
     def objects(value, path):
         if isinstance(value, dict) and path[:1] != ("files",):
             yield path
@@ -123,7 +123,7 @@ def check_schema_bites(validator, manifest):
 
 
 def check_suite(strata, schema_file):
-    """One scene's suite: its list fits the suite's schema, and each scene named in it is one of its scenes."""
+    """The list of a suite with one scene matches the suite's schema, and each scene named in it exists."""
     with open(os.path.join(os.path.dirname(schema_file), "suite.schema.json"), encoding="utf-8") as text:
         schema = json.load(text)
     jsonschema.Draft7Validator.check_schema(schema)

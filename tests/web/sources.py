@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Checks that the sources of the browser's build are C++ for its library, too, without making code.
+"""Checks, without generating code, that the sources of the browser's build compile with its C++ library.
 
 usage: sources.py REPOSITORY BUILD
 
-The native build's compile_commands.json says what is compiled and how. clang++ reads it again as Emscripten of Debian 12 would: by
-libc++ 13, and for a machine whose addresses have 32 bits (x32, for which the C library's headers are at hand). Kernels are read for one
-set of instructions. What this does not see, tools/web/build.sh does: the linker, and the headers of Emscripten's C library.
+The files and flags are from the native build's compile_commands.json. clang++ parses them as Emscripten of Debian 12 would: with libc++ 13, and for a
+target with 32-bit addresses (x32, for which the C library's headers are available). Kernels are parsed for one instruction set. Only
+tools/web/build.sh tests the linker and the headers of Emscripten's C library.
 
 Exit status 1 and the compiler's messages for sources that do not compile; 77 without clang++ or without libc++ 13.
 """
@@ -19,7 +19,7 @@ import subprocess
 import sys
 import tempfile
 
-# Where tools/setup.sh unpacks them, where a package of Debian's installs them, where Emscripten has them.
+# The folders where tools/setup.sh unpacks them, where a Debian package installs them, and where Emscripten has them.
 HEADERS = ["build/headers/libc++-13-dev/usr/lib/llvm-13/include/c++/v1", "/usr/lib/llvm-13/include/c++/v1", "/usr/share/emscripten/cache/sysroot/include/c++/v1"]
 TARGETS = {"strata_rasterizer", "strata_pipeline", "strata_peeling", "strata_web_sources"}
 KERNELS = ["-DHWY_COMPILE_ONLY_STATIC", "-msse4.2", "-maes", "-mpclmul"]
@@ -31,7 +31,7 @@ def skip(why):
 
 
 def sources_of(build):
-    """(source, its -I, -isystem, -include and -D) of every source of TARGETS."""
+    """(source, its -I, -isystem, -include and -D) for every source of TARGETS."""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
         for entry in json.load(file):
             words = shlex.split(entry["command"])
@@ -58,7 +58,7 @@ def main(repository, build):
     assert len(sources) > 30, f"{build}/compile_commands.json: expected the sources of {sorted(TARGETS)}, found {len(sources)}"
 
     with tempfile.TemporaryDirectory() as stubs:
-        # The C library lists the functions that it lacks in a file for each machine; that of x32 is in no package that we need.
+        # The C library lists its missing functions in a file per target; that of x32 is in no package that this project needs.
         os.mkdir(os.path.join(stubs, "gnu"))
         open(os.path.join(stubs, "gnu/stubs-x32.h"), "w", encoding="utf-8").close()
         common = [compiler, "-fsyntax-only", "-std=c++20", "--target=x86_64-linux-gnux32", "-nostdinc++", "-isystem", headers, "-isystem", stubs,

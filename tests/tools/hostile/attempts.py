@@ -1,4 +1,4 @@
-"""What a hostile user might try with a file: by kind of file, each with the runs that would fall for it."""
+"""Attacks by a hostile file, by kind of file, each with the commands that a vulnerable program would fail."""
 import os
 import socket
 import struct
@@ -180,7 +180,7 @@ def journal_attempts():
             [*sweep, "--merge", "2"], must_fail=True)
 
 
-# A picture's command, with --from: what it may not choose.
+# The command recorded in a picture, used by --from, and the options that it must not choose.
 def command_attempts():
     base = f"strata render planes:count=2 {' '.join(SIZE)} "
     for what, words in (("a file of statistics", "--stats victim.json"), ("the same in one word", "--stats=victim.json"), ("a picture", "-o victim.png"),

@@ -1,4 +1,4 @@
-"""Packs and what is compared with them: manifests, arrays, suites, a candidate's folder, the answers to a kit."""
+"""Attacks by packs and the files that are compared with them: manifests, arrays, suites, a candidate's folder, the answers to a kit."""
 import functools
 import json
 import pathlib
@@ -11,13 +11,13 @@ from places import ESCAPES, LONG, MARKUP, SIZE, link, pipe, write, write_json, w
 
 READERS = (["scene", "pack"], ["render", "pack", "-o", "out.png"], ["golden", "--check", "pack"], ["compare", "pack", "pack"], ["diagnose", "pack", "pack"],
            ["reduce", "pack", "false {pack} {picture}", "-o", "out"])
-# `compare` reads what a pack expects and not its scene.
+# `compare` reads only the expected results of a pack, not its scene.
 SCENE_READERS = [command for command in READERS if command[0] != "compare"]
 
 
 @functools.cache
 def pack_of(program):
-    """A small pack, made once."""
+    """A small pack, written once."""
     folder = pathlib.Path(tempfile.mkdtemp()) / "pack"
     subprocess.run([program, "golden", "planes:count=1", *SIZE, "--algorithm", "front_to_back", "-o", folder], check=True, stdout=subprocess.DEVNULL)
     return folder

@@ -1,11 +1,11 @@
-"""Small files of every kind that the program reads, written by hand from the formats' own pages."""
+"""Writes small files of every format that the program reads, from the formats' specifications."""
 import json
 import struct
 import zlib
 
 
 def png(width=1, height=1, texts=(), data=None, chunks=b""):
-    """8-bit RGBA, black unless `data` has the rows with their filter bytes; `texts` are pairs for tEXt."""
+    """An 8-bit RGBA PNG, black unless `data` has the rows with their filter bytes; `texts` are pairs for tEXt chunks."""
     def chunk(kind, content):
         return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
     rows = bytes((1 + 4 * width) * height) if data is None else data
@@ -19,7 +19,7 @@ def exr_attribute(name, kind, content, size=None):
 
 
 def exr(further=b"", window=(0, 0, 0, 0), version=2, channels=(b"A", b"B", b"G", b"R"), end=b""):
-    """One row of binary32 zeros, uncompressed."""
+    """An EXR file with one row of binary32 zeros, uncompressed."""
     listed = b"".join(c + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for c in channels) + b"\0"
     header = struct.pack("<II", 20000630, version)
     for name, kind, content in ((b"channels", b"chlist", listed), (b"compression", b"compression", b"\0"),
@@ -44,7 +44,7 @@ CORNERS = struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0, 1, 0)
 
 
 def gltf(name="scene", buffer=None, changes=lambda document: None):
-    """A triangle; `buffer` is its uri."""
+    """A glTF file with one triangle; `buffer` is its uri."""
     document = {
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0], "name": name}],
         "nodes": [{"mesh": 0, "name": name}, {"camera": 0, "name": name}],
@@ -68,7 +68,7 @@ def glb(document, binary=b"", length=None, chunk_length=None):
 
 
 def tar(entries):
-    """(name, kind, link, content) in the ustar format."""
+    """A ustar archive of (name, kind, link, content)."""
     archive = b""
     for name, kind, link, content, size in entries:
         header = bytearray(512)

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Hands files to the program that were made to do harm, and looks whether they did.
+"""Runs the program on malicious files and checks that they do no harm.
 
     tests/tools/hostile/hostile.py build/release/strata           # every attempt, some seconds
     tests/tools/hostile/hostile.py build/release/strata --list    # the attempts by kind of file
-    tests/tools/hostile/hostile.py build/release/strata exr pack  # those whose kind or words contain one of these
+    tests/tools/hostile/hostile.py build/release/strata exr pack  # those whose kind or description contains one of these
 
-The attempts know the pages, not the sources. Each runs in a folder of its own, with files outside of it that are worth reading and
-writing. It has succeeded, and this exits with 1, if the program
+The attempts are derived from the documentation, not from the sources. Each runs in a separate folder, with files outside of it that an attacker would
+want to read or write. An attempt has succeeded, and this script exits with 1, if the program
   - wrote, changed or removed anything but the output that the command names, or left an output of a run that failed;
-  - used a file outside of the folder (the attempt says so: such a file would do, and the run must fail), or asked the network;
-  - ran a word of the file as a command;
-  - ended by a signal or with a status of the system's, took more than 20 s of a processor, or 600 MB, or was not done after 5 minutes;
-  - put a control character, or a byte that is no UTF-8, on a stream, said more than 40 lines or 20,000 bytes of errors, or wrote
+  - used a file outside of the folder (the attempt states this: such a file would be usable, so the command must fail), or used the network;
+  - executed a word of the file as a command;
+  - ended by a signal or with the status of a system failure, took more than 20 s of processor time, or 600 MB, or more than 5 minutes;
+  - wrote a control character, or a byte that is not UTF-8, to a stream, printed more than 40 lines or 20,000 bytes of errors, or wrote
     JSON, XML or HTML in which a name of the file became a part of the document.
 """
 import argparse
@@ -32,12 +32,12 @@ import xml.etree.ElementTree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import attempts  # noqa: E402
 
-PROCESSOR_SECONDS, SECONDS, MEGABYTES = 20, 300, 600  # other work of the machine takes no processor time
+PROCESSOR_SECONDS, SECONDS, MEGABYTES = 20, 300, 600  # processor time does not depend on other load
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
 def tree(folder):
-    """Every name below the folder with what is there: a link's target, a file's bytes. A pipe has neither."""
+    """Every name below the folder with its content: a link's target or a file's bytes. A pipe has neither."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
@@ -51,7 +51,7 @@ def tree(folder):
 
 
 def measured(words, place):
-    """Status (negative: a signal), output, errors, megabytes; None for the status of a run that took too long."""
+    """Status (negative: a signal), output, errors, megabytes; None for the status of a command that took too long."""
     environment = {**os.environ, "HOME": str(place / "outside"), "TMPDIR": str(place / "tmp"), "TERM": "xterm"}
 
     def limit():
@@ -125,7 +125,7 @@ def stream_faults(name, written, is_json):
 
 
 def faults(program, attempt, root):
-    """What the attempt achieved: sentences, none for a safe run."""
+    """Descriptions of what the attempt achieved; empty if the program was safe."""
     place = pathlib.Path(tempfile.mkdtemp(dir=root))
     for name in ("here", "outside", "tmp"):
         (place / name).mkdir()

@@ -1,4 +1,4 @@
-"""An attempt, and the folder that it runs in: here/ with the files of another user, outside/ with what is none of theirs."""
+"""An attempt, and its folder: here/ with the files of a hostile user, outside/ with files that they may not use."""
 import dataclasses
 import json
 import os
@@ -17,10 +17,10 @@ LONG, LONG_WORD = "n" * 1_000_000, "n" * 100_000  # Linux takes words of at most
 class Attempt:
     kind: str
     what: str
-    make: typing.Callable  # (place, program): writes the files; may answer an object with was_asked()
-    commands: list  # words behind "strata"
-    must_fail: bool  # the run would have to follow the file to succeed
-    harmless: bool = False  # the file as it should be: the run succeeds, or the attempts of this kind prove nothing
+    make: typing.Callable  # (place, program): writes the files; may return an object with was_asked()
+    commands: list  # words after "strata"
+    must_fail: bool  # the command could succeed only by using the file
+    harmless: bool = False  # the valid form of the file: the command must succeed, otherwise the attempts of this kind prove nothing
 
 
 def write(place, name, content):
@@ -45,7 +45,7 @@ def pipe(place, name):
 
 
 def write_outside(place):
-    """Files that would do, were they in the folder, and files that no run may touch."""
+    """Writes usable files outside of the folder, and files that no command may touch."""
     outside: pathlib.Path = place / "outside"
     for name, content in (("triangle.bin", CORNERS), ("picture.png", png()), ("panes.json", json.dumps(PANES).encode()),
                           ("camera.json", json.dumps(CAMERA).encode()), ("line.txt", b"a line\n"), ("word.txt", b"a word"),

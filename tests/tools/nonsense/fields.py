@@ -1,10 +1,10 @@
-"""Cases of nonsense for every field of a profile, a camera and a plan."""
+"""Invalid values for every field of a profile, a camera and a plan."""
 import json
 
 from trial import Trial, output_of
 
 LONG = '"' + "x" * 2000 + '"'
-# As they stand in the file: what JSON has no word for, too.
+# The values as written in the file, including some that JSON does not have.
 VALUES = ["null", "NaN", "-Infinity", "1e999", "1e308", "-1e308", "1e-320", "9223372036854775808", "18446744073709551616",
           "-9223372036854775809", "4294967297", "-1", "0.5", "0x10", "01", "+1", '""', '"nan"', '"1"', '"\u0663"', '"\\ud800"',
           '"\\u0000"', "[]", "{}", "[[[[]]]]", '{"a": 1}', "[1, 2", "true false", "", "'1'", LONG]
@@ -15,7 +15,7 @@ PLAN = {"common": {"scene": "planes:count=1", "size": "8x8"}, "grids": [{"depth_
 PLAN_KEYS = ["scene", "profile", "size", "orbit", "alpha", "algorithm", "split", "hypothesis", "vertex_path", "pair",
              "depth_format", "subpixel_bits", "near_far", "remedy", "max_passes"]
 
-# (place, value): no nonsense, and why.
+# (place, value): valid after all, with the reason.
 ACCEPTED = {
     ("/name", '"nan"'): "a name", ("/name", '"1"'): "a name", ("/name", '"\u0663"'): "a name",
     ("/description", '""'): "a text", ("/description", '"nan"'): "a text", ("/description", '"1"'): "a text", ("/description", '"\\u0000"'): "a text that only JSON shows",
@@ -27,7 +27,7 @@ ACCEPTED = {
     ("/grids/0/alpha", "0.5"): "an alpha", ("/grids/0/alpha", '"1"'): "an alpha", ("/common/max_passes", '"1"'): "one pass",
     ("/grids/0/max_passes", '"1"'): "one pass",
 }
-# A coordinate of a camera or an element of a matrix may have any of these; where a matrix loses its inverse by one, it is no sense.
+# Coordinates of a camera and elements of a matrix may have any of these; a matrix that becomes singular by one is invalid.
 COORDINATES = ["9223372036854775808", "18446744073709551616", "-9223372036854775809", "4294967297", "-1", "0.5", "1e-320"]
 HOLE = "@hole@"
 
@@ -49,7 +49,7 @@ def cases_of(kind, document, path, words):
     for value, text in texts_with(document, path):
         is_coordinate = kind == "camera" and len(path) == 2 and value in COORDINATES
         if (place, value) not in ACCEPTED and not is_coordinate:
-            # That there is no scene or device of a name is told by that name, not by its place in the plan.
+            # An unknown scene or device is reported by its name, not by its place in the plan.
             by_name = (path[-1],) if kind == "plan" and path[-1] in ("scene", "profile", "hypothesis") else ()
             yield Trial(f"{kind} {place}", words, names=(f"{kind}.json", *by_name), files={f"{kind}.json": text})
 

@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
-"""Gives the program nonsense: in every option of every command, every parameter of every built-in scene and every field of a
-profile, a camera and a plan.
+"""Tests invalid values in every option of every command, every parameter of every built-in scene and every field of a profile, a camera and a plan.
 
-    tests/tools/nonsense/nonsense.py build/release/strata          # a choice of each, some seconds
+    tests/tools/nonsense/nonsense.py build/release/strata          # a selection of each, some seconds
     tests/tools/nonsense/nonsense.py build/release/strata --all    # every option with every value
 
-Model: the help texts say which options there are, the printed profile which fields. Nonsense ends with exit status 2 and one
-sentence that names the option or the place, prints nothing else and leaves no file. The few values that only look like
-nonsense stand in ACCEPTED with the reason why they are none.
+The options are read from the help texts, the fields from the printed profile. An invalid value must give exit status 2 and one message that names the
+option or the place, no other output and no file. The few values that are valid are in ACCEPTED with the reason.
 """
 import argparse
 import concurrent.futures
@@ -26,7 +24,7 @@ VALUES = ["", "nan", "-nan(0)", "inf", "-inf", "0x1p4", "0x10", "1e308", "1e999"
 
 SMALL = ["planes:count=1", "--size", "8x8"]
 OUT = ["-o", "out"]
-# What a command needs beside the option that is tried.
+# Other options that a command needs, besides the one under test.
 NEEDS = {
     "render": SMALL + ["--no-audit"], "layers": SMALL + ["--no-audit", "-o", "out.exr"], "passes": SMALL + OUT,
     "explain": SMALL + ["--pixel", "1,1"], "bench": SMALL + ["--repeat", "1", "--warm-up", "0", "--algorithm", "depth"],
@@ -38,8 +36,7 @@ NEEDS = {
     "help": [], "man": [], "completions": ["bash"],
 }
 
-# (command or *, option, value): why it is no nonsense. Options that take a file or folder of any name are left out of all
-# but the empty name.
+# (command or *, option, value): why the value is valid. Options that accept a file or folder of any name are excluded, except the empty name.
 ACCEPTED = {
     ("*", "--fragment-memory", "4294967297"): "a size of 4 GiB",
     ("*", "--fragment-memory", "9223372036854775808"): "a limit that no machine reaches",
@@ -49,9 +46,9 @@ ACCEPTED = {
     ("bench", "--warm-up", "-0"): "zero",
     ("bench", "--json", "-"): "standard output, in the old spelling",
 }
-# Sentences may name an option so.
+# Messages may use these names instead.
 SHORT = {"--output": ["-o"]}
-# Looked at once the files are read, of which there is none here.
+# Checked only after the files are read, and there are none here.
 LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--profiles"), ("diagnose", "--sorted"), ("diagnose", "--camera"),
         ("reduce", "--algorithm"), ("reduce", "--picture"), ("explain", "--candidate"), ("infer", "--output")}
 ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml", "FILE.html|FOLDER")
@@ -73,7 +70,7 @@ def options_of(program, command):
 
 
 def without(words, option):
-    """The words but for the option and its value, so that the option is given once."""
+    """The words without the option and its value, so that the option is given only once."""
     short = SHORT.get(option, [option])[0]
     kept = list(words)
     while short in kept:
@@ -83,7 +80,7 @@ def without(words, option):
 
 
 def given(option, value):
-    """A short option takes its value as a word of its own."""
+    """A short option has its value as a separate word."""
     return [joined(option, value)] if option.startswith("--") else [option, value]
 
 
@@ -99,7 +96,7 @@ def option_cases(program, commands):
             values = [""] if kind in ANY_NAME else VALUES
             for value in values:
                 if kind == "" and value == "":
-                    continue  # an empty value of a flag is none
+                    continue  # a flag cannot have an empty value
                 if {("*", option, value), (command, option, value)} & ACCEPTED.keys():
                     continue
                 words = [command] + without(NEEDS[command], option) + given(option, value)
@@ -118,7 +115,7 @@ def scene_cases(program):
 
 
 def choice(cases, seed):
-    """Of each group a few, by a rule that takes other values for other groups: all values are met often."""
+    """A few cases of each group, with different values for different groups, so that each value occurs often."""
     groups = {}
     for case in cases:
         groups.setdefault(case.group, []).append(case)

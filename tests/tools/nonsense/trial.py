@@ -1,10 +1,10 @@
-"""One run of the program with nonsense in it, and what may be seen of it."""
+"""One execution of the program with an invalid value, and the checks of its output."""
 import dataclasses
 import os
 import subprocess
 import tempfile
 
-SECONDS = 60  # for a run that ought to end at once, on a busy machine
+SECONDS = 60  # limit for a command that should end at once, on a busy machine
 
 
 def output_of(program, words):
@@ -13,13 +13,13 @@ def output_of(program, words):
 
 @dataclasses.dataclass
 class Trial:
-    group: str  # the option or field that is tried
+    group: str  # the option or field under test
     words: list
-    names: tuple  # one of them the sentence has to name
+    names: tuple  # the message must name one of them
     files: dict = dataclasses.field(default_factory=dict)  # by name, with their text
 
     def fault(self, program):
-        """What is wrong with how the program ended; empty if nothing is."""
+        """A description of the fault; empty if the program ended as required."""
         with tempfile.TemporaryDirectory() as folder:
             for name, text in self.files.items():
                 with open(os.path.join(folder, name), "wb") as file:

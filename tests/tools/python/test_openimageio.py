@@ -1,4 +1,4 @@
-"""The trap: OpenImageIO's ImageBuf carries 32-bit codes through float, and says nothing. Models: codes typed by hand."""
+"""Tests that 32-bit codes are read exactly with OpenImageIO's low-level calls, and documents that its ImageBuf silently converts them to float."""
 import numpy as np
 import pytest
 
@@ -6,13 +6,13 @@ import strata
 
 OpenImageIO = pytest.importorskip("OpenImageIO", reason="SKIPPED: python3-openimageio is not installed")
 
-# The code of a binary32 depth is its bits: a number near 2^30, of which a float keeps 24.
+# The code of a binary32 depth is its bits: a number near 2^30, of which a float stores only 24 bits.
 NEAR_ONE_HALF = np.array([0x3F000001], np.uint32)
 
 
 @pytest.fixture
 def file(tmp_path):
-    """A depth of 0.5 and a little, everywhere."""
+    """A file with a depth slightly above 0.5 everywhere."""
     z = float(NEAR_ONE_HALF.view(np.float32)[0]) * 2 - 1
     scene = strata.Scene().add([[-1, -1, z], [3, -1, z], [-1, 3, z]], color=(1, 1, 1, 0.5))
     picture = strata.render(scene, "front_to_back", width=4, height=4, depth="d32f")
@@ -26,7 +26,7 @@ def test_image_buf_loses_bits_of_codes_in_silence(file):
     channel = buf.spec().channelnames.index("Zbits")
     found = buf.get_pixels(OpenImageIO.FLOAT)[..., channel].astype(np.float64)
     assert not buf.has_error
-    assert (found.astype(np.uint64) != NEAR_ONE_HALF[0]).all()  # 1056964609 is no float: its neighbour 1056964608 is
+    assert (found.astype(np.uint64) != NEAR_ONE_HALF[0]).all()  # 1056964609 is not a float; its neighbour 1056964608 is
 
 
 def test_strata_and_image_input_keep_them(file):

@@ -1,4 +1,4 @@
-"""Models: OVER of two fragments by hand; NumPy's own views of bits; what one call says against another."""
+"""Tests pictures, layers, passes and histories in Python against OVER of two fragments worked out by hand, NumPy's views of bits, and each other."""
 import itertools
 import sys
 import threading
@@ -13,7 +13,7 @@ WHOLE_FRAME = [[-1, -1, 0], [3, -1, 0], [-1, 3, 0]]
 
 @pytest.fixture
 def grey():
-    """White far and black near, both of alpha 0.5, over black: 0.25 everywhere."""
+    """A scene with a far white and a near black triangle, both of alpha 0.5, over black: 0.25 everywhere."""
     scene = strata.Scene()
     scene.add([[x, y, -0.5] for x, y, _ in WHOLE_FRAME], color=(0, 0, 0, 0.5), name="near")
     return scene.add([[x, y, 0.5] for x, y, _ in WHOLE_FRAME], color=(1, 1, 1, 0.5), name="far")
@@ -63,7 +63,7 @@ def test_the_upper_row_is_the_first_from_either_origin():
     scene.add([[-1, -1, 0], [1, -1, 0], [0, 0, 0]])
     upper, lower = (strata.render(scene, profile="geforce8", width=8, height=8, origin=origin) for origin in ("upper_left", "lower_left"))
     for picture in (upper, lower):
-        assert picture.color[0, 0, 0] == 0 and picture.color[-1, 4, 0] > 0  # the upper row is the first
+        assert picture.color[0, 0, 0] == 0 and picture.color[-1, 4, 0] > 0  # row 0 is the top one
     with pytest.raises(strata.InputError, match="origin"):
         strata.render(scene, origin="top")
 
@@ -183,12 +183,12 @@ def test_threads_of_python_render_side_by_side():
 
 
 def test_the_lock_is_free_while_the_library_works():
-    """A thread that waits for the interpreter gets it during a call; with this interval nothing else would give it."""
+    """A thread that waits for the interpreter gets the lock during a call; with this switch interval it could not get it otherwise."""
     scene, order = strata.Scene("teapot"), []
     before = sys.getswitchinterval()
     sys.setswitchinterval(1000)
     try:
-        for _ in range(20):  # the system may wake the thread late
+        for _ in range(20):  # the system may start the thread late
             gate, order = threading.Lock(), []
             gate.acquire()
             thread = threading.Thread(target=lambda: (gate.acquire(), order.append("thread")))

@@ -1,4 +1,4 @@
-"""Model: a user's test that fails on purpose, run by pytest in a folder of its own."""
+"""Tests the pytest plugin with a user's test that fails on purpose, in a separate folder."""
 import numpy as np
 
 import strata

@@ -1,4 +1,4 @@
-"""Models: the same triangles given in another way; sentences typed by hand."""
+"""Tests Python scenes against the same triangles in other layouts, and error messages against texts written by hand."""
 import numpy as np
 import pytest
 

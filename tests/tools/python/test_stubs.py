@@ -1,11 +1,11 @@
-"""The stub names what the extension has, class by class, and nothing else. Model: the stub's syntax tree."""
+"""Tests that the type stub declares exactly the members of the extension, class by class."""
 import ast
 import inspect
 import pathlib
 
 from strata import _strata
 
-# Every class of an extension has these, and object has most of them.
+# Members that every class of an extension has; most are from object.
 COMMON = {"__init__", "__new__", "__repr__", "__module__", "__doc__", "__weakref__", "__dict__"}
 
 

@@ -1,4 +1,4 @@
-"""What a program with types may write; mypy reads it, and nothing runs it."""
+"""A program with type annotations that uses the package; it is checked by mypy and never executed."""
 from typing import Any
 
 import numpy.typing as npt

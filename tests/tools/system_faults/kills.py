@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Sweeps that are killed again and again, started twice, torn and changed: no cell is lost, and none stands there twice.
+"""Tests that a sweep that is killed repeatedly, started twice, or whose journal is truncated or changed loses no cell and has none twice.
 
     tests/tools/system_faults/kills.py build/release/strata            # 200 kills, a minute or two
     tests/tools/system_faults/kills.py build/release/strata 20 --seed 7
 
-A run is killed by SIGKILL at a moment that the seed decides. Before the next one begins, now and then a second run meets the first
-on the same folder, the journal's end is torn off, a byte of it is changed, a line goes or stands there twice. Model: the files of
-the sweep in one go, and the lines that stood in the journal when a run was killed: each of them must stand there, once, to the end.
+The sweep is killed by SIGKILL at times given by the seed. Between kills, sometimes a second sweep is started in the same folder, the journal is
+truncated, a byte of it is changed, or a line is removed or duplicated. The final files must equal those of an uninterrupted sweep, and each line that
+was in the journal at a kill must remain, once.
 """
 import argparse
 import json
@@ -30,7 +30,7 @@ def words(program):
 
 
 def lines_of(journal):
-    """Whole lines, by their cell. Doubled cells are a fault of their own."""
+    """The complete lines by their cell. A repeated cell is a fault."""
     text = journal.read_bytes() if journal.exists() else b""
     found, doubled = {}, 0
     for line in text.split(b"\n")[:-1]:
@@ -75,7 +75,7 @@ class Trial:
         print(what)
 
     def second(self):
-        """Beside a run that holds the folder, or that has not begun to: then the first is told."""
+        """Starts a second sweep while the first holds the folder; if the first has not started yet, that one must report the other."""
         self.counts["second runs"] += 1
         run = self.start()
         _, told = run.communicate()
@@ -103,7 +103,7 @@ class Trial:
         return run.returncode
 
     def spoil(self):
-        """Tears or changes the journal. What is not whole any more must be measured again; all others stay."""
+        """Truncates or changes the journal. Incomplete lines must be measured again; all others remain."""
         text = self.journal.read_bytes() if self.journal.exists() else b""
         chance = self.random.random()
         if not text or chance > 0.3:
@@ -127,7 +127,7 @@ class Trial:
         self.kept = {cell: line for cell, line in before.items() if line in left}
 
     def compare(self):
-        """A finished sweep has the files of the one in one go, and nothing else."""
+        """A finished sweep has exactly the files of the uninterrupted one."""
         found = self.finish()
         self.counts["sweeps finished"] += 1
         lines, doubled = lines_of(self.journal)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Whatever threads and address space the system grants, a picture is whole, or one sentence says what is missing.
+"""Tests that with few threads or little address space a picture is either complete, or one message says what is missing.
 
     tests/tools/system_faults/limits.py build/release/strata
 
-The limits are the kernel's own: processes of a user that is not root (root has none, so as root the runs change to a user without any
-process), and bytes of address space. Model: the picture of a run without limits, and the folder's listing.
+The limits are the kernel's: the number of processes of a user (root has no limit, so as root the commands run as a user without processes), and bytes
+of address space. The expected picture is that of a command without limits.
 """
 import os
 import pathlib
@@ -15,15 +15,15 @@ import subprocess
 import sys
 import tempfile
 
-USER = 61000 + os.getpid() % 4000  # of whom no process runs
+USER = 61000 + os.getpid() % 4000  # a user without processes
 MB = 1 << 20
-MAIN_BEGINS = 21 * MB  # address space that the program and its libraries take before it begins
+MAIN_BEGINS = 21 * MB  # address space of the program and its libraries before main() starts
 FRAME = ["render", "random:triangles=300", "--size", "96x64", "--no-audit"]
 OUTPUTS = [["--stats", "out.json"], ["-o", "out.png"], ["-o", "out.exr"]]
 
 
 def run(program, folder, words, limit=None):
-    """Status and standard error; a run that takes a minute hangs."""
+    """Status and standard error; a command that takes a minute counts as hanging."""
     def prepare():
         if limit:
             resource.setrlimit(limit[0], (limit[1], limit[1]))
@@ -38,14 +38,14 @@ def run(program, folder, words, limit=None):
 
 
 def content(folder):
-    """Of statistics, which have times in them, the digests."""
+    """The content of a file; for statistics, which contain times, only the digests."""
     def of(path):
         return re.findall(rb'"digest": *[^,}]*', path.read_bytes()) if path.suffix == ".json" else path.read_bytes()
     return {path.name: of(path) for path in pathlib.Path(folder).iterdir()}
 
 
 def fault(program, root, words, limit, whole):
-    """What is wrong with a run under a limit, and how it ended."""
+    """A description of the fault of a command under a limit, and how it ended."""
     with tempfile.TemporaryDirectory(dir=root) as folder:
         os.chmod(folder, 0o777)
         status, told = run(program, folder, words, limit)
@@ -54,8 +54,8 @@ def fault(program, root, words, limit, whole):
     if status == 0:
         wrong = left != whole or len(lines) > 1
     else:
-        # The loader of programs has no address space for our libraries, or one of them none for its initializer, and none for an exception
-        # either: then they speak.
+        # The dynamic loader may have no address space for the libraries, or a library's initializer none even for an exception; then these print the
+        # message.
         is_loader = status == 127 and "error while loading shared libraries" in told or (
             status == -6 and told.startswith("terminate called without an active exception") and limit[1] < MAIN_BEGINS)
         wrong = left or not (is_loader or (status == 3 and len(lines) == 1))
@@ -80,7 +80,7 @@ def main():
     wrong, count, ends = [], 0, {}
     with tempfile.TemporaryDirectory() as root:
         os.chmod(root, 0o755)
-        # A folder that every user may enter, with the program and the module of images beside it.
+        # A folder that every user may enter, with the program and the image module.
         home = pathlib.Path(root) / "bin"
         home.mkdir(mode=0o755)
         for file in [program, *program.parent.glob("*image*.so*"), *program.parent.glob("lib/**/*.so*")]:

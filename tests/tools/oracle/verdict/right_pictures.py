@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Is every picture that this program's profiles, formats and orders can make called right, with no option given but the scene?
+"""Tests that `strata compare SCENE PICTURE` calls right every picture that this program can make with its profiles, formats and orders, given only
+the scene.
 
     right_pictures.py STRATA [--scenes N] [--each N]
 
-Draws each of N scenes under every built-in profile by algorithms and formats that take turns, so that each pair of them occurs, and lets
-`strata compare SCENE PICTURE` judge. What a profile refuses does not count. Exit status 1 if a right picture is called wrong.
+Renders each of N scenes under every built-in profile with alternating algorithms and formats, so that each pair of them occurs. Combinations that a
+profile refuses do not count. Exit status 1 if a right picture is called wrong.
 """
 import argparse
 import itertools
@@ -22,7 +23,7 @@ DRAWN, REFUSED = 0, 2
 
 
 def scenes():
-    """Thirty scenes: those with names, planes close and far, volumes, and triangles by lot, from several sides."""
+    """Thirty scenes: named ones, close and distant planes, volumes, and random triangles, from several sides."""
     yield ["teapot"]
     yield ["showroom"]
     yield ["shadow-demo"]
