@@ -14,7 +14,7 @@ class DepthWeights {
   public:
     explicit DepthWeights(std::vector<float> weights) : weights_{std::move(weights)} {}
 
-    // The fragment program; called with up to 256 fragments of different pixels.
+    // The fragment program: called with up to 256 fragments of different pixels.
     void operator()(const FragmentBatch& in, const Loads&, Outputs& out) const {
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             const float z = std::clamp(in.shader_z[i], 0.0f, 1.0f);
