@@ -13,17 +13,17 @@ cp "$out/MISTAKES.svg" tools/oracle/MISTAKES.svg
     cat <<'END'
 # Mistakes, and the scenes that show them
 
-The question: if a port makes one of the known mistakes, does `strata diagnose` name it from the picture alone, and which scenes must be drawn
-for that? Every mistake of the catalogue is put into the emulated machine, alone, and draws every scene of the suite. The picture is then
-diagnosed as the picture of an unknown port would be.
+If a port makes one of the known mistakes, does `strata diagnose` name it from the picture alone, and which scenes must be rendered for that?
+The emulation makes each mistake of the catalogue alone, on a CPU, and renders every scene of the suite (`tools/oracle/make_page.sh`). The
+picture is then diagnosed like that of an unknown port.
 
 END
     sed -n '3,/^$/p' "$out/MISTAKES.md"  # what was found, three sentences
     cat <<'END'
 ![What each scene of the suite shows of the mistakes](MISTAKES.svg)
 
-A bar per scene: how many mistakes are named first there, how many leave the same picture as another mistake that is named, how many do not
-show, and how many cannot occur in that scene.
+Each bar is a scene: the numbers of mistakes that are named first, that leave the same picture as another, named mistake, that are not visible,
+and that cannot occur in that scene.
 
 ## The whole table
 
@@ -31,7 +31,7 @@ show, and how many cannot occur in that scene.
     strata diagnose --list                   # every mistake in a sentence
     strata diagnose --list --suite           # every scene with its purpose and its command
 
-The whole table has a row per mistake and a column per scene, the command of each scene, and the first scene that names each mistake. Two
-mistakes that give the same pictures in every scene are listed with the reason. `strata render SCENE --mistake NAME` draws such a picture.
+The whole table has a row per mistake, a column per scene, the command of each scene, and the first scene that names each mistake. Two
+mistakes that give the same pictures in every scene are listed with the reason. `strata render SCENE --mistake NAME` renders such a picture.
 END
 } >tools/oracle/MISTAKES.md

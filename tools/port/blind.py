@@ -138,26 +138,26 @@ def page(seed, driver, renderer, rows, right, drawn):
         asked = [r for r in rows if r[0] == kind and r[-1] != "not shown"]
         return f"{sum(r[-1] in answers for r in asked)} of {len(asked)}"
 
-    lines = ["# Mistakes drawn by a seed", "",
-             "The question: how often does `strata diagnose` name a mistake of a port if neither the mistakes nor the scenes are chosen by hand? A seed",
-             f"draws the mistakes and {SCENES} scenes for each ([blind.py](blind.py) says how); the diagnosis has the packs and what the port wrote, with its",
-             f"passes and layers. Seed {seed} on {renderer}:", "",
-             "| | answered rightly | named first, or as no known mistake | beside another that leaves the same output | another is named, which leaves the same output |",
+    lines = ["# Diagnosis of mistakes chosen at random", "",
+             "How often does `strata diagnose` name the mistake of an OpenGL port if the mistake and the scenes are chosen at random? A seed determines the",
+             f"mistakes and {SCENES} scenes for each ([blind.py](blind.py)); the diagnosis is given the packs and the results of the port, with its passes and",
+             f"layers. `tools/port/blind.py {seed}` (seed {seed}) on {renderer}:", "",
+             '| | right answers | the mistake is named first, or "no known mistake" | it and another with the same output are named | only another with the same output is named |',
              "|---|---|---|---|---|"]
-    for kind, words in (("single", "one mistake that the catalogue has"), ("outside", "one mistake that it has not"), ("pair", "two mistakes")):
+    for kind, words in (("single", "one mistake of the catalogue"), ("outside", "one mistake that is not in the catalogue"), ("pair", "two mistakes")):
         lines.append(f"| {words} | {count(kind, 'first', 'beside', 'no known mistake')} | {count(kind, 'first', 'no known mistake')} | {count(kind, 'beside')} | {count(kind, 'same output')} |")
     hidden = [row[1] for row in rows if row[-1] == "not shown"]
-    lines += ["", f"The right port is called right on {right} sets of scenes; {drawn} scenes were drawn. No row was left out or drawn again, but a mistake that {DRAWS}",
-              f"scenes do not show {SCENES} times is replaced: {'; '.join(f'`{names}`' for names in hidden) or 'none'}.", "",
-              "[SEEDS.md](SEEDS.md) has the earlier seeds, and what was improved after each.", "",
+    lines += ["", f"The right port is called right on {right} sets of scenes; {drawn} scenes were chosen. No row was omitted or repeated, but a mistake is replaced if",
+              f"fewer than {SCENES} of {DRAWS} scenes show it: {'; '.join(f'`{names}`' for names in hidden) or 'none'}.", "",
+              "[SEEDS.md](SEEDS.md) has the results of earlier seeds, and the improvements after each.", "",
               "## The whole table", "", f"    tools/port/blind.py {seed}", "",
-              "It needs a build with `-DSTRATA_PORT=ON` and the driver. `build/port/BLIND.md` then has a row for each mistake: its scenes, the verdict, what is",
-              "named, and how many pixels differ."]
+              "The command needs a build with `-DSTRATA_PORT=ON` and the driver. It also writes `build/port/BLIND.md` with a row for each mistake: its scenes,",
+              "the verdict, the mistakes that are named, and the number of pixels that differ."]
     return "\n".join(lines) + "\n"
 
 
 def whole_page(seed, rows):
-    return "\n".join([f"# Mistakes drawn by seed {seed}", "",
+    return "\n".join([f"# Diagnosis of the random mistakes of seed {seed}", "",
                       "| kind | mistake | algorithm | scenes | verdict | named first | pixels that differ | first class of pixels | answer |", "|" + "---|" * 9,
                       *("| " + " | ".join(row) + " |" for row in rows), ""])
 

@@ -123,8 +123,8 @@ def kinds_of(rows):
         return cells[0] != "(right)" and "," not in cells[0]
 
     yield "the right port", [c for c in rows if c[0] == "(right)"]
-    yield "one mistake that the catalogue has", [c for c in rows if is_single(c) and c[0] in NAMES]
-    yield "one mistake that it has not", [c for c in rows if is_single(c) and c[0] not in NAMES]
+    yield "one mistake of the catalogue", [c for c in rows if is_single(c) and c[0] in NAMES]
+    yield "one mistake that is not in the catalogue", [c for c in rows if is_single(c) and c[0] not in NAMES]
     yield "two mistakes", [c for c in rows if "," in c[0]]
 
 
@@ -140,20 +140,20 @@ def page(rows, driver):
     table = [f"| {name} | {len(cells)} | " + " | ".join(str(sum(c[-1] == answer for c in cells)) for answer in answers) + " |" for name, cells in kinds_of(rows)]
     other = [f"- `{cells[0]}`, {cells[2]} by {cells[3]}: {cells[4]}{': ' if cells[5] else ''}{cells[5]} ({cells[-1]})" for cells in rows if cells[-1] != "yes"]
     text = "\n".join([
-        "# What the oracle says of a port with mistakes", "",
-        "The question: a port of the peeling algorithms to OpenGL makes a mistake. Does `strata diagnose` name it from the scene and the finished",
-        f"picture alone? The port ([mistakes.cpp](mistakes.cpp)) has {len({c[0] for c in rows if c[0] != '(right)' and ',' not in c[0]})} mistakes, written before the oracle's catalogue of mistakes was consulted. It draws on",
-        f"{driver}, and the picture is diagnosed under that driver's profile. The scenes were chosen so that each mistake shows, some of them after a",
-        "first answer; [BLIND.md](BLIND.md) has the rates on scenes that a seed draws.", "",
+        "# Diagnosis of an OpenGL port with known mistakes", "",
+        "Does `strata diagnose` name the mistake of an OpenGL port from the scene and the picture alone? The port ([mistakes.cpp](mistakes.cpp)) has",
+        f"{len({c[0] for c in rows if c[0] != '(right)' and ',' not in c[0]})} mistakes, written before the oracle's catalogue was consulted. `tools/port/mistaken.py` renders with the Mesa driver {driver},",
+        "and the picture is diagnosed under that driver's profile. The scenes were chosen so that each mistake is visible, some of them after a first",
+        "diagnosis; [BLIND.md](BLIND.md) has the rates on scenes chosen at random.", "",
         "| pictures | number | " + " | ".join(answers) + " |", "|---" + "|---:" * (1 + len(answers)) + "|", *table, "",
-        "*Yes*: the mistake is named, both of two are, or none is if the catalogue has no such mistake; the right port is called right. *Same picture*: the",
-        "mistake that is named leaves the same picture, to the last pixel. *Nearest*: the right one is ranked first and leaves a few pixels.",
-        "*Does not show*: the picture is right.", "",
+        "*Yes*: the mistake is named (or both of two; or none if it is not in the catalogue), or the right port is called right. *Same picture*: the named",
+        "mistake gives the same picture in every pixel. *Nearest*: the right mistake is ranked first, but does not explain a few pixels. *Does not show*: the",
+        "picture is right.", "",
         "Answers other than yes:", "", *(other[:MOST_LISTED] or ["- none"]), *(["- and others"] if len(other) > MOST_LISTED else []), "",
         "## The whole table", "",
         "    tools/port/mistaken.py", "",
-        "It needs a build with `-DSTRATA_PORT=ON` and the driver. `build/port/MISTAKES.md` then has a row for each picture: what the mistake is, the verdict,",
-        "what is named, and how many pixels it explains. Exit status 1 if the right port is not called right.", ""])
+        "The command needs a build with `-DSTRATA_PORT=ON` and the driver. It also writes `build/port/MISTAKES.md` with a row for each picture: its",
+        "mistake, the verdict, the mistakes that are named, and the number of pixels that these explain. Exit status 1 if the right port is not called right.", ""])
     right = next(cells for _, cells in kinds_of(rows))
     return text, all(c[-1] == "yes" for c in right) and bool(rows)
 

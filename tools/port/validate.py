@@ -175,37 +175,38 @@ def page(found, scenes):
     """The short page: at most 600 words."""
     names = "\n".join(f"- {driver}: {renderer}" for driver, (renderer, _) in found.items())
     pixels = max(sum(d["pixels"] for d in scenes.values()) for _, profiles in found.values() for scenes in profiles.values())
-    return f"""# The port on real drivers
+    return f"""# The OpenGL port on Mesa's software drivers
 
-The question: does an OpenGL driver draw, bit by bit, what the profile of its name predicts? The port is an OpenGL program of five peeling
-algorithms. It draws {len(scenes)} small packs of each profile on each driver, and every target after every pass is compared: {pixels:,} pixels in all.
+Does an OpenGL driver render exactly the bits that the profile of its name predicts? The port, an OpenGL program with five peeling algorithms,
+renders {len(scenes)} small packs of each profile on each driver (`tools/port/validate.sh`), and every target after every pass is compared: {pixels:,}
+pixels per profile and driver. The drivers run on an x86-64 CPU:
 
 {names}
 
 {summary(found)}
-A figure counts pixels: *coverage* where the number of fragments differs, *depth* where a layer has another depth, *order* where the same layers
-have another order, *colour* where a layer has another colour. *Targets* are all targets after every pass.
+The columns count pixels: *coverage*, the number of fragments differs; *depth*, the depth of a layer differs; *order*, the order of the same
+layers differs; *colour*, the colour of a layer differs. *Targets* are all targets after every pass.
 
-What is left on softpipe under its own profile is known. softpipe rounds 24-bit depths down, and the port's program rounds them to nearest, as
-llvmpipe does, so that its peel finds other layers. How softpipe blends several fragments of a pass in one pixel is not emulated here: of
-`coincident` every depth and stencil of `coherent_stencil` is equal, and the first blended colours differ by one code.
-[mesa-rasterizers.md](../../pipeline/reference/mesa-rasterizers.md) has each rule of these drivers; [GPU.md](GPU.md) has an NVIDIA GPU.
+The differences of softpipe from its own profile have known causes. softpipe truncates 24-bit depths, whereas the port's shader rounds them to
+nearest, as llvmpipe does, so that its peel finds other layers. Strata does not emulate how softpipe blends several fragments of one pass at
+one pixel: in `coincident` every depth and stencil of `coherent_stencil` is equal, and the first blended colours differ by one code.
+[mesa-rasterizers.md](../../pipeline/reference/mesa-rasterizers.md) has the rules of these drivers; [GPU.md](GPU.md) the results of an NVIDIA GPU.
 
 ## The whole table
 
     tools/port/validate.sh
 
-The command builds the port and Strata, draws on every driver that is installed, and writes this page. `build/port/RESULTS.md` then has the pixels
-of every algorithm's picture, the scenes in which a driver differs from its own profile, and what each rule of another device changes alone. Exit
-status 1 if a driver differs where it should not.
+The command builds the port and Strata, renders on every installed driver, and writes this page. It also writes `build/port/RESULTS.md` with the
+pixels of every algorithm's picture, the scenes in which a driver differs from its own profile, and the differences that each rule of another
+device causes alone. Exit status 1 if a driver differs where it should not.
 """
 
 
 def whole_page(found, whys, scenes):
-    head = f"""# The port on real drivers, in full
+    head = f"""# The OpenGL port on Mesa's software drivers, in full
 
-Scenes: {'; '.join(scenes)}. After the classes of pixels each algorithm has the pixels of its finished picture that differ. `targets` are all
-targets after every pass, those with a pixel that differs first. `depth_units` is the port's shadow comparison against sequential depth units.
+Scenes: {'; '.join(scenes)}. The classes of pixels are followed by the number of pixels of each algorithm's picture that differ. `targets` are all
+targets after every pass: those in which a pixel differs, of all. `depth_units` is the port's shadow comparison against sequential depth units.
 
 """
     why = "## Why\n\nA driver's own profile with one rule of another device: the pixels of " + "; ".join(WHY) + """ that differ from the
