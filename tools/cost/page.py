@@ -17,14 +17,15 @@ import shutil
 import same
 
 TITLE = "# What accuracy costs\n"
-QUESTION = """The question: how much does each choice of algorithm, format and execution change the error of the picture, and how much time does it take?
+QUESTION = """How much does each choice of algorithm, format and execution change the error of the picture, and how much time does it take? `strata cost`
+emulates geforce8 on one thread of a CPU, %s.
 """
-METHOD = """The error is the root mean square difference, in 1/255, from a picture computed exactly: nothing is snapped, rounded or stored on the way. A time
-is processor time on one thread, in multiples of the default's time: `front_to_back` on `geforce8`, RGBA8, D24. Each is the median of at
-least five rounds, in which both are drawn in turn, on %s, beside other programs.
-[reports.md](../../scenes/reference/reports.md) section 10 defines every knob and figure.
+METHOD = """The error is the root mean square difference, in 1/255, from a picture that is computed exactly, without snapping, rounding or storing. Times are
+processor times of one thread, relative to the default: `front_to_back` on `geforce8`, RGBA8, D24. Each is the median of at least five
+rounds, in which both are rendered alternately, while other programs are active.
+[reports.md](../../scenes/reference/reports.md) section 10 defines every option and figure.
 """
-WHOLE_METHOD = """Errors are root mean square differences from the exact picture, in 1/255. Times are of the processor, on one thread, as ratios to the cheapest
+WHOLE_METHOD = """Errors are root mean square differences from the exact picture, in 1/255. Times are processor times of one thread, relative to the cheapest
 cell of their column, with the least and the greatest round. Section 10 of scenes/reference/reports.md defines every figure.
 """
 COLUMN_NAMES = {"default": "by default", "literal": "literally", "modelled": "on the card"}
@@ -184,7 +185,7 @@ def sentence_on_repeats(twice):
     counts = {column: same.compared(twice, column) for column in same.COLUMNS}
     figures = ", ".join(f"{len(timed) - len(apart)} of {len(timed)} times {COLUMN_NAMES[column]}" for column, (timed, apart) in counts.items())
     alike = "the same bytes" if same.is_alike(twice) else "DIFFERENT ERRORS"
-    return f"Two runs on the teapot have {alike} in errors and counts; {figures} agree within the spread of their rounds.\n"
+    return f"Two measurements of the teapot give {alike} in errors and counts; {figures} agree within the spread of their rounds.\n"
 
 
 def shown_frontier(folder, page):
@@ -201,18 +202,18 @@ def processor():
 
 
 def short_page(folders, twice, page):
-    yield from [TITLE, QUESTION, " ".join(three_sentences(folders)), ""]
+    yield from [TITLE, QUESTION % processor(), " ".join(three_sentences(folders)), ""]
     yield from (shown_frontier(folder, page) for folder in folders)
     yield from knob_table(folders)
     yield f"Where the error of an exact peel (`depth_units`, RGBA8) comes from: {'; '.join(map(sentence_on_chain, folders))}.\n"
-    yield METHOD % processor()
+    yield METHOD
     if twice:
         yield sentence_on_repeats(twice)
     cells = sum(len(rows_of(os.path.join(folder, "cost.csv"))) for folder in folders)
     yield from ["## The whole table", "", "    tools/cost/make_page.sh MODELS", "",
-                f"MODELS is a folder with dragon.glb and sponza.glb. It measures {cells} cells in a quarter of an hour and writes this page;",
-                "`build/cost/RESULTS.md` then has every cell as a sentence, the frontiers for literal execution and for the modelled card, and the",
-                "error with each step of the machine made exact; `build/cost/dragon/cost.csv` has a row for each cell."]
+                f"MODELS is a folder with dragon.glb and sponza.glb. The command measures {cells} cells in a quarter of an hour. It writes this page,",
+                "`build/cost/RESULTS.md` with every cell as a sentence, the frontiers for literal execution and for the modelled card, and the error with",
+                "each step of the emulation made exact, and `build/cost/dragon/cost.csv` with a row for each cell."]
 
 
 def section(folder, page):

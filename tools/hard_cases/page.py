@@ -50,7 +50,7 @@ def sentence_on_algorithms(ran):
     broken = Counter(line["algorithm"] for line in ran if line["verdict"] in ("breaks as the hardware did", "failed"))
     ranked = sorted(tried, key=lambda name: (broken[name] / tried[name], name))
     never = [f"`{name}`" for name in ranked if broken[name] == 0]
-    most = [f"`{name}` ({share(broken[name], tried[name])} of its runs)" for name in ranked[:-4:-1] if broken[name] > 0]
+    most = [f"`{name}` ({share(broken[name], tried[name])} of its cells)" for name in ranked[:-4:-1] if broken[name] > 0]
     return f"Algorithms that never break: {', '.join(never) or 'none'}. Those that break most often: {', '.join(most) or 'none'}."
 
 
@@ -72,15 +72,15 @@ def check_rows(lines):
     wrong = [line for line in ran if line["fragments"]["wrong_pixels"] > 0]
     excess = [line for line in ran if is_excess(line)]
     beyond = Counter(line["verdict"] for line in excess)
-    of_all = f"of {len(ran):,} runs"
+    of_all = f"of {len(ran):,} cells"
     yield "| property | result |"
     yield "|---|---|"
     yield f"| no NaN unless the scene has one | violated in {sum(line['nan_values'] > 0 for line in ran if line['verdict'] == 'failed')} {of_all} |"
     yield ("| every fragment is composited once, or a diagnostic counts the wrong pixels | "
-           f"{len(wrong)} {of_all} lose, repeat or misplace fragments; {sum(line['verdict'] != 'failed' for line in wrong)} of these are diagnosed to the pixel |")
+           f"{len(wrong)} {of_all} lose, repeat or misplace fragments; {sum(line['verdict'] != 'failed' for line in wrong)} of these are diagnosed at every wrong pixel |")
     yield (f"| colours stay within the error bound of the case | {len(excess):,} {of_all} exceed it: {beyond['breaks as the hardware did']:,} break with a "
            f"diagnostic, {beyond['degrades gracefully']:,} degrade, {beyond['stable']} differ only at equal depths, {beyond['failed']} are unexplained |")
-    yield ("| the same bits literally, on two threads, with all effects and on every instruction set | "
+    yield ("| the same bits in literal execution, on two threads, with all effects and with every instruction set | "
            f"violated in {sum(bool(line['unlike']) for line in ran)} {of_all} |")
 
 
@@ -92,12 +92,13 @@ def page_of(folder, lines, picture):
 
     return "\n".join([
         "# Results: scenes on which rasterizers and depth peels break", "",
-        "The question: does a peel still give the right picture where geometry is degenerate, depths nearly or exactly coincide, coordinates are",
-        f"extreme, or counts exceed their range? {of('case')} small scenes, each with a known right answer, are drawn by {of('algorithm')} algorithms on",
-        f"{of('profile')} devices at {of('depth')} depth formats: {len(ran):,} runs; {len(lines) - len(ran):,} combinations are refused because the device lacks a feature.", "",
+        "Does a peel still give the right picture where geometry is degenerate, depths nearly or exactly coincide, coordinates are extreme, or counts",
+        f"exceed their range? `strata hard-cases` renders {of('case')} small scenes, each with a known right answer, by {of('algorithm')} algorithms on",
+        f"{of('profile')} devices, which it emulates on a CPU, with {of('depth')} depth formats: {len(ran):,} cells; {len(lines) - len(ran):,} further cells are refused because the device lacks a",
+        "feature.", "",
         f"![the worst verdict of each case by each algorithm on each device]({picture})", "",
         "*Degrades gracefully*: every fragment is composited once, but rounding gives the device other fragments or another order than exact",
-        "geometry has, or the algorithm promises no order. *Breaks as the hardware did*: fragments are lost, repeated or out of order, and a",
+        "geometry has, or the algorithm guarantees no order. *Breaks as the hardware did*: fragments are lost, repeated or out of order, and a",
         "diagnostic counts the pixels. *Failed*: the same without a diagnostic, a NaN, or bits that depend on threads, execution or instruction",
         "set. *Stable*: none of these.", "",
         *verdict_rows(lines), "",
@@ -107,9 +108,9 @@ def page_of(folder, lines, picture):
         "[FINDINGS.md](FINDINGS.md).", "",
         "## The whole table", "",
         "    tools/hard_cases/make_page.sh", "",
-        f"It takes {minutes(folder)} minutes of processor time and writes this page. `build/hard_cases/RESULTS.md` then has a section for every case:",
-        "the picture, the right answer, the command that draws it, the verdicts, an example of each fault, and the tables of moved geometry and of",
-        "the camera path. `build/hard_cases/results.csv` has a row for each run.", ""])
+        f"The command takes {minutes(folder)} minutes of processor time and writes this page. It also writes `build/hard_cases/RESULTS.md` with a section for every case",
+        "(the picture, the right answer, the command that renders it, the verdicts, an example of each fault, and the tables of moved geometry and of",
+        "the camera path), and `build/hard_cases/results.csv` with a row for each cell.", ""])
 
 
 def main():

@@ -54,7 +54,7 @@ def row(name, suites):
 
 def table(suites):
     """A row for each suite with a picture that is not equal, and one for all others."""
-    yield "| suite | pictures | equal | within bound | outside | not modelled | pixels compared | pixels off | largest difference |"
+    yield "| suite | pictures | equal | within bound | outside | not modelled | pixels compared | pixels that differ | largest difference |"
     yield "|---" + "|---:" * 8 + "|"
     equal = [suite for suite in suites if not any(suite[1][1:])]
     yield from (row(suite[0], [suite]) for suite in suites if any(suite[1][1:]))
@@ -67,22 +67,23 @@ def page(suites, unknown_suites, plot_name):
     pixels, off = (sum(suite[i] for suite in suites) for i in (2, 3))
     return "\n".join([
         "# The profile geforce3 against a real chip", "",
-        "The question: does the profile `geforce3` give what a chip of that generation gave, bit by bit? `strata hardware-check` draws the pictures of a",
-        "public test suite again, from their names alone, and compares every pixel outside the labels with the captures of an NV2A, the GeForce3-class",
-        "core of the Xbox (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0).", "",
+        "Does the profile `geforce3` give the same bits as a chip of that generation? `strata hardware-check` renders the pictures of a public test suite",
+        "from their names alone, and compares every pixel outside the labels with captures of an NV2A, the GeForce3-class GPU of the Xbox",
+        "(abaire/nxdk_pgraph_tests_golden_results, CC0 1.0).", "",
         f"Of {equal + within + differ + unknown} captures {equal} are equal in every bit, {within} are within the bound of their suite, and {differ} are outside. {unknown} show features that are not",
-        f"modelled. Of {pixels:,} pixels compared {off:,} differ. {len(unknown_suites)} suites more, of {sum(sum(s[1]) for s in unknown_suites)} captures, show nothing that is modelled.", "",
+        f"modelled. Of {pixels:,} compared pixels {off:,} differ. {len(unknown_suites)} further suites, with {sum(sum(s[1]) for s in unknown_suites)} captures, show no modelled feature.", "",
         f"![Pictures by suite: equal, within their bound, outside, not modelled]({plot_name})", "",
         *table(suites), "",
-        "A difference is one of codes: of a colour channel, or of the stored depth. *Within bound*: few pixels differ, by few codes, and the cause is",
-        "known but for its last bits; the bounds are in [suites](suites). *Outside*: the w buffer with a slope or with float depth, whose weights are not",
-        "known to the last bit. [open_questions.md](open_questions.md) has what is not known, and what was tried.", "",
-        "The captures are not in this repository. `tests/tools/hardware_check/hardware_digests.txt` keeps a digest of each picture that is equal, which",
-        "tests compare with what the profile draws now.", "",
+        "Differences are in codes of a colour channel or of the stored depth. *Within bound*: few pixels differ, by few codes, and the cause is known",
+        "except for its last bits; the bounds are in [suites](suites). *Outside*: the w buffer with a slope or with float depth, the last bits of whose",
+        "weights are not known. [open_questions.md](open_questions.md) lists what is not known, and what was tried.", "",
+        "The captures are not in this repository. `tests/tools/hardware_check/hardware_digests.txt` has a digest of each equal picture, which tests",
+        "compare with the picture of the present profile.", "",
         "## The whole table", "",
         "    tools/hardware_check/make_page.sh CAPTURES", "",
-        "CAPTURES holds SUITE/NAME.png of the archive, or a part of it. The command writes this page; `build/hardware_check/RESULTS.md` then has what each",
-        "suite shows, every picture that is not equal with its first pixel, and the score of each rule of the profile against its alternatives."])
+        "CAPTURES has the files SUITE/NAME.png of the archive, or some of them. The command writes this page, and `build/hardware_check/RESULTS.md` with",
+        "the subject of each suite, the first different pixel of every picture that is not equal, and each rule of the profile compared with its",
+        "alternatives."])
 
 
 def main():

@@ -55,7 +55,7 @@ def merging(rows):
     blocks = [("text", "Peels by `depth_units` that store and compare one path: no layer comes twice, but fragments of one pixel whose depths get one "
                        "code are one layer, and one whose code is that of the cleared buffer is none. The table counts the fragments that vanish so, "
                        "of all fragments of the frame. The float formats spend their finest steps on what lies nearest, where z of a wide range hardly is: "
-                       "16 bits of w keep apart what 24 bits of z lose. The ratio moves the near plane alone, of which w knows nothing."),
+                       "16 bits of w distinguish layers that 24 bits of z merge. The ratio moves only the near plane, on which w does not depend."),
               ("text", "Greatest far/near of those tried up to which a format loses at most one fragment in a thousand:"),
               ("list", reaches(table)),
               ("table", ["scene", "far/near", "fragments", *(f"`{name_of(k)}`" for k in SHOWN)], lines)]
@@ -109,5 +109,5 @@ def short_section(rows):
     """Blocks for the short page: how far each format keeps the layers of the first scene apart."""
     rows = measured(rows)
     return [("text", "Depth formats, stored and compared along one path: the greatest far/near of those tried at which a format merges at most one fragment in a "
-                     "thousand with another layer. 16 bits of w keep more apart than 24 bits of z."),
+                     "thousand with another layer. 16 bits of w distinguish more layers than 24 bits of z."),
             ("list", reaches(kept_apart(rows))[:1])] if rows else []

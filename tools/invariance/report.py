@@ -123,8 +123,8 @@ def html_of(blocks):
 
 
 HOW = [("heading", "The whole table"), ("text", "    tools/invariance/make_page.sh FOLDER_OF_DRAGON_GLB"),
-       ("text", "In a few minutes it writes this page and, with every cell, `build/invariance/RESULTS.md`: the safe bias "
-                "of every choice, every remedy, vertex transforms and split surfaces that differ, and each assumption about the chip changed alone. "
+       ("text", "In a few minutes the command writes this page and `build/invariance/RESULTS.md` with every cell: the safe bias "
+                "of every choice, every remedy, different vertex transforms and splits of surfaces, and the effect of each assumption about the chip. "
                 "[audit.md](../../peeling/reference/audit.md) defines the figures.")]
 
 

@@ -105,10 +105,10 @@ def findings(rows, most_named=MOST_SAFE):
     by_format = "; ".join(spread(own) for _, own in groups(unlike, "depth_format"))
     safe = [r for r in judged if r["safe_bias"]["safe"]]
     named = "; ".join(f"{about(r)}: {codes(r['safe_bias'])}" for r in safe[:most_named]) + ("; ..." if len(safe) > most_named else "")
-    return [("text", f"Of {len(unlike)} peels that compare another depth than the one that they stored {wrong} lose layers or composite them twice, and {endless} never "
+    return [("text", f"Of {len(unlike)} peels that compare another depth than they store, {wrong} lose layers or composite them twice, and {endless} never "
                      f"end: {by_format}."),
             ("text", f"If the written depth comes from the quotient that is compared (`depth_replace`), {sum(total(r) > 0 for r in replaced)} of {len(replaced)} peels "
-                     "do so."),
+                     "make such errors."),
             ("text", f"A constant bias peels {len(safe)} of {len(judged)} {'choice' if len(judged) == 1 else 'choices'} of scene, format and depth range without error"
                      + (f" ({named})" if safe else "") + ("." if len(safe) == len(judged) else "; for the others none is safe."))]
 
@@ -165,7 +165,7 @@ def differences(rows):
                       percent(share(r)), f"{r['ulp_max']:,}", place])
     blocks = [("heading", "How often the two depths differ, and by how much"),
               ("text", "Every fragment of the frame by both paths, paired by pixel and triangle. An ulp is a code of `d16` and "
-                       "`d24`, and the step to the next float of `d32f`. Pairs that never differ are left out.")]
+                       "`d24`, and the step to the next float of `d32f`. Pairs that never differ are omitted.")]
     return blocks + difference_plots(rows)[1:] + [("table", header, table)]  # the first one stands at the head
 
 
@@ -282,7 +282,7 @@ def vertex_paths(rows):
     table = [[r["scene"], r["profile"], pair(r), r["depth_format"], planes(r), *also_values(r), *r["vertex_path"].split("+"), percent(share(r)), f"{r['ulp_max']:,}", f"{r['unmatched']:,}",
               str(r["passes"]), str(r["layers_true"]), f"{r['duplicated']:,}", f"{r['lost']:,}"] for r in rows]
     return [("heading", "Passes that transform a vertex differently"),
-            ("text", "One depth path, but the first pass computes positions in one way and all others in another: the commonest mistake of a port. "
+            ("text", "One depth path, but the first pass computes positions differently from all others: the most frequent mistake of a port. "
                      "Where a vertex snaps to another grid point, coverage differs too."),
             ("table", ["scene", "profile", "writes : compares", "depth", "planes", *also_titles(rows), "first pass", "further", "differ", "largest, ulp", "only in one", "passes", "N", "twice", "lost"], table)]
 
@@ -297,9 +297,9 @@ def splits(rows):
         path = r["write_path"] + ("" if r["hypothesis"] == "profile" else f", {r['hypothesis']}")
         table.append([r["scene"], r["profile"], path, r["depth_format"], planes(r), *also_values(r), r["split"], f"{r['fragments']:,}", percent(share(r)),
                       percent(behind / r["fragments"] if r["fragments"] else 0), f"{r['ulp_max']:,}", f"{r['unmatched']:,}"])
-    return [("heading", "The same surface, split otherwise"),
-            ("text", "A decal in the plane of a surface fights with it wherever its depth is another one. Here the second pass draws the same surface, but its triangles "
-                     "begin at another vertex, its squares are cut along the other diagonal, the viewport is moved by a pixel, or the near "
+    return [("heading", "The same surface, split differently"),
+            ("text", "A decal in the plane of a surface flickers wherever its depth differs from the surface's. Here the second pass draws the same surface, but its triangles "
+                     "begin at another vertex, its squares are divided along the other diagonal, the viewport is moved by a pixel, or the near "
                      "plane clamps instead of clipping. `hidden` is the share where the decal lies behind, and LEQUAL drops it. Even the exact plane "
                      "changes with the diagonal: corners are snapped to subpixels and their depths rounded, so four corners lie in no plane."),
             ("table", ["scene", "profile", "path", "depth", "planes", *also_titles(rows), "split", "fragments", "differ", "hidden", "largest, ulp", "only in one"], table)]
@@ -311,8 +311,8 @@ def hypotheses(rows):
         return []
     table = [[r["hypothesis"], r["scene"], r["profile"], pair(r), r["depth_format"], planes(r), *also_values(r), percent(share(r)), f"{r['ulp_max']:,}", f"{r['duplicated']:,}", f"{r['lost']:,}"]
              for r in rows]
-    return [("heading", "What rests on assumptions about the chip"),
-            ("text", "Each line changes one constant of the device that no capture has settled; the spread is what the numbers above are worth."),
+    return [("heading", "Assumptions about the chip"),
+            ("text", "Each line changes one constant of the device that no capture determines; the spread is the uncertainty of the figures above."),
             ("table", ["hypothesis", "scene", "profile", "writes : compares", "depth", "planes", *also_titles(rows), "differ", "largest, ulp", "twice", "lost"], table)]
 
 
@@ -335,8 +335,8 @@ def page(title, rows, study=()):
     """`study`: blocks of a further section, before the hypotheses."""
     name_other_knobs(rows)
     intro = (f"{len(rows)} cells of `strata invariance`. A peel in several passes compares a fragment's depth with one that an earlier pass stored. If the two are "
-             "computed in different ways, they differ in the last places: a fragment that seems to lie behind itself is peeled again, "
-             "one that seems to lie before what is behind it is lost. Unless a line names another, everything rests on the profiles' own "
+             "computed differently, they differ in their last bits: a fragment that seems to lie behind itself is peeled again, and "
+             "one that seems too near is lost. Unless a line names others, all figures hold for the profiles' own "
              "constants, which `strata list profiles` shows with their sources.")
     plots = difference_plots([r for r in plain(rows) if r["differing"] > 0])
     return [("title", title), *findings(rows), *plots[:1], ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows),
@@ -382,12 +382,12 @@ def short_page(title, rows, study):
     """The page that is kept: at most 600 words. `study`: rows of the sweep of depth formats, may be empty."""
     name_other_knobs(rows)
     blocks = [("title", title),
-              ("text", "The question: a peel compares a fragment's depth with one that an earlier pass stored. If the two are computed in different ways, they differ "
-                       "in the last places: a fragment may lie behind itself, and is peeled twice, or too near, and is lost. How often does that happen, and "
-                       "what prevents it?"),
+              ("text", "A peel compares a fragment's depth with one that an earlier pass stored. If the two are computed differently, they differ in their last bits: a "
+                       "fragment that seems to lie behind itself is peeled twice, and one that seems too near is lost. How often does that happen, and what prevents "
+                       f"it? `strata invariance` emulates the profiles {' and '.join(dict.fromkeys(r['profile'] for r in rows))} on a CPU."),
               *findings(rows, 1), *difference_plots([r for r in plain(rows) if r["differing"] > 0])[:1],
-              ("text", "Fragments whose two depths differ, over all depth ranges; the largest difference is in ulp: codes of d16 and d24, steps between floats of d32f."),
+              ("text", "Fragments whose two depths differ, for all depth ranges; ulp are codes of d16 and d24, and steps between floats of d32f."),
               ("table", ["profile", "stored", "compared", "depth", "differ", "largest, ulp"], pair_rows(rows)),
-              ("text", "Peels that lose or repeat layers without a remedy, and what remedies did for them:"),
+              ("text", "Peels that lose or repeat layers without a remedy, and how many of them each remedy corrects:"),
               ("table", ["remedy", "peels", "without error"], remedy_rows(rows))]
     return blocks + study
