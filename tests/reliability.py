@@ -31,7 +31,7 @@ ROWS = [
      r"(\d+) jobs, (\d+) requests failed, 0 bad", "{1} requests of {0} jobs",
      "a destructor and a search that could not throw allocated memory, which ended the process"),
     ("a system call fails: files are old or new, and a sentence says so",
-     "BUILD/tests/tools/tools_test 'each single call of the system*,a sweep goes on after each single*'",
+     "BUILD/tests/tools/tools_test 'if any single system call fails*,a sweep resumes after each single*'",
      r"(\d+) calls failed", "{0} calls of open, write, fsync, rename and close",
      "outputs without fsync; temporary files that were not removed"),
     ("with few threads or little memory, a picture is whole or one sentence says what is missing",
@@ -42,9 +42,9 @@ ROWS = [
      "python3 tests/tools/system_faults/kills.py BUILD/strata",
      r"(\d+) kills, (\d+) second runs, (\d+) torn journals, (\d+) changed journals, (\d+) sweeps finished, (\d+) cells, 0 lost, 0 doubled, 0 bad",
      "{0} kills, {1} second runs, {2} torn and {3} changed journals: {5} cells of {4} finished sweeps",
-     "a journal that a killed run left out of order, or torn behind its last cell, was not repaired"),
+     "a journal that a killed process left out of order, or torn after its last cell, was not repaired"),
     ("the memory of a picture is predicted within a quarter of the measured peak",
-     "BUILD/tests/tools/tools_test 'what a picture will take*'",
+     "BUILD/tests/tools/tools_test 'the predicted memory of a picture*'",
      r"(\d+) pictures: memory told within (\d+) %", "{0} pictures, within {1} %", "nothing"),
     ("fuzzed profiles, cameras, plans, packs, EXR files, call sequences and glTF give a right result or one sentence",
      "ctest --test-dir BUILD -R fuzz-kept-inputs -V",
@@ -84,7 +84,7 @@ ROWS = [
 
 NOT_GUARANTEED = [
     "If memory runs out while JSON is read or written, the process ends: the destructors of nlohmann's values allocate memory.",
-    "If the system grants memory that the machine does not have, it may end the process.",
+    "A system that grants more memory than the computer has may end the process.",
     "32-bit processors and compilers without 128-bit integers are not supported.",
     "After SIGKILL or a loss of power between two lines of a sweep, the interrupted line is measured again.",
 ]
@@ -120,9 +120,9 @@ def what_tests_see():
     fresh, tried, unreached = (row_of_all(next(s for s in sections if s.startswith(title)))
                                for title in ("Before tests were written", "The sample", "What no test reaches"))
     branches = row_of_all((ROOT / "tests" / "coverage" / "RESULTS.md").read_text())
-    return [f"`tools/mutate.py` puts changes of one step into the sources. Of the first {tried[0]} that a test reaches, the tests detect {tried[4]} ({tried[1]} of",
+    return [f"`tools/mutate.py` makes small changes in the sources. Of the first {tried[0]} that a test reaches, the tests detect {tried[4]} ({tried[1]} of",
             f"{int(tried[1]) + int(tried[3])}; {tried[2]} change nothing); it was {tried[5]} before tests were written for the others. Of {fresh[0]} new ones they detected {fresh[5]}, and",
-            f"{fresh[4]} with tests for the others. The aim is 90 %. No test of the core reaches {unreached[1]} of the draw:",
+            f"{fresh[4]} with tests for the others. The aim is 90 %. No test of the core reaches {unreached[1]} of the randomly selected changes:",
             "[mutants/RESULTS.md](mutants/RESULTS.md).",
             "",
             f"Of {int(branches[0]):,} branches of rasterizer, pipeline and peeling their tests take {branches[2]} (aim: 98 %). Of {branches[4]} conditions of the stages'",
@@ -147,9 +147,9 @@ def main():
         shown = command.replace("BUILD", "build/release").replace("|", "\\|")  # in a table
         rows.append(f"| {guarantee} | {tried} |")
         table.append(f"| {guarantee} | {tried} | `{shown}` | {found} |")
-    lines = ["# Guarantees, and how they were tried", "",
-             "`tests/reliability.py build/release` makes this page. Every figure comes from a command that found no fault. The commands, and the faults that",
-             "they found earlier, are written to `build/release/reliability/TABLE.md`.", "",
+    lines = ["# Guarantees, and how they were tested", "",
+             "`tests/reliability.py build/release` makes this page. Every figure is of this program on a CPU, by a command that found no fault. The",
+             "commands, and the faults that they found earlier, are written to `build/release/reliability/TABLE.md`.", "",
              "| guarantee | tried |", "|---|---|", *rows, "", "Not guaranteed:", ""] + [f"- {line}" for line in NOT_GUARANTEED]
     lines += ["", *what_tests_see()]
     whole = pathlib.Path(sys.argv[1]) / "reliability" / "TABLE.md"

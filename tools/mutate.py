@@ -324,7 +324,7 @@ def scores(rows):
 
 def unreached_lines():
     places, sample = load("places.json", []), set(load("sample.json", []))
-    lines = ["| folder | changes of the draw | no test reaches |", "|---|---|---|"]
+    lines = ["| folder | changes of the selection | not reached by any test |", "|---|---|---|"]
     for folder in sorted({folder_of(p) for p in places}) + ["all"]:
         here = [p for p in places if folder in ("all", folder_of(p))]
         unreached = sum(p["number"] not in sample for p in here)

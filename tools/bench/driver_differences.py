@@ -141,16 +141,16 @@ def page(tables):
     rows = [[table.driver, str(len(table.rows)), f"{table.pixels:,}", *(str(table.differ.get(key, "-")) for key in ["coverage", *JOBS])] for table in tables]
     return "\n".join([
         "# Pixels that differ from Mesa's drivers", "",
-        "Made by `tools/bench/driver_differences.py`, which writes a row for each scene to `build/bench/differences.txt`. A column counts the pixels of which",
-        "any bit differs: the number of fragments of a pixel (coverage), the nearest depth, and the final picture of an algorithm together with the pictures",
-        f"after 1 to {MOST_PASSES} geometry passes, so that every layer is compared by itself.", "",
+        "Strata, under the profile of each name, compared with the software drivers of Mesa by `tools/bench/driver_differences.py`, which also writes a row",
+        "for each scene to `build/bench/differences.txt`. The columns count pixels of which any bit differs: in the number of fragments (coverage), the",
+        f"nearest depth, and the picture of an algorithm or the pictures after 1 to {MOST_PASSES} geometry passes, which compare every layer separately.", "",
         *("| " + " | ".join(row) + " |" for row in [head, ["---"] + ["---:"] * (len(head) - 1), *rows]), "",
         *(f"{table.driver}: {table.renderer}" for table in tables), "",
-        "- Scenes: bunny, dragon, teapot, planes, beams and random triangles, cut on every side of the view among them, in five sizes.",
+        "- Scenes: bunny, dragon, teapot, planes, beams and random triangles, of which some cross every side of the view, in five sizes.",
         "- Formats: rgba8, rgba16f and rgba32f with d16, d24 and d32f. The depths of dual are binary32; the sums of the average are binary16 except in rgba32f.",
-        "- weighted_average_pow is the average with GLSL's pow, compared with a model of llvmpipe's pow (mesa-rasterizers.md 2.10) on Strata's sums.",
-        "- OpenGL has no stencil buffer with D16, and scenes with hundreds of iterations are left out of coherent_stencil.",
-        "- softpipe is slow: its colours are compared in the scenes of rgba8 with d32f only.", ""])
+        "- weighted_average_pow is the average with GLSL's pow, compared with a model of llvmpipe's pow (pipeline/reference/mesa-rasterizers.md 2.10) on Strata's sums.",
+        "- OpenGL has no stencil buffer with D16, and scenes with hundreds of iterations are omitted for coherent_stencil.",
+        "- softpipe is slow: its colours are compared only in the scenes with rgba8 and d32f.", ""])
 
 
 def main():

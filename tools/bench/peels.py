@@ -145,15 +145,16 @@ def page(options, rows):
     head = ["algorithm", *(name if limit == "all" else f"{name}, {limit} passes" for name, limit in columns)]
     return f"""# All peels compared with the A-buffer
 
-Times of a frame over the time of a_buffer, which sorts all fragments of a pixel and composites them in binary64; medians over profiles and formats.
-A bold figure exceeds its bound (planes 4; models 2, batched and stencil_routed_k_buffer 3) in some row: {"; ".join(beyond) or "none"}.
+Each figure is the time of a frame, which Strata emulates on a CPU, divided by the time of a_buffer, which sorts all fragments of a pixel and
+composites them in binary64; medians over profiles and formats. A bold figure exceeds its bound (planes 4; models 2, batched and
+stencil_routed_k_buffer 3) in some row: {"; ".join(beyond) or "none"}.
 
 {table(head, body)}
 Made by `tools/bench/peels.py {shlex.join(sys.argv[1:])}`, which writes every row to `build/bench/peels.txt`.
 
-![time a layer against layers](layers.svg)
+![time per layer against the number of layers](layers.svg)
 
-The drawing is made by `tools/bench/layers.py` (planes at 128x128, geforce8_dx101).
+The diagram is made by `tools/bench/layers.py` (planes at 128x128, geforce8_dx101).
 
 What determines the times:
 
@@ -161,9 +162,9 @@ What determines the times:
 - dual is resolved pixel by pixel from the sorted record, without passes.
 - shadow_map_depth_replace keeps the colour and depth of every layer and computes r/q of every fragment.
 - dual_independent runs three stages per fragment and pass on three targets.
-- stencil_routed_k_buffer and hybrid run every fragment through all stages of a pass.
-- coherent_stencil and coherent_blend need n / 2 iterations of six or five passes for n planes that come far to near, and coherent_ideal n of two, each
-  over all fragments that are left. Near to far, and on models, a pass processes each fragment once.
+- stencil_routed_k_buffer and hybrid process every fragment in all stages of a pass.
+- For n planes that are submitted from far to near, coherent_stencil and coherent_blend need n / 2 iterations of six or five passes, and
+  coherent_ideal n of two, each over all remaining fragments. From near to far, and for models, a pass processes each fragment once.
 """
 
 

@@ -134,7 +134,7 @@ def within_section(options, scenes):
         turns = in_turn(options, scene)[2]
         rows.append([scene.name] + [f"{median_ratio([t[above] for t in turns], [t[below] for t in turns]):.2f}"
                                     for above, below in ratios])
-    return (f"## What exactness costs\n\nTo the last layer, over one pass of the same scene; the median of {len(TURNS)} runs.\n\n" +
+    return (f"## The cost of exactness\n\nTimes to the last layer, divided by the time of one pass of the same scene; the median of {len(TURNS)} measurements.\n\n" +
             table(["scene"] + [f"{above} : {below}" for above, below in ratios], rows))
 
 
@@ -243,7 +243,7 @@ def start_section(options, folder):
 
 
 def mesa_section(options):
-    title = "## Beside Mesa llvmpipe\n\n"
+    title = "## Compared with Mesa llvmpipe\n\n"
     build = pathlib.Path(options.strata).parent
     if not (build / "strata_port_beside").exists():
         return title + "Not built here (`-DSTRATA_PORT=ON`).\n"
@@ -254,7 +254,7 @@ def mesa_section(options):
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
         return title + f"Failed here: side_by_side.py ended with exit status {done.returncode}.\n\n```\n{done.stdout}```\n"
-    return title + f"Both in turn, same scene, camera, size and threads (README.md).\n\n```\n{done.stdout}```\n"
+    return title + f"Both are measured alternately, with the same scene, camera, size and threads ([README.md](README.md)).\n\n```\n{done.stdout}```\n"
 
 
 def machine():
@@ -266,16 +266,16 @@ def summary(options, scenes):
     """What a reader wants first."""
     costs = [median_ratio([t["dual"] for t in turns], [t["depth"] for t in turns])
              for turns in (in_turn(options, scene)[2] for scene in scenes)]
-    return (f"A dual peel to the last layer takes {min(costs):.1f} to {max(costs):.1f} times one depth pass of the same scene. A pass processes the "
-            "fragments that it keeps and counts the others, so time grows with the number of layers and not with its square. [PEELS.md](PEELS.md) "
+    return (f"Strata emulates on a CPU. A dual peel to the last layer takes {min(costs):.1f} to {max(costs):.1f} times as long as one depth pass of the same scene. A pass "
+            "processes the fragments that it keeps and only counts the others, so that time grows with the number of layers and not with its square. [PEELS.md](PEELS.md) "
             "compares all peels with the A-buffer.")
 
 
 def page(options, scenes):
     return "\n".join([
-        f"# Performance\n\n{summary(options, scenes)}\n\n![time a layer against layers](layers.svg)\n\n"
+        f"# Performance\n\n{summary(options, scenes)}\n\n![time per layer against the number of layers](layers.svg)\n\n"
         f"Made by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds. Times, instruction sets, executions, threads, memory and "
-        "start-up: `build/bench/performance.txt`, written by the same run.\n",
+        "start-up: `build/bench/performance.txt`, which the script also writes.\n",
         mesa_section(options), within_section(options, scenes)])
 
 

@@ -383,8 +383,8 @@ def short_page(title, rows, study):
     name_other_knobs(rows)
     blocks = [("title", title),
               ("text", "A peel compares a fragment's depth with one that an earlier pass stored. If the two are computed differently, they differ in their last bits: a "
-                       "fragment that seems to lie behind itself is peeled twice, and one that seems too near is lost. How often does that happen, and what prevents "
-                       f"it? `strata invariance` emulates the profiles {' and '.join(dict.fromkeys(r['profile'] for r in rows))} on a CPU."),
+                       "fragment seemingly behind itself is peeled twice, one seemingly too near is lost. How often does that happen, and what prevents "
+                       f"it? `strata invariance` emulates {' and '.join(dict.fromkeys(r['profile'] for r in rows))} on a CPU."),
               *findings(rows, 1), *difference_plots([r for r in plain(rows) if r["differing"] > 0])[:1],
               ("text", "Fragments whose two depths differ, for all depth ranges; ulp are codes of d16 and d24, and steps between floats of d32f."),
               ("table", ["profile", "stored", "compared", "depth", "differ", "largest, ulp"], pair_rows(rows)),
