@@ -59,12 +59,12 @@ def details(name, orientation, found):
     lines += ["", "Open: " + ("; ".join(f"{f['field']} ({f['reason']})" for f in found["fields"] if f["state"] == "open") or "none") + ".",
               "No effect beside the others: " + (", ".join(s["idle"]) or "none") + "."]
     if found["unexplained"]:
-        lines += ["", "| not explained | pixels that differ | the one change that explains most, and what it leaves |", "|---|---|---|"]
+        lines += ["", "| not explained | pixels that differ | the change that explains most, and the pixels that still differ |", "|---|---|---|"]
         for u in found["unexplained"]:
             nearest = f"{u['nearest']}: {u['left']:,}" if u["nearest"] else "none explains more"
             lines.append(f"| {u['scene']} | {u['differ']:,} of {u['pixels']:,} | {nearest} |")
     if found["not_drawn"]:
-        lines += ["", "Not drawn: " + "; ".join(f"{n['scene']} ({n['reason']})" for n in found["not_drawn"]) + "."]
+        lines += ["", "Not rendered: " + "; ".join(f"{n['scene']} ({n['reason']})" for n in found["not_drawn"]) + "."]
     return lines + [""]
 
 
@@ -87,7 +87,7 @@ def operations(devices):
     lines = ["| operation | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
     for rows in zip(*(found for _, found in devices)):
         lines.append(f"| {rows[0]['operation']} | " + " | ".join(operation_cell(f).replace("|", "\\|") for f in rows) + " |")
-    lines += ["", "What no hypothesis explains, with its first counterexample by the best of them:", ""]
+    lines += ["", "Operations that no hypothesis explains, with the first counterexample to the best one:", ""]
     for name, found in devices:
         for f in found:
             if f["state"] == "broken":
@@ -98,7 +98,7 @@ def operations(devices):
 
 def operation_rows(operated):
     """For each device: how many operations have a hypothesis that explains every result."""
-    yield "| device | operations drawn | explained by one hypothesis | not explained |"
+    yield "| device | operations tested | explained by one hypothesis | not explained |"
     yield "|---|---:|---:|---|"
     for name, found in operated:
         drawn = [f for f in found if f["hypotheses"]]
@@ -106,7 +106,7 @@ def operation_rows(operated):
         yield f"| {name} | {len(drawn)} | {len(drawn) - len(broken)} | {', '.join(broken) or 'none'} |"
 
 
-DEVICE_HEAD = ["| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 unseen scenes | coverage differs | depth differs | colour differs |",
+DEVICE_HEAD = ["| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 other scenes | coverage differs | depth differs | colour differs |",
                "|---|---|---|---|---|---|---|---|"]
 HOW = """
 Operations of shaders, textures and tests, each compared with several hypotheses:
@@ -117,8 +117,9 @@ Operations of shaders, textures and tests, each compared with several hypotheses
 
     tools/probe/results.py build/release --browser ANSWERS
 
-It needs `strata_port_probe` (`-DSTRATA_PORT=ON`); ANSWERS is what `tests/browser/probe_page.py` left in STRATA_KEEP. `build/probe/RESULTS.md` then
-has the best hypothesis of each operation with its first counterexample, and each field of each profile with its evidence and the next best values.
+The command needs `strata_port_probe` (`-DSTRATA_PORT=ON`); ANSWERS is the folder STRATA_KEEP of `tests/browser/probe_page.py`. It also writes
+`build/probe/RESULTS.md` with the best hypothesis of each operation and its first counterexample, and each field of each profile with its evidence
+and the next best values.
 """
 
 
@@ -129,8 +130,8 @@ def write_pages(short, whole, rows, operated, pages):
         file.write("\n".join([head, *DEVICE_HEAD, *rows, HOW.format(operations="\n".join(operation_rows(operated)))]))
     os.makedirs(os.path.dirname(os.path.abspath(whole)), exist_ok=True)
     with open(whole, "w", encoding="utf-8") as file:
-        file.write("\n".join(["# What the kit says of drivers, field by field", "", *DEVICE_HEAD, *rows, "", "## Operations", "",
-                              "The best hypothesis and how many results it explains, all of them; in bold the count where none explains all.", "",
+        file.write("\n".join(["# The probe kit on software drivers, field by field", "", *DEVICE_HEAD, *rows, "", "## Operations", "",
+                              "The best hypothesis and the number of results, all of which it explains; in bold the number that it explains where none explains all.", "",
                               *operations(operated), "", "## Field by field", "", *pages]))
 
 
