@@ -19,14 +19,14 @@ import zlib
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 PICTURES = os.path.join(FOLDER, "pictures", "gallery")
 VIEW = ["--profile", "ideal", "--size", "96x72", "--background", "1,1,1"]
-SCENES = [  # name in the page, arguments, what to look at
+SCENES = [  # name in the page, arguments, description
     ("teapot", ["teapot", "--alpha", "0.75", "--camera", os.path.join(FOLDER, "pictures", "teapot.json")],
      "where the green inside covers the outside, triangles were blended as submitted"),
-    ("volume-beam", ["volume-beam:slices=16"], "planes drawn far to near, and a cone across them"),
+    ("volume-beam", ["volume-beam:slices=16"], "planes submitted from far to near, and a cone across them"),
     ("random", ["random:triangles=150"], "triangles that cross one another, and exact ties"),
-    ("planes", ["planes"], "six planes one behind the other drawn far to near, so that `unsorted` is right, too"),
-    ("shadow-demo", ["shadow-demo"], "one transparent pane before an opaque teapot, lit by a shadow map"),
-    ("cyclic-overlap", ["hard:case=cyclic-overlap"], "three triangles, each before the next: no order of them is right"),
+    ("planes", ["planes"], "six parallel planes, submitted from far to near, so that `unsorted` is also right"),
+    ("shadow-demo", ["shadow-demo"], "one transparent pane in front of an opaque teapot, lit by a shadow map"),
+    ("cyclic-overlap", ["hard:case=cyclic-overlap"], "three triangles, each in front of the next: no order of them is right"),
 ]
 
 
