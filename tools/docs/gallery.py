@@ -95,7 +95,7 @@ def row_of(algorithm, captions):
 
 def page_of(shown):
     lines = ["# Gallery", "",
-             "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: the picture, and below it four times its",
+             "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: the picture above four times its",
              "difference from the exact A-buffer. The figures, in the order of the scenes: the greatest difference of a channel in 1/255, fragments in a",
              "wrong order, fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
     lines += [f"- **{name}**: `strata render {' '.join(arguments).replace(FOLDER + os.sep, 'tools/docs/')}`: {what}." for name, arguments, what in SCENES]
