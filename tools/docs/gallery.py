@@ -26,7 +26,7 @@ SCENES = [  # name in the page, arguments, description
     ("random", ["random:triangles=150"], "triangles that cross one another, and exact ties"),
     ("planes", ["planes"], "six parallel planes, submitted from far to near, so that `unsorted` is also right"),
     ("shadow-demo", ["shadow-demo"], "one transparent pane in front of an opaque teapot, lit by a shadow map"),
-    ("cyclic-overlap", ["hard:case=cyclic-overlap"], "three triangles, each in front of the next: no order of them is right"),
+    ("cyclic-overlap", ["hard:case=cyclic-overlap"], "three triangles, each in front of the next: no order is right"),
 ]
 
 
