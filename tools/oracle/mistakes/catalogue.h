@@ -32,11 +32,12 @@ struct Mistake {
 // Null if there is no mistake of that name.
 [[nodiscard]] const Mistake* find_mistake(std::string_view name);
 
-// The parts of the catalogue, one file each.
+// The parts of the catalogue, one file each; those of single algorithms come first.
 [[nodiscard]] std::span<const Mistake> mistakes_of_scene();
 [[nodiscard]] std::span<const Mistake> mistakes_of_machine();
 [[nodiscard]] std::span<const Mistake> mistakes_of_steps();
 [[nodiscard]] std::span<const Mistake> mistakes_of_programs();
+[[nodiscard]] std::span<const Mistake> mistakes_of_fixed_passes();
 [[nodiscard]] std::span<const Mistake> mistakes_of_picture();
 
 }  // namespace strata::oracle

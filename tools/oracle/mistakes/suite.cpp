@@ -28,6 +28,32 @@ SuiteScene showroom(const std::string& algorithm, const std::string& why, const 
             .set = on_blue};
 }
 
+// Up to some dozens of fragments a pixel, some of them of one depth.
+void add_fixed_passes(std::vector<SuiteScene>& all) {
+    const auto add = [&](const char* algorithm, const char* why, const char* profile, int triangles = 120) {
+        all.push_back({.name = std::string{"random."} + algorithm,
+                       .why = why,
+                       .scene = fmt::format("random:seed=7,triangles={}", triangles),
+                       .algorithm = algorithm,
+                       .profile = profile,
+                       .width = 32,
+                       .height = 32,
+                       .options = "--color-format rgba8 --background 0.2,0.3,0.5",
+                       .set = [](RenderOptions& o) {
+                           on_blue(o);
+                           o.color_format = Format::rgba8;
+                       }});
+    };
+    add("weighted_blended", "one pass, sums weighted by alpha and depth", "geforce8_dx101");
+    add("moments", "two passes, what is let through by moments of depth", "geforce8");
+    add("stochastic", "two passes, fragments on samples by a hash", "geforce8_dx101");
+    add("bucket_peel", "depths in sixteen buckets", "geforce8");
+    add("linked_list", "all fragments of a pixel in a list", "ideal", 400);
+    add("multi_layer", "four layers, merged as fragments come", "ideal");
+    add("atomic_loop", "the four nearest depths, the rest blended behind", "ideal");
+    add("hybrid_transparency", "the four nearest fragments, the rest averaged", "ideal");
+}
+
 std::vector<SuiteScene> scenes_of_suite() {
     std::vector<SuiteScene> all{
         showroom("dual", "dual depth peeling over everything"),
@@ -107,6 +133,7 @@ std::vector<SuiteScene> scenes_of_suite() {
                    .height = 48,
                    .options = blue,
                    .set = on_blue});
+    add_fixed_passes(all);
     return all;
 }
 

@@ -1,0 +1,47 @@
+// Mistakes in the algorithms of a fixed number of passes: each is named from its picture in a scene of the suite and
+// another is not, and some pictures are those of a model of the mistake.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/oracle/mistakes/scenes_of_test.h"
+#include "tools/oracle/mistakes/mistake_table.h"
+
+using namespace strata;
+using namespace strata::oracle;
+using strata::test::Bench;
+
+namespace {
+
+struct NamedIn {
+    const char* scene;
+    std::vector<const char*> mistakes;
+};
+const NamedIn mistakes_by_scene[] = {
+    {"random.weighted_blended",
+     {"weight_grows_with_depth", "weight_without_alpha", "revealage_cleared_to_0", "revealage_added", "sums_in_bytes",
+      "background_added_whole"}},
+    {"random.moments",
+     {"alpha_not_corrected", "moments_without_bias", "moments_of_window_depth", "absorbance_by_log2"}},
+    {"random.stochastic", {"sums_in_bytes", "background_added_whole", "alpha_not_corrected", "one_mask_for_all"}},
+    {"random.bucket_peel", {"buckets_of_whole_range", "bounds_cleared_to_0"}},
+    {"random.linked_list", {"list_cut_at_4", "list_cut_at_8", "list_of_8_nearest", "list_loses_every_second"}},
+    {"random.atomic_loop", {"one_node_too_few", "tail_lost", "core_again_in_tail", "tail_blended_twice"}},
+    {"random.hybrid_transparency", {"one_node_too_few", "tail_lost", "tail_not_averaged", "core_again_in_tail"}},
+    {"random.multi_layer", {"one_node_too_few"}}};
+
+}  // namespace
+
+TEST_CASE("mistakes of weights, moments, lists, tails, samples and buckets are named and no other is") {
+    for (const NamedIn& named : mistakes_by_scene) {
+        const Bench bench{named.scene};
+        const Lineup lineup{bench.laboratory};
+        INFO(named.scene);
+        CHECK(lineup.diagnose(bench.laboratory.right()).verdict == Verdict::right);
+        for (const char* mistake : named.mistakes) {
+            INFO(mistake);
+            const Diagnosis found = lineup.diagnose(bench.with(mistake));
+            REQUIRE(found.verdict == Verdict::one_mistake);
+            CHECK(found.findings.front().mistakes.front()->name == mistake);
+            CHECK(found.findings.front().agreeing == found.pixels);
+        }
+    }
+}
