@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Do the tests see a change of one step in the pixel path or in an algorithm?
+"""Checks whether the tests detect small changes of the rasterizer, the pipeline and the algorithms.
 
-    tools/mutate.py build                 # a copy of the sources with a seeded draw of the changes in it, chosen at run time: build/mutants
-    tools/mutate.py reach                 # which case of which test reaches which change
-    tools/mutate.py run --sample 400      # the first of the changes that are reached; goes on where it stopped
-    tools/mutate.py run --again           # the survivors, after build and reach have taken in new tests
+    tools/mutate.py build                 # a copy of the sources with a random selection of the changes, activated at run time: build/mutants
+    tools/mutate.py reach                 # which test cases reach which change
+    tools/mutate.py run --sample 400      # the first of the changes that are reached; resumes where it stopped
+    tools/mutate.py run --again           # the survivors, after build and reach with new tests
     tools/mutate.py report                # the score of each folder, and the survivors with a line each
 
 A change swaps a comparison with its neighbour or a sum with a difference, makes a constant one larger, an enumerator the next
-one, leaves out an operand of && or ||, negates a condition, or drops a statement. It is killed when a test that reaches it
-fails, crashes or runs out of time; tests of the same file come first, then those of the folder, the short ones first. Constant
-expressions are not changed. Survivors that no test can see stand in tests/mutants/equivalent.txt, with the reason.
+one, omits an operand of && or ||, negates a condition, or drops a statement. It is killed if a test that reaches it fails, crashes or exceeds its
+time; tests of the same file come first, then those of the folder, the short ones first. Constant
+expressions are not changed. Survivors that no test can detect are listed in tests/mutants/equivalent.txt, with the reason.
 """
 import argparse
 import concurrent.futures
@@ -32,9 +32,9 @@ from places import enums_of, places_in, with_changes  # noqa: E402
 FOLDER = ROOT / "build" / "mutants"
 SOURCE, BUILD = FOLDER / "source", FOLDER / "build"
 LIBRARIES = ("rasterizer", "pipeline", "peeling")
-MEMORY = 6 << 30  # a change may ask for any amount
-LEAST_SECONDS, TIMES_SLOWER = 10, 6  # of processor time, before a run counts as endless
-WALL_SECONDS = 3600  # for one that sleeps instead
+MEMORY = 6 << 30  # a change may allocate any amount
+LEAST_SECONDS, TIMES_SLOWER = 10, 6  # of processor time, before a change counts as endless
+WALL_SECONDS = 3600  # for a change that sleeps
 
 
 def tracked():
@@ -58,14 +58,14 @@ def load(name, default):
 
 
 def drawn(total, seed, sample):
-    """{number: its rank} of a seeded draw of `sample` of the numbers 1 to `total`. A smaller draw is the beginning of a larger one."""
+    """{number: its rank} of a random selection of `sample` of the numbers 1 to `total`. A smaller selection is the beginning of a larger one."""
     numbers = list(range(1, total + 1))
     random.Random(seed).shuffle(numbers)
     return {number: rank for rank, number in enumerate(numbers[:sample])}
 
 
 def write_sources(barred, sample, seed):
-    """The copy, with a draw of the changes in it. `barred` are [file, line] whose changes do not compile."""
+    """Writes the copy of the sources with the selected changes. `barred` are [file, line] whose changes do not compile."""
     files = tracked()
     enums = enums_of([(ROOT / f).read_text() for f in files if is_changed(f)])
     places = {f: places_in(f, (ROOT / f).read_text(), enums, f.endswith(("_simd.cpp", "-inl.h"))) for f in files if is_changed(f)}
@@ -87,7 +87,7 @@ def write_sources(barred, sample, seed):
         kept = []
         for place in places[file]:
             number += 1
-            place.number = number  # one that is left out keeps its number, so that others do
+            place.number = number  # an omitted change keeps its number, so that the numbers of others do not change
             if number in rank and [file, place.line] not in barred:
                 kept.append(place)
         write_if_other(SOURCE / file, with_changes(text, kept))
@@ -98,7 +98,7 @@ def write_sources(barred, sample, seed):
 
 
 def lines_of_errors(log):
-    """[file, line] of the copy at which an error, or what led to it, stands."""
+    """[file, line] of the copy at which the compiler reports errors or their causes."""
     found = set()
     for block in re.split(r"(?=^\S+: In )|(?=^\S+:\d+:\d+: (?:fatal )?error:)|(?=^In file included)", log, flags=re.M):
         if "error:" not in block:
@@ -112,7 +112,7 @@ def lines_of_errors(log):
 def build(arguments):
     SOURCE.mkdir(parents=True, exist_ok=True)
     barred = load("barred.json", [])
-    # An index beyond an array ends the test, as it does in the sanitized tests.
+    # An index beyond an array ends the test, as in the sanitized tests.
     flags = f"-w -Wno-narrowing -I{SOURCE}/tests -D_GLIBCXX_ASSERTIONS -fsanitize=bounds -fno-sanitize-recover=bounds"
     for attempt in range(12):
         write_sources(barred, arguments.sample, arguments.seed)
@@ -142,7 +142,7 @@ def program_of(library):
 
 
 def reached_again(library, target):
-    """What was written to `target`, with the cases of test files that changed since again; nothing where more than that changed."""
+    """The contents of `target`, updated for test files whose cases have changed since; none if more than that changed."""
     if not target.exists():
         return None, []
     since = target.stat().st_mtime
@@ -179,7 +179,7 @@ def reach(arguments):
 
 
 def order_of(place, case):
-    """Cases of the same file first, then of the same folder and library; the short ones first."""
+    """Sort key: cases of the same file first, then of the same folder and library; short ones first."""
     folder, stem = os.path.split(place["file"])
     own = os.path.basename(case["file"]).removesuffix("_test.cpp")
     near = own == re.sub(r"(_simd)?\.(h|cpp)$|-inl\.h$", "", stem)
@@ -188,12 +188,12 @@ def order_of(place, case):
 
 
 def limited(seconds, *command):
-    """The command within its memory and processor time: a busy machine makes no change endless."""
+    """The command with limits of memory and processor time, which do not depend on the load."""
     return ["prlimit", f"--as={MEMORY}", f"--cpu={int(seconds)}", *command]
 
 
 def outcome_of(number, cases):
-    """'' if all cases pass, else the name of the first that does not."""
+    """'' if all cases pass, else the name of the first that fails."""
     names = FOLDER / f"names.{number}.txt"
     names.write_text("".join(re.sub(r'([\\\\,\\["*])', r"\\\1", case["name"]) + "\n" for case in cases))
     seconds = LEAST_SECONDS + TIMES_SLOWER * sum(case["seconds"] for case in cases)
@@ -215,7 +215,7 @@ def outcome_of(number, cases):
 
 
 def killer_of(place, cases, most_seconds):
-    # What is made once is made in the first case alone, and any of the folder may look at it.
+    # Code that is executed once is executed in the first case only, and every case of the folder may test its result.
     here = "tests/" + os.path.dirname(place["file"])
     chosen = [c for c in cases if place["number"] in c["reached"] or os.path.dirname(c["file"]) == here]
     spent, groups = 0.0, []
@@ -239,7 +239,7 @@ def killer_of(place, cases, most_seconds):
 
 
 def sample_of(places, cases, count):
-    """The first `count` changes of the draw that tests reach, in an order that later tests, which reach more, only make longer."""
+    """The first `count` changes of the selection that tests reach, in an order to which later tests, which reach more, only append."""
     everywhere = {n for case in cases for n in case["reached"]}
     by_number = {p["number"]: p for p in places}
     order = [n for n in load("sample.json", []) if n in by_number]
@@ -249,7 +249,7 @@ def sample_of(places, cases, count):
 
 
 def results():
-    """[(number, [row of each try])], in the order of the sample."""
+    """[(number, [row of each test])], in the order of the sample."""
     path, found = FOLDER / "results.jsonl", {}
     for line in path.read_text().splitlines() if path.exists() else []:
         row = json.loads(line)
@@ -294,7 +294,7 @@ def reasons():
     return found
 
 
-LOOKED_AT = 400  # of the sample: tests were written for what survived of these, and for none behind them
+LOOKED_AT = 400  # of the sample: tests were written for the survivors of these, and for none after them
 
 
 def folder_of(row):
@@ -312,7 +312,7 @@ def percent(part, whole):
 
 
 def scores(rows):
-    """The table of one part of the sample: `rows` are (first try, last try)."""
+    """The table of one part of the sample: `rows` are (first test, last test)."""
     lines = ["| folder | changes | killed | equivalent | survived | score without equivalents | at the first try |", "|---|---|---|---|---|---|---|"]
     for folder in sorted({folder_of(last) for _, last in rows}) + ["all"]:
         here = [(fate(first), fate(last)) for first, last in rows if folder in ("all", folder_of(last))]

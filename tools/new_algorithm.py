@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Begins a new algorithm in the four files that name it (tools/docs/CONTRIBUTING.md).
+"""Creates a new algorithm in the four files that name it (tools/docs/CONTRIBUTING.md).
 
     tools/new_algorithm.py NAME [--paper "Author year"] [--summary "half a sentence"] [--root CHECKOUT]
 
-NAME is the algorithm's on the command line: small letters, digits and underscores. Written are its file peeling/algorithms/NAME.cpp, its test
-tests/peeling/algorithms/NAME_test.cpp, the last section of peeling/reference/algorithms.md and the first line of CHANGELOG.md. What stands
-there draws all fragments with OVER in one pass, needs a fragment program, and is listed last. Exit status 2 if the name cannot be one, or is taken.
+NAME is its name on the command line: lowercase letters, digits and underscores. The script writes its file peeling/algorithms/NAME.cpp, its test
+tests/peeling/algorithms/NAME_test.cpp, the last section of peeling/reference/algorithms.md and the first line of CHANGELOG.md. The created algorithm
+draws all fragments with OVER in one pass, needs a fragment program, and is listed last. Exit status 2 if the name is invalid or already used.
 """
 import argparse
 import pathlib
@@ -121,7 +121,7 @@ def read(path):
 
 
 def texts(options):
-    """What is to stand in each file, the whole of it."""
+    """The new text of each file, complete."""
     specification, news = options.root / "peeling/reference/algorithms.md", options.root / "CHANGELOG.md"
     sections, changes = read(specification), read(news)
     number = 1 + max(int(n) for n in re.findall(r"^## (\d+) ", sections, re.MULTILINE))

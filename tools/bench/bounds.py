@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What else is bounded beside peels.py's rows: formats, devices, commands that run everything.
+"""Tests bounds on times other than those of peels.py: of formats, devices, and commands with all algorithms.
 
     tools/bench/bounds.py [--models ../shared/models] [--captures ../shared/nv2a] [--before STRATA] [--repeat 3] [--rows formats,...]
 
-Standard library alone. Every ratio is of two times of one run of this script, each the least of `--repeat` taken in turn, which other work
-disturbs least: of a job the quickest of some frames on one thread, of a whole command the processor's.
-`--before` is a built command to compare whole commands with; without it their rows are left out. Exit status 1 if a bound is not kept.
+Needs only the standard library. Every ratio is of two times that are measured alternately, each the least of `--repeat`, on which other programs have
+the least effect: the fastest of some frames on one thread for a job, the processor time for a whole command.
+`--before` is a built command to compare whole commands with; without it their rows are omitted. Exit status 1 if a bound is exceeded.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ import tempfile
 from peels import ROOT, bench_command, frame_ms, processor_ms
 
 MODEL_SIZE, SLICES = "1024x1024", "volume-beam:slices=64,order=near"
-FRAMES = 5  # of a job in one turn
+FRAMES = 5  # of a job in one measurement
 LAYER_SIZE = {"planes": "96x96", "teapot": "256x256", "bunny": "256x256"}
 LAYER_PROFILES = ("geforce3", "geforce8", "ideal")
 
@@ -43,7 +43,7 @@ class Table:
         print("| what | first ms | second ms | ratio | bound | kept |\n|" + "---|" * 6)
 
     def row(self, what, first, second, bound, at_least=False):
-        """`first` and `second` measure milliseconds when called; the bound is on first / second."""
+        """`first` and `second` return milliseconds; the bound is on first / second."""
         pairs = [(first(), second()) for _ in range(self.repeat)]
         a, b = (min(of_side) for of_side in zip(*pairs))
         ratio = a / b
@@ -83,8 +83,8 @@ def device_rows(options, table):
         for algorithm in ("depth", "depth_units"):
             table.row(f"{name}, {algorithm}, geforce3 to geforce8", frame(options, scene, options.size, "geforce3", "rgba8", algorithm, alpha),
                       frame(options, scene, options.size, "geforce8", "rgba8", algorithm, alpha), 1.5)
-        # Behind its last layer depth_units draws nothing; shadow_map draws layers again that lie behind themselves (2 and 0.6 million
-        # fragments of the bunny in eight passes).
+        # After its last layer depth_units draws no fragment; shadow_map draws layers again that lie behind themselves (2 and 0.6 million fragments of
+        # the bunny in eight passes).
         for passes in (2, 8):
             limited = (*alpha, "--max-passes", str(passes))
             table.row(f"{name}, {passes} passes on geforce3, shadow_map to depth_units",
@@ -93,7 +93,7 @@ def device_rows(options, table):
 
 
 def driver_rows(options, table):
-    """Devices that draw as Mesa's software drivers do beside one that draws by exact planes."""
+    """Profiles of Mesa's software drivers compared with one that has exact planes."""
     for name, scene in models(options):
         for algorithm in ("dual", "front_to_back"):
             times = lambda profile: frame(options, scene, options.size, profile, "rgba8", algorithm, ("--alpha", "0.5"))
@@ -107,7 +107,7 @@ def layers_command(strata, scene, size, profile, algorithm, extra, folder):
 
 
 def layered(options, profile, folder):
-    """The algorithms whose layers both commands write on a profile."""
+    """The algorithms whose layers both commands write with a profile."""
     listed = subprocess.run([options.strata, "algorithms", "--json"], stdout=subprocess.PIPE, check=True)
     names = [each["name"] for each in json.loads(listed.stdout)]
     writes = lambda strata, name: subprocess.run(layers_command(strata, "teapot", "8x8", profile, name, (), folder),
@@ -116,7 +116,7 @@ def layered(options, profile, folder):
 
 
 def layer_rows(options, table):
-    """Whole commands, the audit on, an algorithm after the other: their sums."""
+    """Whole commands with audit, one for each algorithm: the sums of their times."""
     alpha = ("--alpha", "0.5")
     scenes = [("planes", SLICES, ()), ("teapot", "teapot", ()), *((n, p, alpha) for n, p in models(options) if n == "bunny")]
     with tempfile.TemporaryDirectory() as folder:

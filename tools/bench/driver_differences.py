@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Writes tools/bench/DIFFERENCES.md: how many pixels Strata draws unlike Mesa's own drivers, scene by scene.
+"""Writes tools/bench/DIFFERENCES.md: the number of pixels in which Strata differs from Mesa's drivers, for each scene.
 
     tools/bench/driver_differences.py [--models ../shared/models] [--drivers llvmpipe,llvmpipe_sse,softpipe] [--quick]
 
-Runs strata_port_beside (README.md says how it is built). Exit status 0: no pixel differs; 1: some do.
-Standard library alone.
+Calls strata_port_beside (built as in tools/bench/README.md). Exit status 0: no pixel differs; 1: some do. Needs only the standard library.
 """
 import argparse
 import json
@@ -16,10 +15,10 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 DRIVERS = ["llvmpipe", "llvmpipe_sse", "softpipe"]
-# No side is a power of two, half of which would scale exactly.
+# No size is a power of two, for which half pixels would be exact.
 SIZES = ["333x277", "500x375", "641x479", "999x333", "257x600"]
 FORMATS = [("rgba8", "d32f"), ("rgba16f", "d24"), ("rgba32f", "d16"), ("rgba8", "d24"), ("rgba16f", "d16"), ("rgba32f", "d32f")]
-MOST_PASSES = 12  # pictures of each peel beside its last one
+MOST_PASSES = 12  # pictures of each peel in addition to its last one
 JOBS = ["depth", "front_to_back", "dual", "coherent_stencil", "sums", "weighted_average", "weighted_average_pow"]
 
 
@@ -28,7 +27,8 @@ def camera(eye, center, near, far, fovy=42):
 
 
 def model_views(file, center, eye, near, far, alpha):
-    """Whole; cut at near and far; so close that it leaves the frame on all sides; so far that triangles are smaller than pixels."""
+    """Views of the whole model; cut off at near and far; so close that it leaves the frame on all sides; so far that triangles are smaller than
+    pixels."""
     span = [e - c for e, c in zip(eye, center)]
     at = lambda share: [c + share * s for c, s in zip(center, span)]
     middle = (near + far) / 2
@@ -75,7 +75,7 @@ def run(program, scene, size, formats, driver, jobs, folder):
 
 
 def cell(job):
-    """Pixels that differ in the last picture, and in those of earlier passes; passes where their numbers differ."""
+    """Pixels that differ in the last picture, and in those of earlier passes; or the two numbers of passes if they differ."""
     text = str(job["strata"]["differ"] + job["each_pass"]["differ"])
     if job["algorithm"] != "depth" and job["geometry_passes"] != job["strata"]["geometry_passes"]:
         text += f" ({job['geometry_passes']} and {job['strata']['geometry_passes']} passes)"
@@ -83,7 +83,7 @@ def cell(job):
 
 
 class Journal:
-    """What has been measured, a line of JSON each; without a file it remembers nothing."""
+    """Finished measurements, a line of JSON each; without a file none are stored."""
     def __init__(self, file):
         self.path = pathlib.Path(file) if file else None
         lines = self.path.read_text().splitlines() if self.path and self.path.exists() else []
@@ -99,11 +99,11 @@ class Journal:
 
 
 class Table:
-    """The rows of one driver, and what they add up to."""
+    """The rows of one driver, and their sums."""
     def __init__(self, driver):
         self.driver, self.rows, self.renderer = driver, [], ""
         self.pixels = self.fragments = self.clipped = self.wrong = 0
-        self.differ = {"coverage": 0}  # by job that was drawn
+        self.differ = {"coverage": 0}  # by job
     def add(self, scene, size, formats, jobs, coverage):
         found = {job["algorithm"]: job for job in jobs}
         self.fragments += coverage["fragments"]
@@ -127,8 +127,8 @@ class Table:
 
 
 def jobs_of(driver, scene, formats, index):
-    """OpenGL has no stencil beside D16, and runs of hundreds of passes take long. softpipe is slow: its colours are counted on a few
-    scenes of rgba8."""
+    """Omits coherent_stencil with D16, which has no stencil buffer in OpenGL, and for scenes of hundreds of passes. softpipe is slow: its colours are
+    compared only for a few scenes of rgba8."""
     if driver == "softpipe":
         return [job for job in JOBS if job != "weighted_average_pow"] if index % 6 == 0 else ["depth"]
     coherent = formats[1] != "d16" and not scene[0].endswith("000")
@@ -136,7 +136,7 @@ def jobs_of(driver, scene, formats, index):
 
 
 def page(tables):
-    """Totals alone; the rows of all scenes go to build/bench/differences.txt."""
+    """The totals; the rows of all scenes are in build/bench/differences.txt."""
     head = ["driver", "scenes", "pixels compared", "coverage", *JOBS]
     rows = [[table.driver, str(len(table.rows)), f"{table.pixels:,}", *(str(table.differ.get(key, "-")) for key in ["coverage", *JOBS])] for table in tables]
     return "\n".join([

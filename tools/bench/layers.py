@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Time against layers, for every peel: a table of microseconds a layer, and the same as a picture.
+"""Measures time against the number of layers for every peel: a table of microseconds per layer, and a diagram of it.
 
     tools/bench/layers.py [--slices 16,64,256] [--size 128x128] [--out tools/bench/layers.svg]
 
-Standard library alone. A peel whose line stays level costs the same for every layer; one that rises visits fragments again. Beside
-each stands a_buffer. Times are of the quickest frames, on one thread, which other work on the machine disturbs least.
+Needs only the standard library. A peel with a level line needs the same time for every layer; one that rises processes fragments again. a_buffer is
+included for comparison. Times are of the fastest frames on one thread, on which other programs have the least effect.
 """
 import argparse
 import math
@@ -41,7 +41,7 @@ def measure(options, slices):
 
 
 def picture(times, layers):
-    """Microseconds a layer over layers, both in powers of two."""
+    """Microseconds per layer against layers, both axes logarithmic to base two."""
     points = {name: [(n, 1e3 * times[n][name] / n) for n in layers if name in times[n]] for name in times[layers[0]]}
     values = [y for line in points.values() for _, y in line]
     low, high = math.floor(math.log2(min(values))), math.ceil(math.log2(max(values)))

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The time of every peel over the time of a_buffer in the same run: by device, format, layers and limits.
+"""Measures the time of every peel divided by that of a_buffer, by device, format, layers and limits.
 
     tools/bench/peels.py [--slices 64,256] [--size 512x512] [--orders near] [--models ../shared/models] [--formats rgba8] [--repeat 3]
 
-Writes PEELS.md, and a row for each job to build/bench/peels.txt. Needs the standard library only. A job runs on one thread. Jobs of a profile, format
-and limit run by turns, `--repeat` frames per turn; a job's time is the slowest of its quickest tenth of frames, which other work on the machine
-disturbs least. Its ratio is over the time of a_buffer with the same profile and format in the same run. The exit status is 1 if a ratio exceeds its
-bound. coherent_* have no bound on planes: far to near their listings need n / 2 or n iterations for n layers, each over all that is left.
+Writes PEELS.md, and a row for each job to build/bench/peels.txt. Needs only the standard library. A job has one thread. Jobs of a profile, format and
+limit are measured alternately, `--repeat` frames at a time; a job's time is the slowest of its fastest tenth of frames, on which other programs have
+the least effect. It is divided by the time of a_buffer with the same profile and format. The exit status is 1 if a ratio exceeds its bound.
+coherent_* have no bound on planes: from far to near their listings need n / 2 or n iterations for n layers, each over all remaining fragments.
 """
 import argparse
 import json
@@ -57,7 +57,7 @@ def processor_ms(command):
 
 
 def frame_seconds(command, algorithm, frames):
-    """Of each frame in one process, on one thread."""
+    """Times of the frames of one process, on one thread."""
     whole = [*command, "--algorithm", algorithm, "--threads", "1", "--warm-up", "0", "--repeat", str(frames), "--json"]
     done = subprocess.run(whole, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
@@ -66,7 +66,7 @@ def frame_seconds(command, algorithm, frames):
 
 
 def quick_ms(seconds):
-    """The slowest of the quickest tenth."""
+    """The slowest of the fastest tenth."""
     return sorted(seconds)[(len(seconds) - 1) // 10] * 1e3
 
 
@@ -131,7 +131,7 @@ def table(head, rows):
 
 
 def page(options, rows):
-    """Medians over a_buffer by algorithm and scene, of peels to the last layer; with a limit beside."""
+    """The page: medians of the ratios to a_buffer by algorithm and scene, of peels to the last layer and with a limit of passes."""
     columns = list(dict.fromkeys((row[0], row[3]) for row in rows))
     body = []
     for algorithm in dict.fromkeys(row[4] for row in rows):

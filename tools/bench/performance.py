@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes tools/bench/PERFORMANCE.md and build/bench/performance.txt: `strata bench` on three scenes and, where it is built, the comparison with Mesa.
+"""Writes tools/bench/PERFORMANCE.md and build/bench/performance.txt: times of `strata bench` for three scenes and, if it is built, the comparison
+with Mesa.
 
     tools/bench/performance.py [--models ../shared/models] [--size 1024x1024] [--repeat 5] [--quick]
 
-Needs the standard library only. Compare ratios; times only show the scale. The numbers of a table come from commands run by turns.
+Needs only the standard library. Compare ratios; times only show the scale. The numbers of a table are measured alternately.
 """
 import argparse
 import json
@@ -67,16 +68,16 @@ def scenes_of(options, folder):
 
 MEASURED = {}
 NO_MEMORY = "replay, 0 bytes"  # every pass rasterized, tile by tile
-TURNS = range(3)  # of what is compared run by run
+TURNS = range(3)  # repetitions of alternately measured commands
 
 
 def bench(options, scene, *, small=False, execution="replay", memory="256M", simd="best", effects="needed", threads=2, turn=0, counted=False):
-    """The jobs of one run of strata bench, which is done once a turn. `small`: where the slow ways can be waited for."""
+    """The jobs of one `strata bench`, which is called once per turn. `small`: the size at which slow executions take acceptable time."""
     spec = f"volume-beam:slices={options.slices // 4}" if small and scene.name == "planes" else scene.spec
     command = [options.strata, "bench", spec, *scene.options, "--size", options.small if small else options.size,
                "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--fragment-memory", memory, "--simd", simd,
                "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json"]
-    if counted:  # literally, in a run of each job's own
+    if counted:  # literally, each job in a process of its own
         command.insert(-1, "--counters")
     line = " ".join(command)
     if (line, turn) not in MEASURED:
@@ -93,7 +94,7 @@ def milliseconds(job):
 
 
 def in_turn(options, scene):
-    """Milliseconds by algorithm, turn after turn, of one thread and of two: what disturbs the machine disturbs both."""
+    """Milliseconds by algorithm, turn after turn, with one thread and with two, so that other programs affect both equally."""
     turns = {1: [], 2: []}
     for turn in TURNS:
         for threads, found in turns.items():
@@ -139,7 +140,7 @@ def within_section(options, scenes):
 
 
 def side_by_side_of(jobs, key, values):
-    """Rows of algorithm, milliseconds for each value of `key`, and each over the last."""
+    """Rows of algorithm, milliseconds for each value of `key`, and each divided by the last."""
     rows = []
     for algorithm in ALGORITHMS:
         times = {job[key]: milliseconds(job) for job in jobs if job["algorithm"] == algorithm}
@@ -151,7 +152,7 @@ def side_by_side_of(jobs, key, values):
 
 
 def ways_section(options, scenes, key, values, title, words):
-    """A table a scene, at the small size, where the slow way can be waited for."""
+    """A table per scene, at the small size, at which slow executions take acceptable time."""
     text = f"## {title}\n\n{words} {options.small}, a quarter of the planes, 2 threads, ms.\n"
     for scene in scenes:
         jobs = bench(options, scene, small=True, **{key: "all" if key == "simd" else ",".join(v for v in values if v != NO_MEMORY)})
@@ -220,11 +221,11 @@ def memory_section(options, scenes):
 
 
 STARTS = [["algorithms"], ["render", "teapot", "--size", "64x64"], ["render", "teapot", "--size", "64x64", "-o", "FILE"]]
-MOST_SECONDS, MOST_MB = 0.05, 30  # of a run that touches no PNG
+MOST_SECONDS, MOST_MB = 0.05, 30  # of a command that uses no PNG
 
 
 def start_section(options, folder):
-    """What a run takes that does next to nothing; the last one loads the image module."""
+    """The time and memory of commands that do almost nothing; the last one loads the image module."""
     rows = []
     for words in STARTS:
         has_file = "FILE" in words
@@ -263,7 +264,7 @@ def machine():
 
 
 def summary(options, scenes):
-    """What a reader wants first."""
+    """The most important results."""
     costs = [median_ratio([t["dual"] for t in turns], [t["depth"] for t in turns])
              for turns in (in_turn(options, scene)[2] for scene in scenes)]
     return (f"Strata emulates on a CPU. A dual peel to the last layer takes {min(costs):.1f} to {max(costs):.1f} times as long as one depth pass of the same scene. A pass "
@@ -280,7 +281,7 @@ def page(options, scenes):
 
 
 def tables(options, scenes, folder):
-    """What the page leaves out."""
+    """The tables that are not on the page."""
     return "\n".join([
         "# Performance: all tables\n", times_section(options, scenes),
         ways_section(options, scenes, "execution", ["literal", NO_MEMORY, "replay"], "literal : replay without memory : replay",

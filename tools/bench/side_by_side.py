@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs Mesa's llvmpipe (strata_port_beside) and Strata (strata bench) in turn on the same scenes and prints the ratio of each pair.
+"""Measures Mesa's llvmpipe (strata_port_beside) and Strata (strata bench) alternately on the same scenes and prints the ratio of each pair.
 
 Exit status 0: the programs drew the same fragments in the same number of passes; 1: they did not; 2: bad usage.
-tools/bench/README.md says how the comparison is made fair."""
+tools/bench/README.md explains the fairness of the comparison."""
 import argparse
 import json
 import os
@@ -12,9 +12,9 @@ import subprocess
 import sys
 import tempfile
 
-LONG_JOB = 10  # seconds of one llvmpipe run: such a job is measured once
+LONG_JOB = 10  # seconds of one llvmpipe measurement: such a job is measured once
 
-# The scenes of the table. The dragon's camera lets it span the picture from side to side without leaving it.
+# The scenes of the table. With the camera of the dragon it spans the whole width of the picture.
 SCENES = {
     "bunny": {"model": "bunny.glb", "alpha": "0.5",
               "camera": {"eye": [0.6, 0.4, 3], "center": [0, 0, 0], "up": [0, 1, 0],
@@ -25,18 +25,18 @@ SCENES = {
     "planes": {"scene": "volume-beam:slices=256", "quick_scene": "volume-beam:slices=64", "alpha": None,
                "camera": {"eye": [0.8, 0.6, 3.9], "center": [0, 0, 0], "up": [0, 1, 0],
                           "fovy_degrees": 45, "near": 2.5, "far": 5.5}},
-    # 1,047,554 triangles, most of them smaller than a pixel: asked for by name.
+    # 1,047,554 triangles, most of them smaller than a pixel; only if requested by name.
     "dense": {"scene": "teapot:tessellation=128", "alpha": "0.5",
               "camera": {"eye": [0.2, 4.5, 6], "center": [0.2, 1.2, 0], "up": [0, 1, 0],
                          "fovy_degrees": 45, "near": 2, "far": 14}},
 }
-# What Strata is timed under: llvmpipe's coverage with planes, codes and blends that round once, for which its fast paths are made.
+# The profile under which Strata is timed: llvmpipe's coverage with planes, codes and blends that are rounded once, for which Strata has fast paths.
 TIMED_PROFILE = {"base": "llvmpipe", "name": "llvmpipe_once",
                  "raster": {"clip": "guard_band", "viewport": "separate", "plane_rule": "exact", "depth_rounding": "nearest"},
                  "blend_rounding": "nearest", "unorm_rounding": "half_up", "half_rounding": "nearest_even"}
 ALGORITHMS = ["depth", "weighted_average", "dual", "front_to_back"]
 
-# The ratios that Strata is to reach with 2 threads at 1024x1024.
+# The required ratios with 2 threads at 1024x1024.
 ASKED = {(scene, job): ratio for scene in ("bunny", "dragon")
          for job, ratio in (("depth", 4), ("weighted_average", 3.5), ("dual", 20), ("front_to_back", 20))}
 ASKED |= {("planes", "depth"): 1, ("planes", "weighted_average"): 2, ("planes", "dual"): 50, ("planes", "front_to_back"): 50}
@@ -68,13 +68,13 @@ def parse():
 
 
 def processor_seconds():
-    """Of all processes that have ended."""
+    """The processor time of all processes that have ended."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def run(words):
-    """Standard output; what the program says on standard error is for people."""
+    """Returns the standard output; standard error is shown to the user."""
     ended = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if ended.returncode not in (0, 1):
         sys.exit(f"side_by_side.py: {' '.join(words)}: {ended.stderr.strip().splitlines()[-1:]}")
@@ -82,7 +82,7 @@ def run(words):
 
 
 def timed_profile(folder):
-    """A file of TIMED_PROFILE."""
+    """Writes TIMED_PROFILE to a file."""
     path = os.path.join(folder, "timed.json")
     with open(path, "w", encoding="ascii") as file:
         json.dump(TIMED_PROFILE, file)
@@ -96,7 +96,7 @@ class Bench:
         self.profile = timed_profile(folder)
 
     def words(self, name, algorithm):
-        """What both programs get alike."""
+        """The options that both programs get."""
         scene, o = SCENES[name], self.options
         camera = os.path.join(self.folder, name + ".json")
         with open(camera, "w", encoding="ascii") as file:
@@ -127,7 +127,7 @@ class Bench:
         return {"all": job["seconds"]["all"], "passes": job["geometry_passes"]}
 
     def timed(self, program, name, algorithm):
-        """A frame of `program`: the median of its wall times, or what further frames add to its processor time."""
+        """The time of one frame of `program`: the median of its elapsed times, or the processor time of each further frame."""
         repeat = self.options.repeat
         if self.options.clock == "wall":
             found = program(name, algorithm, "--repeat", str(repeat))

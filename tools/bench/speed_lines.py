@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Counts the lines of the core that exist for speed alone: without them every frame is the same, and slower.
+"""Counts the lines of the core that exist only for speed: without them every frame has the same bits and takes longer.
 
     tools/bench/speed_lines.py [--most LINES]
 
-Prints every file with its lines, by what it buys; exit status 1 if they are more than `--most`.
+Prints every file with its lines, grouped by their purpose; exit status 1 if there are more than `--most`.
 """
 import argparse
 import pathlib

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Makes two pages from the folders that `strata cost` wrote: a short one to read, and one with every row and every frontier.
+"""Makes two pages from the folders that `strata cost` wrote: a short one, and one with every row and every frontier.
 
 usage: page.py FOLDER... [--twice FOLDER FOLDER] -o RESULTS.md --whole WHOLE.md
 
-RESULTS.md has at most 600 words and, beside it, the frontier of each scene by default as RESULTS.frontier.SCENE.default.svg. WHOLE.md has
-all frontiers beside it. Figures are those of cost.csv, results.csv and timings.jsonl; a page counts, takes least and greatest, and divides
-two times of one column. The two folders of --twice are runs of one command.
+RESULTS.md has at most 600 words; the default frontier of each scene is written to its folder as RESULTS.frontier.SCENE.default.svg. All frontiers are
+written to the folder of WHOLE.md. Figures are from cost.csv, results.csv and timings.jsonl; a page only counts, takes minima and maxima, and divides
+times of a column. The two folders of --twice are results of the same command.
 """
 import argparse
 import csv
@@ -71,7 +71,7 @@ def pictures_of(folder):
 
 
 def frontier(folder, picture, rows):
-    """The names on the picture's frontier, with their rows' figures."""
+    """The names on the frontier of the picture, with the figures of their rows."""
     names = frontier_names(folder, picture)
     of_name = {f"{row['knob']} {row['value']}": row for row in rows}
     return table(["on the frontier", "RMSE", "default", "literal", "card"],
@@ -80,7 +80,7 @@ def frontier(folder, picture, rows):
 
 
 def distinct_points(folder, picture, rows):
-    """Points of the frontier whose error or time is another than that of the point before."""
+    """Points of the frontier whose error or time differs from that of the previous point."""
     column = picture.split(".")[-2]
     of_name = {f"{row['knob']} {row['value']}": row for row in rows}
     return len({(of_name[name]["rmse"], of_name[name][column]) for name in frontier_names(folder, picture)})
@@ -115,12 +115,12 @@ def range_of(values):
 
 
 def between(rows, knob):
-    """The least and the greatest RMSE among the knob's cells that ran."""
+    """The least and the greatest RMSE of the knob's finished cells."""
     return range_of([float(row["rmse"]) for row in rows if row["knob"] == knob and row["outcome"] == "done"])
 
 
 def price_of_the_best(rows):
-    """The least error of an algorithm, and its time over the fastest one's."""
+    """The least error of an algorithm, and its time divided by that of the fastest one."""
     drawn = [row for row in rows if row["default"] and row["knob"] == "algorithm"]
     fastest = min(drawn, key=lambda row: float(row["default"]))
     best = min(drawn, key=lambda row: (float(row["rmse"]), float(row["default"])))
@@ -134,7 +134,7 @@ def weight_of_knobs(rows):
 
 
 def price_of_emulation(rows):
-    """Literal execution and the audit in times of the default's time."""
+    """The times of literal execution and of the audit, divided by the default's time."""
     of_name = {(row["knob"], row["value"]): row for row in rows}
     base = next(float(row["default"]) for row in rows if row["knob"] == "default")
     literal, audit = (of_name[name] for name in (("execution", "literal"), ("audit", "on")))
@@ -143,7 +143,7 @@ def price_of_emulation(rows):
 
 
 def three_sentences(folders):
-    """What was found, of all scenes, from their figures."""
+    """The three main results of all scenes."""
     scenes = [rows_of(os.path.join(folder, "cost.csv")) for folder in folders]
     yield f"The most accurate algorithm takes {' and '.join(map(price_of_the_best, scenes))}."
     yield f"The algorithm matters most: {'; '.join(map(weight_of_knobs, scenes))}."
@@ -158,7 +158,7 @@ KNOBS = {"algorithm": "algorithm, by colour format", "depth": "depth format and 
 
 
 def knob_rows(folders):
-    """For each knob and scene: the range of its errors, and of its times over the default's."""
+    """For each knob and scene: the range of its errors, and of its times divided by the default's."""
     scenes = [rows_of(os.path.join(folder, "cost.csv")) for folder in folders]
     for knob, name in KNOBS.items():
         cells = [name]
@@ -175,7 +175,7 @@ def knob_table(folders):
 
 
 def sentence_on_chain(folder):
-    """What remains of the error where the machine's steps are made exact in the order of the pipeline."""
+    """The remaining error after each step of the emulation is made exact, in the order of the pipeline."""
     rows = rows_of(os.path.join(folder, "cost.csv"))
     left = {row["value"]: float(row["rmse"]) for row in rows if row["knob"] == "chain"}
     return f"{left['machine']:.3g} on {rows[0]['scene']}, {left['snap']:.3g} with exact corners, {left['blend']:.3g} with exact blending as well, {left['store']:.3g} stored exactly"
@@ -189,7 +189,7 @@ def sentence_on_repeats(twice):
 
 
 def shown_frontier(folder, page):
-    """The picture of the error against what one waits, copied beside the page."""
+    """The picture of errors against elapsed times, copied to the folder of the page."""
     picture = next(name for name in pictures_of(folder) if name.endswith(".default.svg"))
     beside = f"{os.path.splitext(os.path.basename(page))[0]}.{picture}"
     shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Compares two runs of `strata cost`: errors and counts have to be the same bytes, times the same but for their spread.
+"""Compares two results of `strata cost`: errors and counts must have the same bytes, and times must agree within their spread.
 
 usage: same.py FOLDER FOLDER
 
-A time is a cell's median ratio to the default cell, by default and literally, as timings.jsonl has them. Two times agree if they differ
-by no more than the larger of the two spreads (greatest less least round). Exit status 1: bytes differ, or fewer than 95 % agree; 2: a
-folder is no finished run.
+A time is a cell's median ratio to the default cell, by default and literally, from timings.jsonl. Two times agree if they differ by at most the
+larger of the two spreads (greatest minus least round). Exit status 1: bytes differ, or fewer than 95 % agree; 2: a folder has no finished results.
 """
 import json
 import os
@@ -26,7 +25,7 @@ def bytes_of(folder, name):
 
 
 def timings_of(folder):
-    """By cell; of several timings of one the last counts, as in cost.csv."""
+    """Timings by cell; of several timings of a cell the last one is used, as in cost.csv."""
     return {line["cell"]: line for line in lines_of(folder, "timings.jsonl")}
 
 
@@ -40,7 +39,7 @@ def agree(first, second):
 
 
 def compared(folders, column):
-    """The cells that both runs timed, and those of them whose times are apart."""
+    """The cells that both results have timed, and those of them whose times do not agree."""
     first, second = (timings_of(folder) for folder in folders)
     timed = [cell for cell in sorted(first) if cell in second and first[cell][column] and second[cell][column]]
     apart = [cell for cell in timed if not agree(first[cell][column], second[cell][column])]
@@ -48,7 +47,7 @@ def compared(folders, column):
 
 
 def print_column(folders, column):
-    """Prints what agrees and what is apart; whether enough agrees."""
+    """Prints the agreement of a column; returns whether enough times agree."""
     timed, apart = compared(folders, column)
     if not timed:
         print(f"{column} times: no cell has one in both runs")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes a page a command, all its options and examples: command_reference.py PROGRAM_FOLDER FOLDER; they begin at FOLDER/README.md
+"""Writes a page for each command, with all its options and examples: command_reference.py PROGRAM_FOLDER FOLDER; they begin at FOLDER/README.md
 
-The text is what `strata help COMMAND all` prints, which is made from what the program parses with, like its manual pages.
+The text is the output of `strata help COMMAND all`, which, like the manual pages, is generated from the definitions by which the program parses
+options.
 """
 import os
 import re

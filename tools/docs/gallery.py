@@ -2,9 +2,9 @@
 """Makes tools/docs/gallery.md and its pictures: every built-in scene by every algorithm, with its error.
 
     tools/docs/gallery.py build/release                 writes them again
-    tools/docs/gallery.py build/release --check [SCENE] compares them, or one scene's, with what the program draws; exit status 1 if they differ
+    tools/docs/gallery.py build/release --check [SCENE] compares them, or one scene's, with the program's pictures; exit status 1 if they differ
 
-A picture of the gallery is a strip: for each scene what an algorithm draws, above four times its difference from the exact A-buffer. Needs no
+A picture of the gallery is a strip: for each scene the picture of an algorithm, above four times its difference from the exact A-buffer. Needs no
 package.
 """
 import json
@@ -64,7 +64,7 @@ def png_of(width, rows):
 
 
 def drawn(program, arguments):
-    """Of each algorithm its picture above its error, and its entry of the statistics."""
+    """For each algorithm its picture above its difference, and its entry of the statistics."""
     found = []
     with tempfile.TemporaryDirectory() as folder:
         run = [program, "render", *arguments, *VIEW, "--algorithm", "all", "-o", os.path.join(folder, "x.png"), "--stats", "-"]
@@ -79,7 +79,7 @@ def drawn(program, arguments):
 
 
 def caption(entry):
-    """What the audit says of a run."""
+    """The result of the audit."""
     off = entry["max_difference_from_a_buffer"]
     said = [f"{off:.1f}" if off is not None else "-"]
     if entry["order_errors"]:
@@ -116,7 +116,7 @@ def strips(shown):
 
 
 def check(shown, whole):
-    """Which parts of the gallery are not what the program draws."""
+    """The parts of the gallery that differ from the program's pictures."""
     wrong = []
     kept = dict(re.findall(r"^\| `(\w+)` \| .* \| (.*) \|$", whole, re.MULTILINE))
     for name, pictures in shown.items():

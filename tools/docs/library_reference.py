@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes pages of the public headers (tools/library/strata) by Doxygen: library_reference.py FOLDER; they begin at FOLDER/html/index.html
 
-Doxygen reads comments with three strokes alone; as its filter (`--filter FILE`) this script prints a header with a third stroke in each.
-Every warning is an error. Exit status 77 where Doxygen is not installed (Debian package doxygen).
+Doxygen reads only comments with three slashes; as its filter (`--filter FILE`) this script prints a header with a third slash in each comment. Every
+warning is an error. Exit status 77 if Doxygen is not installed (Debian package doxygen).
 """
 import os
 import re
@@ -27,7 +27,7 @@ WARN_AS_ERROR = FAIL_ON_WARNINGS
 
 
 def filtered(text):
-    # Doxygen finds no scope for a specialisation of another library's template.
+    # Doxygen finds no scope for a specialisation of a template of another library.
     text = re.sub(r"^template <>\nstruct Catch::.*?^};", "", text, flags=re.MULTILINE | re.DOTALL)
     lines = text.splitlines()
     name, _, what = lines[0][3:].partition(" - ")

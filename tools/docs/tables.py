@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the tables of algorithms that pages have between their markers, from what `strata list algorithms --json` says.
+"""Writes the tables of algorithms between the markers of pages, from the output of `strata list algorithms --json`.
 
     tools/docs/tables.py build/release            writes them
     tools/docs/tables.py build/release --check    compares them; exit status 1 and a line for each that differs
 
-A table stands between `<!-- table NAME: tools/docs/tables.py -->` and `<!-- end of table -->`.
+The markers of a table are `<!-- table NAME: tools/docs/tables.py -->` and `<!-- end of table -->`.
 """
 import argparse
 import json
@@ -26,7 +26,7 @@ def table(head, rows):
 
 
 def file_of(name):
-    """The listing that has the algorithm's entry."""
+    """The source file that has the algorithm's entry."""
     return next(path.name for path in sorted((ROOT / "peeling/algorithms").glob("**/*.cpp")) if f'.name = "{name}"' in path.read_text(encoding="utf-8"))
 
 

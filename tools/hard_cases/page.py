@@ -3,8 +3,8 @@
 
 usage: page.py FOLDER -o RESULTS.md
 
-RESULTS.md has at most 600 words; the picture, RESULTS.verdicts.svg, stands beside it. FOLDER/RESULTS.md stays the whole page: a section, a
-picture and the tables of every case. FOLDER/processor_seconds is what make_page.sh noted of its shards.
+RESULTS.md has at most 600 words; the picture, RESULTS.verdicts.svg, is in its folder. FOLDER/RESULTS.md is the whole page, with a section, a picture
+and the tables of every case. FOLDER/processor_seconds has the times of the shards of make_page.sh.
 """
 import argparse
 import json
@@ -55,7 +55,7 @@ def sentence_on_algorithms(ran):
 
 
 def sentence_on_flicker(ran):
-    """Changes of layer order along the path of 64 frames, with depth_units, which every device can run."""
+    """The changes of layer order along the path of 64 frames, with depth_units, which every device supports."""
     flips, rows = Counter(), Counter()
     for line in ran:
         if line["flicker"] and line["depth"] == "d24" and line["algorithm"] == "depth_units":
@@ -67,7 +67,7 @@ def sentence_on_flicker(ran):
 
 
 def check_rows(lines):
-    """What has to hold in every run, and in how many it does not."""
+    """The properties that must hold in every cell, and the number of cells in which they do not."""
     ran = [line for line in lines if line["outcome"] == "done"]
     wrong = [line for line in ran if line["fragments"]["wrong_pixels"] > 0]
     excess = [line for line in ran if is_excess(line)]

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Draws which algorithms get through which hard cases: a picture of the lines that `strata hard-cases` wrote.
+"""Draws a map of the verdicts of all algorithms on all hard cases, from the lines that `strata hard-cases` wrote.
 
 usage: verdict_map.py FOLDER -o MAP.svg
 
-A row a case, a column an algorithm, in a field a stripe a device: the worst verdict of its depth formats.
+A row is a case, a column an algorithm, and each field has a stripe per device: the worst verdict of its depth formats.
 """
 import argparse
 import itertools
 import json
 import os
 
-# From the best to the worst; in colours that people with any sight tell apart.
+# From the best to the worst, in colours that are distinguishable with any colour vision.
 COLORS = {"refused": "#e8e8e8", "stable": "#56b4e9", "degrades gracefully": "#f0e442", "breaks as the hardware did": "#d55e00",
           "failed": "#000000"}
 STRIPE, ROW, GAP, LEFT, TOP = 6, 11, 2, 210, 190  # units of the picture
@@ -21,7 +21,7 @@ def unique(lines, key):
 
 
 def worst_verdicts(lines):
-    """The worst of all depth formats by case, algorithm and profile."""
+    """The worst verdict of all depth formats by case, algorithm and profile."""
     order, worst = list(COLORS), {}
     for line in lines:
         place = line["case"], line["algorithm"], line["profile"]
@@ -43,7 +43,7 @@ def legend(profiles):
 
 
 def fields(worst, row, case, algorithms, profiles):
-    """The stripes of a row as verdict and outline; neighbours of one verdict in a field are one."""
+    """The stripes of a row as verdict and outline; neighbours with one verdict in a field are merged."""
     y = TOP + ROW * row
     for column, algorithm in enumerate(algorithms):
         x = LEFT + (STRIPE * len(profiles) + GAP) * column

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The short page and its plot, from the table of suites that `strata hardware-check -o` wrote: head.py TABLE.md RESULTS.svg.
+"""Makes the short page and its plot from the table of suites that `strata hardware-check -o` wrote: head.py TABLE.md RESULTS.svg.
 
 The page, at most 600 words, is printed.
 """
@@ -11,7 +11,8 @@ LINE, LEFT, UNIT = 15, 260, 14
 
 
 def suites_of(path):
-    """Name; pictures that are equal, within their bound, beyond it and not modelled; pixels compared and off; the largest difference."""
+    """Name; numbers of pictures that are equal, within their bound, beyond it and not modelled; pixels compared and different; the largest
+    difference."""
     found, inside = [], False
     with open(path, encoding="utf-8") as file:
         for line in file:

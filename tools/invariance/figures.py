@@ -1,4 +1,4 @@
-"""Plots as SVG by gnuplot (Debian package gnuplot-nox). Nothing in them depends on time or host."""
+"""Plots as SVG by gnuplot (Debian package gnuplot-nox), independent of time and host."""
 import shutil
 import subprocess
 import sys
@@ -10,7 +10,7 @@ set tics nomirror
 set grid ytics lc rgb "#dddddd"
 set key below Left reverse
 """
-ZERO = 0.5  # where a logarithmic axis has its zero: every count above is at least 1
+ZERO = 0.5  # the position of zero on a logarithmic axis: all other counts are at least 1
 # Distinct in hue and in lightness.
 COLORS = ["#0b3c8c", "#d95f02", "#1b9e77", "#7b3294", "#666666", "#e7298a", "#66a61e", "#a6761d"]
 
@@ -37,7 +37,7 @@ def lines_plot(title, x_label, y_label, series, log_x=False):
 
 
 def zero_and_powers_plot(title, x_label, y_label, series, shaded=None):
-    """Both axes logarithmic, with a place of their own for zeros; `shaded`: (x0, x1), an interval of x to mark."""
+    """Both axes are logarithmic, with a position for zeros; `shaded`: (x0, x1), an interval of x to mark."""
     xs = sorted({x for points in series.values() for x, _ in points})
     ends = [shaded[1]] if shaded else []
     script = [HEAD, f"set title {quoted(title)}", f"set xlabel {quoted(x_label)}", f"set ylabel {quoted(y_label)}", "set logscale xy",

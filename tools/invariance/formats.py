@@ -1,4 +1,4 @@
-"""The section on the chip's depth formats: what a sweep of formats.json says of them."""
+"""The section of the page on the chip's depth formats, from the sweep of formats.json."""
 import figures
 import sections
 from sections import groups, measured, total
@@ -8,7 +8,7 @@ SHOWN = [("window_z", "d16"), ("window_z", "d16f"), ("window_z", "d24"), ("windo
 
 
 def ratio(row):
-    """far / near as the plan asked for it: the planes are rounded, so their quotient is not quite it."""
+    """far / near as in the plan: the planes are rounded, so that their quotient differs slightly."""
     return float(f"{sections.ratio(row):.4g}")
 
 
@@ -17,7 +17,7 @@ def name_of(kind):
 
 
 def merged(row):
-    """Fragments that are no layer of their own: another of their pixel has their code, or it is that of the cleared buffer."""
+    """Fragments that are not layers of their own: another fragment of their pixel has their code, or it is the code of the cleared buffer."""
     return row["fragments"] - row["layers"]
 
 
@@ -31,7 +31,7 @@ def kept_apart(rows):
 
 
 def reaches(table):
-    """A sentence a scene: how far each format keeps layers apart."""
+    """A sentence per scene: up to which far/near each format distinguishes layers."""
     said = []
     for scene in dict.fromkeys(scene for scene, _ in table):
         ranges = sorted(far for s, far in table if s == scene)
@@ -73,7 +73,7 @@ def merging(rows):
 
 
 def least_bias(own):
-    """The smallest tried bias that peels without error, as the table shows it."""
+    """The smallest tested bias that peels without error."""
     right = [r for r in own if r["outcome"] == "done" and total(r) == 0]
     if not right:
         return "none"
@@ -106,7 +106,7 @@ def section(rows):
 
 
 def short_section(rows):
-    """Blocks for the short page: how far each format keeps the layers of the first scene apart."""
+    """Blocks for the short page: up to which far/near each format distinguishes the layers of the first scene."""
     rows = measured(rows)
     return [("text", "Depth formats, stored and compared along one path: the greatest far/near of those tried at which a format merges at most one fragment in a "
                      "thousand with another layer. 16 bits of w distinguish more layers than 24 bits of z."),

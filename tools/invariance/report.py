@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Plots and one page from the results of `strata invariance`.
+"""Makes plots and a page from the results of `strata invariance`.
 
-    tools/invariance/report.py FOLDER...                     # index.html in the first, everything inside it
-    tools/invariance/report.py FOLDER... --markdown PAGE.md  # PAGE.md, and its plots as PAGE.NAME.svg beside it
-    tools/invariance/report.py FOLDER... --short PAGE.md     # the same with the answer alone: at most 600 words and one plot
+    tools/invariance/report.py FOLDER...                     # index.html in the first folder, with everything inside
+    tools/invariance/report.py FOLDER... --markdown PAGE.md  # PAGE.md, and its plots as PAGE.NAME.svg in its folder
+    tools/invariance/report.py FOLDER... --short PAGE.md     # the same, with at most 600 words and one plot
     tools/invariance/report.py FOLDER... --formats FOLDER    # with the section on depth formats
 
-Standard library and gnuplot alone. The page depends on results.jsonl, and on timings.jsonl for ratios of times.
+Needs only the standard library and gnuplot. The page depends on results.jsonl, and on timings.jsonl for ratios of times.
 """
 import argparse
 import base64
@@ -37,7 +37,7 @@ def load(path):
 
 
 def results(folder):
-    """Rows with what the page needs besides: seconds of the peel, and where the cell's pictures would be."""
+    """The rows with additional values for the page: seconds of the peel, and the path of the cell's pictures."""
     timings = folder / "timings.jsonl"
     seconds = {line["cell"]: line["peel_seconds"] for line in load(timings)} if timings.exists() else {}
     rows = load(folder / "results.jsonl")
@@ -48,7 +48,7 @@ def results(folder):
 
 
 def markdown_of(blocks, page):
-    """A block is (kind, ...): title, heading, text, list, table, plot, picture. Pictures stay out of a page that is kept."""
+    """A block is (kind, ...): title, heading, text, list, table, plot, picture. Pictures are omitted on pages in the repository."""
     lines = []
     for kind, *content in blocks:
         if kind == "title":
@@ -71,11 +71,11 @@ def markdown_of(blocks, page):
     return "\n".join(lines).rstrip() + "\n"
 
 
-PAGE = pathlib.Path(__file__).resolve().parents[1] / "strata" / "report" / "page"  # the look of every page of strata
+PAGE = pathlib.Path(__file__).resolve().parents[1] / "strata" / "report" / "page"  # the style of every page of strata
 
 
 def inline(text):
-    """Markdown's `code` to HTML; everything else is text."""
+    """Converts Markdown's `code` to HTML; the rest is text."""
     parts = html.escape(text).split("`")
     return "".join(f"<code>{part}</code>" if index % 2 else part for index, part in enumerate(parts))
 
@@ -87,12 +87,12 @@ def table_of(header, rows):
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>")
 
 
-# gnuplot's ink is black and its curves are dark: on a dark page they are turned light, each in its own hue.
+# gnuplot draws in black and dark colours: on a dark page they are inverted, each with its own hue.
 DARK = "@media (prefers-color-scheme: dark) { figure.wide svg { filter: invert(1) hue-rotate(180deg); } }\n"
 
 
 def element_of(svg):
-    """gnuplot's SVG as an element of a page, whose background shows through."""
+    """gnuplot's SVG as an element of a page, with a transparent background."""
     return svg[svg.index("<svg"):].replace('fill="#ffffff"', 'fill="none"')
 
 

@@ -1,4 +1,4 @@
-"""The page's sections: what is said of the rows of a sweep. Each function gives blocks, or none where its rows are missing."""
+"""The sections of the page, from the rows of a sweep. Each function returns blocks, or none if it has no rows."""
 import math
 
 import figures
@@ -7,9 +7,9 @@ WHAT = ("scene", "profile", "algorithm", "write_path", "compare_path", "depth_fo
 
 
 MOST_PICTURES = 24  # cells, in the order of the plan
-MOST_SAFE = 8  # safe intervals that the head names; the others stand in the list below
+MOST_SAFE = 8  # safe intervals in the head; the others are in the list below
 
-# Choices that most sweeps leave alone: a row and a label have those that vary in the whole page.
+# Options that most sweeps do not vary: rows and labels name those that vary in the whole page.
 OTHER_KNOBS = [("size", lambda row: f"{row['width']}x{row['height']}"),
                ("orbit", lambda row: "-" if row["orbit"] is None else f"{row['orbit'][0]:g},{row['orbit'][1]:g}"),
                ("camera", lambda row: row.get("camera") or "-"),
@@ -19,7 +19,7 @@ OTHER_KNOBS = [("size", lambda row: f"{row['width']}x{row['height']}"),
 
 
 def name_other_knobs(rows):
-    """Gives each row `also`: (title, value) of every one of OTHER_KNOBS that is not the same in all rows."""
+    """Gives each row `also`: (title, value) of every one of OTHER_KNOBS that differs between rows."""
     varying = [(title, value) for title, value in OTHER_KNOBS if len({value(row) for row in rows}) > 1]
     for row in rows:
         row["also"] = tuple((title, value(row)) for title, value in varying)
@@ -54,7 +54,7 @@ def decibels(row):
 
 
 def ratio(row):
-    """Of the depth range; nan where the view is the scene's own, whose planes were not given."""
+    """far / near; nan for the scene's own view, whose planes are not known."""
     return row["far"] / row["near"] if row["near"] else math.nan
 
 
@@ -75,7 +75,7 @@ def measured(rows):
 
 
 def plain(rows):
-    """Rows that compare paths as they are: no remedy, one way of drawing, the profile's own hypothesis. Each once."""
+    """Rows that compare the unchanged paths: no remedy, one way of drawing, the profile's own hypothesis. Each once."""
     found = {}
     for r in alike(rows):
         if r["remedy"] == "none":
@@ -84,18 +84,18 @@ def plain(rows):
 
 
 def alike(rows):
-    """Rows whose passes draw the same vertices, of the profile's own hypothesis."""
+    """Rows whose passes draw the same vertices, with the profile's own hypothesis."""
     return [r for r in measured(rows) if r["split"] == "none" and "+" not in r["vertex_path"] and r["hypothesis"] == "profile"]
 
 
 def spread(rows):
-    """The least and the greatest share that differs, and by how much: of one depth format."""
+    """The least and the greatest fraction that differs, and the largest difference, of one depth format."""
     shares = [share(r) for r in rows]
     return f"{percent(min(shares))} to {percent(max(shares))} of the fragments of `{rows[0]['depth_format']}` differ, by {max(r['ulp_max'] for r in rows):,} ulp at most"
 
 
 def findings(rows, most_named=MOST_SAFE):
-    """What was found, in three sentences from the rows themselves; none where a kind of row is missing."""
+    """The three main results, computed from the rows; none if a kind of row is missing."""
     unlike = [r for r in alike(rows) if r["remedy"] == "none" and r["write_path"] not in ("depth_replace", r["compare_path"]) and r["differing"] > 0]
     replaced = [r for r in alike(rows) if "depth_replace" in (r["write_path"], r["remedy"])]
     judged = biases(rows)
@@ -132,7 +132,7 @@ def codes(safe):
 
 
 def answers(rows):
-    """What the page says in a line each, from the rows themselves."""
+    """The results of the page in one line each, computed from the rows."""
     said = []
     for (profile, write, compare, depth), own in groups(plain(rows), "profile", "write_path", "compare_path", "depth_format"):
         fragments, differing = sum(r["fragments"] for r in own), sum(r["differing"] for r in own)
@@ -356,7 +356,7 @@ def kind_of(row):
 
 
 def remedy_rows(rows):
-    """For each kind of remedy: how often it was tried on peels that need one, and how often every layer came once."""
+    """For each kind of remedy: the number of tests on peels that need one, and the number in which every layer occurs once."""
     keys = ("scene", "profile", "algorithm", "compare_path", "depth_format", "near", "far", "also")
     tried = {kind: [] for kind in KINDS}
     for _, own in groups(alike(rows), *keys):
@@ -379,7 +379,7 @@ def pair_rows(rows):
 
 
 def short_page(title, rows, study):
-    """The page that is kept: at most 600 words. `study`: rows of the sweep of depth formats, may be empty."""
+    """The page in the repository: at most 600 words. `study`: rows of the sweep of depth formats, may be empty."""
     name_other_knobs(rows)
     blocks = [("title", title),
               ("text", "A peel compares a fragment's depth with one that an earlier pass stored. If the two are computed differently, they differ in their last bits: a "

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes tools/port/BLIND.md: what `strata diagnose` says of mistakes of the port that a seed draws, on scenes that the seed draws, too.
+"""Writes tools/port/BLIND.md: the diagnoses of `strata diagnose` for mistakes of the port and scenes that are both chosen at random.
 
     tools/port/blind.py SEED [--driver llvmpipe]
 
-Drawn are 15 single mistakes that the catalogue has, 5 that it has not, and 5 pairs of such as it has; for each three scenes with their sizes, formats,
-backgrounds and opacities, as a port's author has more than one. A scene is drawn again while the port's own picture of it does not change: the oracle is
-not asked for that, and its answers change nothing. A mistake that 30 scenes do not show three times is listed, and another one is drawn for it. The diagnosis has the packs
-and the candidates' files alone. No row is left out or made again. Exit status 1: a right port is not named right.
+The seed chooses 15 single mistakes of the catalogue, 5 that are not in it, and 5 pairs of mistakes of the catalogue; and for each three scenes with
+sizes, formats, backgrounds and opacities, because the author of a port has several. A scene is replaced if the mistake does not change the port's own
+picture of it; the oracle has no influence on this. A mistake that fewer than three of 30 scenes show is listed, and replaced by another one. The
+diagnosis is given only the packs and the candidates' files. No row is omitted or repeated. Exit status 1: a right port is not called right.
 """
 import argparse
 import json
@@ -27,10 +27,10 @@ WANTED = {"single": 15, "outside": 5, "pair": 5}
 
 
 def scene_of(draw):
-    """A scene's words, by the generator alone."""
+    """The command-line words of a random scene."""
     width, height = draw.randrange(24, 73), draw.randrange(20, 57)
     kind = draw.choice(["random", "random", "random", "teapot", "planes", "coincident", "close", "opaque", "deep"])
-    if kind == "deep":  # more layers than a byte counts
+    if kind == "deep":  # more layers than a byte can count
         width, height = draw.randrange(4, 9), draw.randrange(4, 9)
     words = {"random": [f"random:seed={draw.randrange(1000)},triangles={draw.randrange(20, 121)}"],
              "teapot": ["teapot", "--alpha", f"0.{draw.randrange(2, 9)}"],
@@ -47,8 +47,7 @@ def scene_of(draw):
 
 
 def drawn_cases(draw, known):
-    """(kind, names, algorithm) without end, kind by kind, in the order in which they are asked for: the port's own list says which algorithm shows
-    a mistake."""
+    """Yields (kind, names, algorithm) without end, in the order of kinds; the port's own list names the algorithm that shows a mistake."""
     algorithm = {name: shows for name, shows, _ in known}
     inside = [name for name, _, _ in known if name in mistaken.NAMES]
     outside = [name for name, _, _ in known if name not in mistaken.NAMES]
@@ -69,11 +68,11 @@ class Bench:
         self.set.mkdir()
 
     def pack(self, words, algorithm):
-        """One more pack of the set."""
+        """Makes a further pack of the set."""
         return packs.Pack(self.build, self.set / f"scene{len(list(self.set.iterdir())) + 1}", words, self.profile, [algorithm])
 
     def candidate(self, pack, names, algorithm, picture_only):
-        """A folder with what the port makes; the last one is gone."""
+        """A folder with the results of the port; the previous one is deleted."""
         folder = self.folder / "candidates" / pack.folder.name
         shutil.rmtree(folder, ignore_errors=True)
         return pack.candidate(folder, self.driver, ",".join(names), [algorithm], picture_only=picture_only)
@@ -82,7 +81,7 @@ class Bench:
         return (self.candidate(pack, names, algorithm, True) / algorithm / "picture.npy").read_bytes()
 
     def diagnose(self, found, names, algorithm):
-        """What is said of the whole set."""
+        """The diagnosis of the whole set."""
         shutil.rmtree(self.folder / "candidates", ignore_errors=True)
         for pack in found:
             candidate = self.candidate(pack, names, algorithm, False)
@@ -92,8 +91,8 @@ class Bench:
 
 
 def find_scenes(bench, draw, names, algorithm):
-    """Packs on which the port's picture changes with each of the mistakes, and with both of two as with neither alone; their words; and how many
-    scenes were drawn for them."""
+    """Packs for which each of the mistakes changes the port's picture, and for two mistakes differently from either alone; their words; and the
+    number of scenes that were chosen for this."""
     bench.new_set()
     found, all_words = [], []
     for tries in range(1, DRAWS + 1):
@@ -102,7 +101,7 @@ def find_scenes(bench, draw, names, algorithm):
             pack = bench.pack(words, algorithm)
             ways = {(), names, *((name,) for name in names)}
             pictures = {bench.picture(pack, way, algorithm) for way in sorted(ways)}
-        except packs.Failed:  # the profile or the port does not have this combination
+        except packs.Failed:  # the profile or the port does not support this combination
             continue
         if len(pictures) != len(ways):
             shutil.rmtree(pack.folder)
@@ -115,8 +114,8 @@ def find_scenes(bench, draw, names, algorithm):
 
 
 def judged(kind, names, said):
-    """first: named first. beside: another one that leaves the same output in all scenes is named first. no known mistake: the right answer for those that the catalogue has
-    not. same output: who is named leaves all of this output to the last code."""
+    """first: named first. beside: another one with the same output in all scenes is named first. no known mistake: the right answer for mistakes that
+    are not in the catalogue. same output: the named one gives all codes of this output."""
     best, unknown = said["findings"][0], said["verdict"] == "unknown_mistake"
     if kind == "outside":
         return "no known mistake" if unknown else "same output"
@@ -125,7 +124,7 @@ def judged(kind, names, said):
         return len(found) == len(names) and all(any(answer in found for answer in answers) for answers in known)
     if holds(best["mistakes"]):
         return "ranked first" if unknown else "first"
-    # Others beside the first that fit all scenes and agree as far with the passes.
+    # Others besides the first that fit all scenes and agree with as many passes.
     beside = [[mistake] for mistake in best["alike"]]
     beside += [found["mistakes"] for found in said["findings"] if all(found["fits"]) and found["targets_alike"] == best["targets_alike"]]
     if not unknown and any(map(holds, beside)):

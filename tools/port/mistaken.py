@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes tools/port/MISTAKES.md, how often `strata diagnose` names the port's mistakes, and build/port/MISTAKES.md, a row a picture.
+"""Writes tools/port/MISTAKES.md, how often `strata diagnose` names the port's mistakes, and build/port/MISTAKES.md with a row for each picture.
 
     tools/port/mistaken.py [--driver llvmpipe] [--only NAME]
 
-The diagnosis has the pack and the candidate alone: what the port says of itself is left out. Exit status 1: the right port is not named right.
+The diagnosis is given only the pack and the candidate, without the port's own information. Exit status 1: the right port is not called right.
 """
 import argparse
 import json
@@ -28,10 +28,10 @@ SCENES = {
     "one sample": ["random:seed=3,triangles=60", "--size", "26x19"],
     "on grey": ["teapot", "--alpha", "0.5", "--background", "0.5,0.5,0.5", "--size", "64x48"],
 }
-SLOW = ["deep", "deep, far first"]  # their rows come last
+SLOW = ["deep", "deep, far first"]  # their rows are last
 MOST_LISTED = 8  # answers other than yes, on the short page
-ALL_ALGORITHMS = ["teapot", "random", "coincident", "opaque", "close"]  # where the right port draws with each
-# Where a mistake shows, if not in the teapot.
+ALL_ALGORITHMS = ["teapot", "random", "coincident", "opaque", "close"]  # scenes that the right port renders with each algorithm
+# The scenes that show a mistake, if not the teapot.
 SHOWN_IN = {"less_equal": "coincident", "depth_epsilon": "random", "depth_16": "close", "opaque_ignored": "opaque", "background_lost": "on grey", "half_min_max": "opaque",
             "no_perspective": "random", "stencil_wraps": "deep, far first", "stencil_cleared": "deep", "query_above_1": "one sample",
             "last_layer_lost": "close", "other_clip_range": "opaque"}
@@ -43,7 +43,7 @@ PAIRS = [("flipped_rows,srgb_twice", "teapot", "front_to_back"), ("half_pixel,re
 
 
 class Journal:
-    """Rows that are done, a line of JSON each; without a file nothing is kept."""
+    """Finished rows, a line of JSON each; without a file none are stored."""
     def __init__(self, file):
         self.path = pathlib.Path(file) if file else None
         lines = self.path.read_text().splitlines() if self.path and self.path.exists() else []
@@ -60,12 +60,12 @@ class Journal:
 
 
 def listed(build):
-    """The port's mistakes: name, the algorithm that shows it, and what it is."""
+    """The port's mistakes: name, the algorithm that shows it, and a description."""
     return [line.split(None, 2) for line in packs.run([build / "strata_port", "--mistakes"]).splitlines()]
 
 
 def cases(build):
-    """(names of mistakes, what they are, scene, algorithm); the right port first."""
+    """(names of mistakes, descriptions, scene, algorithm); the right port first."""
     known = listed(build)
     words = {name: text for name, _, text in known}
     wrong = [(name, text, SHOWN_IN.get(name, "teapot"), algorithm) for name, algorithm, text in known]
@@ -74,7 +74,7 @@ def cases(build):
     return sorted([("", "the right port", *picture) for picture in pictures] + wrong, key=lambda case: case[2] in SLOW)
 
 
-# What the catalogue calls a mistake of the port; for the others the right answer is that it is none of the catalogue's.
+# The catalogue's names of the port's mistakes; for the others the right answer is that the mistake is not in the catalogue.
 NAMES = {"flipped_rows": {"upside_down", "flipped_rows"}, "other_clip_range": {"clip_zero_to_one"}, "half_pixel": {"half_pixel_down", "half_pixel_up", "half_pixel_right", "half_pixel_left"},
          "culling_left_on": {"culls_all_backs"}, "flat_colors": {"colors_flat"}, "no_perspective": {"colors_affine"},
          "less_equal": {"last_of_equals"}, "nearest_again": {"peels_again"}, "depth_16": {"depth_16"},
@@ -88,15 +88,15 @@ NAMES = {"flipped_rows": {"upside_down", "flipped_rows"}, "other_clip_range": {"
 
 
 def diagnose(build, profile, scene, algorithm, picture):
-    """What `strata diagnose` says of a picture. The scene's size is that of the picture."""
+    """The diagnosis of a picture. The scene has the size of the picture."""
     words = [build / "strata", "diagnose", *SCENES[scene], picture, "--algorithm", algorithm, "--profile", profile, "--json", *packs.GIVES_UP]
     return json.loads(packs.run(words, allowed=(0, 1)))
 
 
 def judged(names, said):
-    """yes: right, or the mistake or both of two by name, or none where the catalogue has no such machine. Else: same picture, if what is named
-    leaves it to the last pixel; nearest, if the right one is ranked first and leaves some pixels; does not show, if the picture is right and
-    called so; or no."""
+    """yes: right, or the mistake or both of two are named, or none is if it is not in the catalogue. Else: same picture, if the named mistake gives
+    the same picture in every pixel; nearest, if the right one is ranked first but does not explain some pixels; does not show, if the picture is
+    right and called so; or no."""
     best = said["findings"][0] if said["findings"] else {"mistakes": [], "alike": [], "explained": 0}
     found, unknown = best["mistakes"] + best["alike"], said["verdict"] == "unknown_mistake"
     if said["differing"] == 0:
@@ -118,7 +118,7 @@ def row(names, words, scene, algorithm, said):
 
 
 def kinds_of(rows):
-    """(what they are, rows) of the kinds of pictures, in the order of the table."""
+    """(description, rows) of the kinds of pictures, in the order of the table."""
     def is_single(cells):
         return cells[0] != "(right)" and "," not in cells[0]
 
@@ -135,7 +135,7 @@ def whole_page(rows, driver):
 
 
 def page(rows, driver):
-    """The short page, at most 600 words, and whether the right port is always named right."""
+    """The short page, at most 600 words, and whether the right port is always called right."""
     answers = ["yes", "same picture", "nearest", "does not show", "no"]
     table = [f"| {name} | {len(cells)} | " + " | ".join(str(sum(c[-1] == answer for c in cells)) for answer in answers) + " |" for name, cells in kinds_of(rows)]
     other = [f"- `{cells[0]}`, {cells[2]} by {cells[3]}: {cells[4]}{': ' if cells[5] else ''}{cells[5]} ({cells[-1]})" for cells in rows if cells[-1] != "yes"]

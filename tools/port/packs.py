@@ -1,4 +1,4 @@
-"""Packs and candidates for validate.py and mistaken.py: made by `strata golden` and `strata_port`, read with the standard library alone."""
+"""Packs and candidates for validate.py and mistaken.py: made by `strata golden` and `strata_port`, read with only the standard library."""
 import array
 import json
 import pathlib
@@ -11,13 +11,13 @@ CODES = {"|u1": "B", "<u2": "H", "<f2": "H", "<u4": "I", "<i4": "I", "<f4": "I"}
 ALGORITHMS = ["front_to_back", "dual", "weighted_average", "coherent_stencil", "depth_units"]
 # The port's depth_units needs Strata's: sequential depth units, which no profile of a real driver has.
 UNITS = {"has_sequential_depth_units": True}
-# An endless peel of the port ends after so many passes, and the diagnosis is told so.
+# An endless peel of the port ends after this number of passes, which the diagnosis is given as a limit.
 MOST_PASSES = 200
 GIVES_UP = ["--limit", str(MOST_PASSES)]
 
 
 def read(path):
-    """Pixels as tuples of codes: the bits of an element, whatever they stand for."""
+    """Pixels as tuples of codes: the bits of each element."""
     data = pathlib.Path(path).read_bytes()
     header = data[10:HEADER].decode()
     descr = header.split("'descr': '")[1].split("'")[0]
@@ -28,7 +28,7 @@ def read(path):
 
 
 class Failed(Exception):
-    """A program ended with an error; the text is what it said."""
+    """A program ended with an error; the text is its output."""
 
 
 def run(words, allowed=(0,)):
@@ -39,7 +39,7 @@ def run(words, allowed=(0,)):
 
 
 def profile_file(folder, base, fields=None):
-    """A profile: `base` with depth units, and with other values of fields; those of the rasterizer have a dot in their name."""
+    """Writes a profile: `base` with depth units and changed fields; the names of rasterizer fields have a dot."""
     text = {"base": base, "name": f"{base}_port", **UNITS}
     for name, value in (fields or {}).items():
         room, _, key = name.rpartition(".")
@@ -69,7 +69,7 @@ class Pack:
 
 
 def layers_of(pictures):
-    """The layers of every pixel, nearest first: (colour, depth), without those that are not there. A layer that is not there is all 0."""
+    """The layers of every pixel, nearest first: (colour, depth), without missing ones, whose values are all 0."""
     columns = None
     for color, depth in pictures:
         columns = columns or [[] for _ in color]
@@ -80,8 +80,8 @@ def layers_of(pictures):
 
 
 def agreement(pack, candidate):
-    """Pixels that differ, by what differs: fragments, depths of layers, their order, their colours, and each picture; and of the targets
-    after every pass how many there are and how many differ in any pixel."""
+    """The number of pixels whose fragments, depths of layers, order of layers, colours and pictures differ; and the number of targets after every
+    pass, and of those that differ in any pixel."""
     found = {"targets": 0, "targets that differ": 0}
     for name, result in pack.results.items():
         for number, shown in enumerate(result["passes"]):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Holds what llvmpipe draws with 4 samples per pixel, each shaded by itself, to profile llvmpipe.
+"""Compares llvmpipe's pictures with 4 samples per pixel, each shaded separately, with the profile llvmpipe.
 
     sampled.py --build build/release [--quick] [--driver llvmpipe_sse]
 
 Ten scenes in three sizes: every target after every pass of each sample, by front_to_back, dual and weighted_average, and the resolved
-pictures. Writes a table of what differs. Exit status 1 if anything does.
+pictures. Prints a table of the differences. Exit status 1 if there are any.
 """
 import argparse
 import pathlib
@@ -33,14 +33,15 @@ SCENES = {
 
 
 def end_alike(pack, candidate):
-    """A peel of the profile ends with its own sample, one of the driver with the last of all: there the picture's pass is not compared."""
+    """A peel of the profile ends with its own sample, one of the driver with the last of all samples. If the driver has more passes, the profile's last
+    pass is not compared."""
     for name, result in pack.results.items():
         if len(list((candidate / name).glob("pass.*"))) > len(result["passes"]):
             result["passes"].pop()
 
 
 def resolved(build, folder, words, profile, driver):
-    """Pictures whose resolve differs: of the driver's, and of the profile's by `strata render`."""
+    """The number of algorithms whose resolved picture differs between the driver and `strata render` with the profile."""
     pack = packs.Pack(build, folder / "first", [*words, "--samples", SAMPLES, "--sample", 0], profile, ALGORITHMS)
     candidate = folder / "resolved"
     packs.run([build / "strata_port", pack.folder, "-o", candidate, "--driver", driver, "--algorithm", ",".join(ALGORITHMS), "--samples", SAMPLES])
@@ -54,7 +55,7 @@ def resolved(build, folder, words, profile, driver):
 
 
 def measure(build, words, profile, driver):
-    """Of one scene and size: targets, those that differ, and pictures whose resolve differs."""
+    """For one scene and size: the numbers of targets, of those that differ, and of pictures whose resolve differs."""
     found = {"targets": 0, "targets that differ": 0}
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Says whether a device's answers with several samples per pixel follow the rules of one sample.
+"""Tests whether a device's answers with several samples per pixel follow the rules of one sample.
 
-    samples.py KIT ANSWERS    KIT is what `strata probe -o KIT` wrote, ANSWERS what `strata_port_probe KIT -o ANSWERS --samples 2,4,8` wrote
+    samples.py KIT ANSWERS    KIT is from `strata probe -o KIT`, ANSWERS from `strata_port_probe KIT -o ANSWERS --samples 2,4,8`
 
-For each number of samples: where the samples lie, in sixteenths of a pixel from the pixel's first row and column in memory; of how many samples
-the coverage differs from that of exact edges at those points (corners snapped to 1/256 pixel, half to even, and the tie rule top-left); and of how many
-samples the colour differs from that of the same pixel drawn with one sample, where the same triangle covers the sample and the centre (and has no
-edge there, which tie rules may part). Exit status 1 if coverage differs.
+Prints for each number of samples: the positions of the samples, in sixteenths of a pixel from the pixel's first row and column in memory; the number
+of samples whose coverage differs from that of exact edges at those points (corners snapped to 1/256 pixel, ties to even, and the tie rule top-left);
+and the number of samples whose colour differs from that of the same pixel rendered with one sample, where the same triangle covers the sample and the
+centre (and has no edge there, where tie rules decide). Exit status 1 if coverage differs.
 """
 import json
 import pathlib
@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True
 import packs  # noqa: E402
 
 SCENES = ["coverage.snap", "coverage.snap-again", "coverage.ties", "coverage.large", "coverage.small", "color.even-weights"]
-UNITS = 256  # of a snapped corner in a pixel
+UNITS = 256  # per pixel, of a snapped corner
 CENTRE = (8, 8)
 
 
@@ -52,7 +52,7 @@ def touches(triangle, point):
 
 
 def last_triangles(triangles, size, offset):
-    """Of every pixel the last triangle that covers the point `offset` sixteenths into it, or None."""
+    """For every pixel the last triangle that covers the point `offset` sixteenths into it, or None."""
     width, height = size
     last = [None] * (width * height)
     for number, (a, b, c) in enumerate(triangles):
@@ -70,13 +70,14 @@ def last_triangles(triangles, size, offset):
 
 
 def without_ties(triangles, last, width):
-    """The same where the triangle has no edge through the pixel's centre, else None."""
+    """The same, but None if the triangle has an edge through the pixel's centre."""
     points = ((i % width * UNITS + UNITS // 2, i // width * UNITS + UNITS // 2) for i in range(len(last)))
     return [None if number is None or touches(triangles[number], point) else number for number, point in zip(last, points)]
 
 
 def compare(item, orientation, answers, folder, positions):
-    """Samples, those whose coverage differs; samples whose pixel has one triangle at the sample and the centre, those whose colour differs."""
+    """Numbers of samples, and of those whose coverage differs; of samples whose pixel has one triangle at the sample and the centre, and of those
+    whose colour differs."""
     triangles, single = corners_of(item, orientation), packs.read(answers / "probe" / orientation / item["name"] / "color.npy")
     at_centre = without_ties(triangles, last_triangles(triangles, item["size"], CENTRE), item["size"][0])
     found = [0, 0, 0, 0]

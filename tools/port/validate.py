@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Writes tools/port/RESULTS.md, which driver agrees with which profile, and build/port/RESULTS.md: by algorithm, where not, and why.
+"""Writes tools/port/RESULTS.md, which driver equals which profile, and build/port/RESULTS.md with the differences of each algorithm and their causes.
 
     tools/port/validate.sh [--drivers llvmpipe,llvmpipe_sse,softpipe,hardware] [--quick]
 
-Draws small packs of every profile by the port on every driver that there is. Exit status 1: a driver differs from its own profile where it
-ought not to.
+The port renders small packs of every profile on every installed driver. Exit status 1: a driver differs from its own profile where it should not.
 """
 import argparse
 import pathlib
@@ -33,19 +32,20 @@ SCENES = {
     "through near": ["hard:case=through-near", "--size", "71x59"],
     "beyond the guard band": ["hard:case=beyond-the-guard-band", "--size", "64x48"],
 }
-WHY = ["random, d24", "corners on centres", "through near"]  # the scenes on which fields are exchanged one by one
+WHY = ["random, d24", "corners on centres", "through near"]  # the scenes for which fields are exchanged one at a time
 CLASSES = ["coverage", "depth", "order", "colour"]
-# What a driver owes under its own profile (bench/DIFFERENCES.md); softpipe's colours are not emulated.
+# Results of a driver that must equal its own profile (bench/DIFFERENCES.md); softpipe's colours are not emulated.
 ALL = CLASSES + packs.ALGORITHMS + ["targets that differ"]
 OWED = {"llvmpipe": ALL, "llvmpipe_sse": ALL, "softpipe": ["coverage", "depth"]}
 
 
 def is_owed(driver, scene, key):
-    """The port quantises depths as llvmpipe does: with 24 bits its peel on softpipe finds other layers (mesa-rasterizers.md 3.3)."""
+    """Is the result required to be equal? The port rounds depths as llvmpipe does: with 24 bits its peel on softpipe finds other layers
+    (pipeline/reference/mesa-rasterizers.md 3.3)."""
     return key in OWED.get(driver, []) and not (driver == "softpipe" and key == "depth" and "d24" in SCENES[scene])
 
 
-COUNTS = ["pixels", "targets"]  # of these a number is no difference
+COUNTS = ["pixels", "targets"]  # these are totals and not differences
 
 
 def differs(found):
@@ -71,14 +71,14 @@ class Bench:
         return packs.Pack(self.build, self.folder / f"pack{self.number}", SCENES[scene], profile)
 
     def differences(self, pack, driver):
-        """The folder is gone when it is read: targets of all passes are large."""
+        """Compares and deletes the driver's folder: targets of all passes are large."""
         candidate = pack.candidate(self.folder / "candidate", driver)
         found = packs.agreement(pack, candidate)
         shutil.rmtree(candidate)
         return found
 
     def renderer(self, driver, pack):
-        """What the driver calls itself, or None if there is none."""
+        """The driver's own name, or None if it is not installed."""
         try:
             candidate = pack.candidate(self.folder / "candidate", driver, picture_only=True)
         except packs.Failed as failed:
@@ -90,7 +90,7 @@ class Bench:
 
 
 def measure(bench, drivers, scenes):
-    """By driver and profile: totals, and by scene."""
+    """By driver and profile: totals, and results of each scene."""
     found = {driver: {} for driver in drivers}
     for profile in PROFILES:
         file = packs.profile_file(bench.folder, profile)
@@ -130,7 +130,7 @@ def where_section(found):
 
 
 def fields_that_differ(build, ours, theirs):
-    """Rules in which two profiles differ: {field: the other's value}. Features and limits decide no pixel."""
+    """Rules in which two profiles differ: {field: the other's value}. Features and limits affect no pixel."""
     one, other = (packs.json.loads(packs.run([build / "strata", "profiles", name, "--json"])) for name in (ours, theirs))
     rules = {f"raster.{k}": v for k, v in other["raster"].items() if one["raster"].get(k) != v}
     rules.update({k: v for k, v in other.items() if one.get(k) != v and isinstance(v, str) and k not in ("name", "description")})
@@ -138,7 +138,7 @@ def fields_that_differ(build, ours, theirs):
 
 
 def why_section(bench, driver, other, own):
-    """`own`: the driver under its own profile, by scene."""
+    """`own`: the results of the driver under its own profile, by scene."""
     total = {}
     for scene in WHY:
         add(total, own[scene])

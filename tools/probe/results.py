@@ -2,8 +2,8 @@
 """Measures drivers and writes two pages: results.py BUILD [-o RESULTS.md] [--whole build/probe/RESULTS.md] [--browser FOLDER]
 
 RESULTS.md is introduction.md and a row for each device; the whole page has every operation and every field of a profile with its evidence.
-BUILD holds strata and strata_port_probe (-DSTRATA_PORT=ON). FOLDER is what tests/browser/probe_page.py left in STRATA_KEEP. Each device draws the kit
-and twenty scenes that no field was thought of for; its profile comes from its answers to the kit alone, and draws the twenty.
+BUILD has strata and strata_port_probe (-DSTRATA_PORT=ON). FOLDER is the folder STRATA_KEEP of tests/browser/probe_page.py. Each device renders the
+kit and twenty other scenes; its profile is inferred only from the kit, and predicts the twenty.
 """
 import argparse
 import json
@@ -28,7 +28,7 @@ def checked(*words):
 
 
 def measured(strata, kit_answers, unseen_answers, orientation, folder):
-    """What was inferred, and the twenty scenes under it."""
+    """The inferred profile, and its results for the twenty scenes."""
     profile = os.path.join(folder, "profile.json")
     found = json.loads(checked(strata, "infer", kit_answers, "--y", orientation, "-o", profile, "--json"))
     beside = json.loads(run(strata, "probe", "--unseen", str(UNSEEN), "--y", orientation, "--profile", profile,
@@ -69,7 +69,7 @@ def details(name, orientation, found):
 
 
 def operation_cell(found):
-    """The best hypothesis and its count; what has no result says why."""
+    """The best hypothesis and its count, or the reason why there is no result."""
     if not found["hypotheses"]:
         return found["reason"]
     best = found["hypotheses"][0]
@@ -82,7 +82,7 @@ def operation_cell(found):
 
 
 def operations(devices):
-    """A row an operation, a column a device, and the first counterexamples."""
+    """A row for each operation, a column for each device, and the first counterexamples."""
     names = [name for name, _ in devices]
     lines = ["| operation | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
     for rows in zip(*(found for _, found in devices)):
@@ -97,7 +97,7 @@ def operations(devices):
 
 
 def operation_rows(operated):
-    """For each device: how many operations have a hypothesis that explains every result."""
+    """For each device: the number of operations that one hypothesis explains completely."""
     yield "| device | operations tested | explained by one hypothesis | not explained |"
     yield "|---|---:|---:|---|"
     for name, found in operated:

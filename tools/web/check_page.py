@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Opens the browser's page in headless Chromium and holds it against the program: check_page.py STRATA PAGE_FOLDER
+"""Opens the browser's page in headless Chromium and compares it with the program: check_page.py STRATA PAGE_FOLDER
 
-Ten scenes by every algorithm: each digest is the one that `strata render` prints, each refusal its sentence. Then what moves is moved: the
-orbit, the layers, the pixel, a file. STRATA_SCREENSHOTS=FOLDER leaves pictures; STRATA_AXE=FILE (axe.min.js of the npm package axe-core)
-searches for what keeps people out; STRATA_MODEL=FILE.glb is dropped onto the page and timed at 512x512. Exit status 77, said aloud, without
-Chromium, its driver or Selenium.
+Ten scenes by every algorithm: each digest is the one that `strata render` prints, each refusal has its sentence. Then the test uses the controls: the
+orbit, the layers, the pixel, a file. STRATA_SCREENSHOTS=FOLDER stores pictures; STRATA_AXE=FILE (axe.min.js of the npm package axe-core) checks
+accessibility; STRATA_MODEL=FILE.glb is dropped onto the page and timed at 512x512. Skips with a message and exit status 77 without Chromium, its
+driver or Selenium.
 """
 import functools
 import http.server
@@ -18,7 +18,7 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tests", "browser"))
 import pages  # noqa: E402
 
-# With the options that the command takes; the page's questions carry the same.
+# With the options of the command; the page is given the same.
 SCENES = [
     ("teapot", {"size": [64, 48]}),
     ("teapot:tessellation=3", {"size": [48, 48], "alpha": 0.5, "profile": "ideal"}),
@@ -44,7 +44,7 @@ def options_of(question):
 
 
 def told_by(strata, scene, question):
-    """Digests by algorithm, as the command tells them; None where it refuses."""
+    """Digests by algorithm, as the command prints them; None for those that it refuses."""
     run = subprocess.run([strata, "render", scene, *options_of(question), "--algorithm", "all", "--no-audit", "--stats", "-"],
                          capture_output=True, text=True, check=False)
     return {row["algorithm"]: row["digest"]["color"] or None for row in json.loads(run.stdout)}
@@ -106,7 +106,7 @@ class Page:
         self.expect("the pixel's history", self.js("return document.getElementById('history').textContent"), explained)
 
     def check_mistakes(self):
-        """What cannot be shown is said in a sentence."""
+        """Tests that errors are reported in a sentence."""
         for scene, word in [("teapott", "teapot"), ("teapot:tessellation=0", "tessellation")]:
             error = self.ask({"do": "render", "scene": scene, "algorithm": "dual", "size": [8, 8]}).get("error", "")
             self.expect(f"{scene} is told of", word in error and "expected" in error, True)
