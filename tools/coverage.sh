@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Which branches of rasterizer, pipeline and peeling do the tests take, and which conditions of the stages turn a decision round?
-#   tools/coverage.sh          builds the core with counters (preset coverage), runs its tests, golden digests and three thousand
+# Counts the branches of rasterizer, pipeline and peeling that the tests execute, and the conditions of the stages that alone change a decision.
+#   tools/coverage.sh          builds the core with counters (preset coverage), executes its tests, golden digests and three thousand
 #                              frames of tests/fuzz, prints the shares
-#   tools/coverage.sh --md     the same into tests/coverage/RESULTS.md
+#   tools/coverage.sh --md     writes the same to tests/coverage/RESULTS.md
 # Needs clang-19 and llvm-19 of Debian; exits with 77 where they are missing. Some eight minutes on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,7 +16,7 @@ tests=(rasterizer pipeline peeling)
 cmake --preset coverage >/dev/null
 cmake --build --preset coverage --target "${tests[@]/%/_test}" core_digests differential_seeds >"$folder/build.log" || { tail -n 40 "$folder/build.log" >&2; exit 3; }
 
-# run NAME PROGRAM ARGUMENT...: counts into NAME.raw, unless it did since the program was built.
+# run NAME PROGRAM ARGUMENT...: counts into NAME.raw, unless that file is newer than the program.
 run() {
     local raw=$folder/$1.raw
     shift
@@ -25,8 +25,8 @@ run() {
     mv "$raw.part" "$raw"
 }
 
-# export_counts NAME PROGRAM: what NAME*.raw count of the three libraries. One program at a time: tools of LLVM that are given several
-# lose functions of one name that differ.
+# export_counts NAME PROGRAM: the counts of NAME*.raw for the three libraries. One program at a time: given several, LLVM's tools lose functions that
+# have the same name and differ.
 export_counts() {
     llvm-profdata-19 merge "$folder/$1"*.raw -o "$folder/$1.profdata"
     llvm-cov-19 export -skip-functions -instr-profile="$folder/$1.profdata" "$2" rasterizer pipeline peeling >"$folder/$1.json"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Do other machines give the same bits? Builds the core by Debian's cross compilers and runs it under qemu-user.
+# Do other processors give the same bits? Builds the core with Debian's cross compilers and executes it under qemu-user.
 #   tools/cross.sh aarch64              the digests of tests/golden/core_digests.txt
 #   tools/cross.sh s390x FLOOR [TEST]   a library's tests, too: rasterizer, pipeline or peeling; of names like TEST
 # Machines: aarch64, s390x (big-endian), riscv64. Packages: g++-aarch64-linux-gnu, g++-s390x-linux-gnu, g++-riscv64-linux-gnu and
@@ -21,7 +21,7 @@ for program in "$machine-linux-gnu-g++" "qemu-$machine-static"; do
     command -v "$program" >/dev/null || { echo "tools/cross.sh: skipped, for $program is missing" >&2; exit 77; }
 done
 
-# Of the libraries the core needs the headers alone; those of this machine's C library must not come with them.
+# The core needs only the headers of the libraries; those of this computer's C library must not be included with them.
 folder=$PWD/build/cross/$machine
 prefix=$folder/prefix
 mkdir -p "$prefix/include" "$prefix/pkgconfig"

@@ -4,8 +4,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 trap 'echo "tools/demo.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
 
-# Runs a command of the build, shows how far it is (ninja's [n/m]: in place on a terminal, else a line for each tenth), and all that it
-# said if it fails.
+# Executes a command of the build, shows its progress (ninja's [n/m]: in place on a terminal, else a line for each tenth), and all of its output if it
+# fails.
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 steps() {
@@ -34,7 +34,7 @@ look=(--alpha 0.4 --background "1,1,1")
 build/release/strata render teapot "${look[@]}" --algorithm dual --size 800x800 --no-audit -o out/first.png >/dev/null
 echo "the first picture is there: out/first.png, a transparent teapot by dual depth peeling; now the same by every algorithm"
 
-# Of the devices that there were, the DirectX 10.1 class runs the most algorithms; the three that it refuses are named with what they lack.
+# Of the real devices, the DirectX 10.1 class supports the most algorithms; it refuses three, with the missing features.
 render() {  # render SCENE NAME [OPTIONS]: every algorithm's picture as out/NAME.ALGORITHM.png
     local scene=$1 name=$2
     shift 2

@@ -1,29 +1,30 @@
 #!/usr/bin/env bash
-# Fuzzes what people hand to the program (tests/fuzz/inputs.h), as long as one likes.
+# Fuzzes the inputs that users can supply (tests/fuzz/inputs.h), for any length of time.
 #   tools/fuzz.sh TARGET SECONDS         by libFuzzer under the address and undefined-behaviour sanitizers (preset fuzz, needs clang)
-#   tools/fuzz.sh --afl TARGET SECONDS   by AFL++ (preset afl, needs afl-fuzz), another engine on the same targets; it begins with the kept inputs
-#   tools/fuzz.sh --keep                 takes what was found into tests/fuzz/corpus: few files that together reach all the code that all reach
-#   tools/fuzz.sh --unpack FOLDER        the kept inputs as files, FOLDER/TARGET/*; --pack FOLDER makes the archives of them again, the same bytes
-# Targets: profile, camera, plan, pack, exr, calls or gltf. What is found stays in build/fuzz/inputs/TARGET, from which --keep takes it, and
-# bytes of a fault in build/fuzz/faults; a fault gives status 1 (libFuzzer ends with the first). The corpora of AFL++ lie in build/afl/out.
+#   tools/fuzz.sh --afl TARGET SECONDS   by AFL++ (preset afl, needs afl-fuzz), another engine on the same targets; it begins with the stored inputs
+#   tools/fuzz.sh --keep                 stores new inputs in tests/fuzz/corpus: few files that together reach all code that any input reaches
+#   tools/fuzz.sh --unpack FOLDER        writes the stored inputs as files, FOLDER/TARGET/*; --pack FOLDER makes the archives again, with the same
+# bytes
+# Targets: profile, camera, plan, pack, exr, calls or gltf. New inputs are written to build/fuzz/inputs/TARGET, from which --keep takes them, and
+# inputs with a fault to build/fuzz/faults; a fault gives exit status 1 (libFuzzer stops at the first). The corpora of AFL++ are in build/afl/out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 targets=(profile camera plan pack exr calls gltf)
 archives=tests/fuzz/corpus  # TARGET.tar.xz
 kept=build/fuzz/kept
-# An EXR of a kilobyte may claim an attribute of 2 GB, for which OpenEXR asks at once: slow under the address sanitizer, whose shadow is
-# an eighth of that.
+# An EXR of a kilobyte may claim an attribute of 2 GB, which OpenEXR allocates at once: this is slow under the address sanitizer, whose shadow has an
+# eighth of that size.
 limits=(-timeout=60 -rss_limit_mb=6000 -malloc_limit_mb=6000 -print_funcs=0 -close_fd_mask=3)
 
 fail() { echo "tools/fuzz.sh: $*" >&2; exit 2; }
 is_target() { local one; for one in "${targets[@]}"; do [ "$one" = "$1" ] && return 0; done; return 1; }
-# The longest input, bytes: longer ones take time and reach nothing new.
+# The greatest length of an input in bytes: longer ones take more time and reach no other code.
 length_of() { case "$1" in exr|gltf) echo 8192 ;; calls) echo 1536 ;; *) echo 4096 ;; esac; }
 quietly() { mkdir -p build; "$@" >build/fuzz.log 2>&1 || { tail -n 30 build/fuzz.log >&2; echo "tools/fuzz.sh: failed: $*" >&2; exit 3; }; }
 
 unpack() { cmake -D FROM="$archives" -D TO="$1" -P tests/fuzz/unpack.cmake; }
-# Names in order and no times, so that the same files are the same archive.
+# Names in order and no times, so that the same files give the same archive.
 pack() {
     local target
     for target in "${targets[@]}"; do [ -d "$1/$target" ] || fail "$1: expected a folder $target, found none"; done
@@ -39,7 +40,7 @@ build_fuzz() {
     build/fuzz/tests/fuzz/make_corpus build/fuzz/seeds/gltf
 }
 
-# The program of a target, of the preset fuzz or of another.
+# The program of a target, built by the preset fuzz or another one.
 command_of() { if [ "$1" = gltf ]; then echo "build/${2:-fuzz}/tests/fuzz/load_render_fuzz"; else echo "build/${2:-fuzz}/tests/fuzz/$1_fuzz"; fi; }
 
 fuzz() {
@@ -54,10 +55,10 @@ fuzz() {
     return $status
 }
 
-# What afl-fuzz wrote about its run.
+# Statistics of afl-fuzz.
 afl_stat() { sed -n "s/^$2 *: *//p" "build/afl/out/$1/default/fuzzer_stats"; }
 
-# One fuzzer for TARGET; the address sanitizer reserves more than a limit of memory would allow, so there is none (-m none).
+# One fuzzer for TARGET; because the address sanitizer reserves more memory than any limit would allow, there is none (-m none).
 fuzz_by_afl() {
     local target=$1 seconds=$2 program
     command -v afl-fuzz >/dev/null || { echo "tools/fuzz.sh: skipped: afl-fuzz is not here (Debian's package afl++)"; exit 77; }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of tools/packages.txt that are missing. Says nothing when none is.
-#   tools/setup.sh program  what the program is built from
-#   tools/setup.sh [tests]  that, and what the tests need
-#   tools/setup.sh all      that, and what tools and tests need that are asked for by name
+# Installs the Debian packages of tools/packages.txt that are missing. Prints nothing if none is.
+#   tools/setup.sh program  those for building the program
+#   tools/setup.sh [tests]  and those of the tests
+#   tools/setup.sh all      and those of tools and tests that are only started by name
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fail() { echo "tools/setup.sh: $*" >&2; exit 3; }
@@ -14,7 +14,7 @@ case "${1:-tests}" in
     *) echo "tools/setup.sh: expected program, tests or all, found '$1'" >&2; exit 2 ;;
 esac
 
-# Lines "PACKAGE # why" of the sets that are named.
+# Lines "PACKAGE # why" of the named sets.
 listed() { awk -v sets=" $* " '/^[^#]/ && index(sets, " " $1 " ") { $1 = ""; print substr($0, 2) }' tools/packages.txt; }
 missing() {
     local package why
@@ -25,7 +25,7 @@ missing() {
 names() { printf '%s\n' "$@" | cut -d ' ' -f 1; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo env DEBIAN_FRONTEND=noninteractive "$@"; fi; }
 
-# How far apt-get is, from what APT::Status-Fd says: in place on a terminal, else a line for each quarter.
+# The progress of apt-get, from the output of APT::Status-Fd: in place on a terminal, else a line for each quarter.
 progress() {
     local line doing percent before=""
     while IFS= read -r line; do
@@ -41,8 +41,8 @@ progress() {
     done
     if [ -t 1 ]; then printf '\r%-80s\r' ""; fi
 }
-# apt-get makes the descriptor of its status one that does not wait, which a script of a package must not find as its standard output: the
-# status has a descriptor of its own, opened behind sudo, which closes it. What else is said is shown if it fails.
+# apt-get makes the descriptor of its status non-blocking, which a script of a package must not have as its standard output: therefore the status has
+# a separate descriptor, opened after sudo, which closes it. Other output is shown on failure.
 install() {
     local log status=0
     log=$(mktemp)
@@ -70,7 +70,7 @@ if [ ${#all[@]} -gt 0 ]; then
     echo "installing what is missing:"
     printf '%s\n' "${all[@]}" | awk '{ name = $1; $1 = ""; sub(/^ # /, ""); printf "  %-20s %s\n", name, $0 }'
     as_root apt-get update -qq || fail "apt-get update failed; is there a network?"
-    # apt-get's own sentence: how much comes, and how much of the disk it takes.
+    # apt-get's own sentence: the size of the download and of the installation.
     LC_ALL=C apt-get install --assume-no --no-install-recommends "${packages[@]}" 2>/dev/null | sed -n -e 's/^Need to get/  to download:/p' -e 's/^After this operation,/  then:/p' || true
 fi
 if [ ${#needed[@]} -gt 0 ]; then

@@ -1,21 +1,21 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the tests.
-#   tools/test.sh               unit and golden tests, all but those that take seconds each
+# Installs what is missing, builds, and executes the tests.
+#   tools/test.sh               unit and golden tests, all except those that take seconds each
 #   tools/test.sh --long        these
-#   tools/test.sh --ci          both, and the fast ones and 2,000 frames under sanitizers: what continuous integration runs
-#   tools/test.sh --nightly     what compiles other projects: an installation's users, the recipe, builds without a build type
+#   tools/test.sh --ci          both, and the fast ones and 2,000 frames under sanitizers: for continuous integration
+#   tools/test.sh --nightly     tests that compile other projects: users of an installation, the recipe, builds without a build type
 #   tools/test.sh --sanitizers  every test of the libraries under the sanitizers, the slow ones and the scenes' too, and the tests themselves; half a
 #                               minute of guided fuzzing each for frames and for the loader
 #   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
-#   tools/test.sh --exhaustive  the tests that try every value
+#   tools/test.sh --exhaustive  the tests of every value
 set -euo pipefail
 cd "$(dirname "$0")/.."
 trap 'echo "tools/test.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
 
 step() { echo "--- $*"; }
 
-# build PRESET [TARGET...]: configures and builds by $jobs compilers at a time, shows the log only of what fails.
+# build PRESET [TARGET...]: configures and builds with $jobs compilers at a time, and shows the log only if that fails.
 jobs=$(nproc)
 build() {
     local preset=$1 log=build/$1.log
@@ -39,7 +39,7 @@ quietly() {
     }
 }
 
-# sanitizer_preset PRESET: that one if clang++ is there, which compiles faster under sanitizers, and whose build can be fuzzed.
+# sanitizer_preset PRESET: that preset if clang++ is installed, which compiles faster under sanitizers, and whose build can be fuzzed.
 sanitizer_preset() { if command -v clang++ >/dev/null; then echo "$1"; else echo asan; fi; }
 
 # Every test of the libraries under the sanitizers.
@@ -59,22 +59,22 @@ sanitizers() {
     ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure -j "$(nproc)"
 }
 
-# The two builds beside each other: the last and longest sources of one leave a processor to the other. The second by half as many
-# compilers: six at a time took a fifth longer for the same on two processors. The tests' own sources are not instrumented here.
+# The two builds are executed at the same time: the last and longest sources of one leave a processor to the other. The second has half as many
+# compilers: six at a time took a fifth longer on two processors. The tests' own sources are not instrumented here.
 builds() {
     local preset targets=(rasterizer_test pipeline_test peeling_test core_digests differential_seeds)
     preset=$(sanitizer_preset sanitized)
     step "building, and beside it the core under the address and undefined-behaviour sanitizers (preset $preset)"
     jobs=$(((jobs + 1) / 2)) build "$preset" "${targets[@]}" &
-    sanitized=$!  # seen by the trap, which outlives the function
+    sanitized=$!  # used by the trap, which outlives the function
     trap 'kill "$sanitized" 2>/dev/null || true' EXIT
     build release
     trap - EXIT
     wait "$sanitized"
 }
 
-# The fast tests of the core under the sanitizers, and beside them 2,000 frames that no commit before has drawn: scenes and images,
-# which take as long to compile again as the core does, are left to --sanitizers.
+# The fast tests of the core under the sanitizers, and at the same time 2,000 frames that no earlier commit has tested: scenes and images, which take
+# as long to compile again as the core does, are only tested by --sanitizers.
 sanitized() {
     local preset first frames
     preset=$(sanitizer_preset sanitized)
@@ -87,8 +87,8 @@ sanitized() {
     wait "$frames"
 }
 
-# Is a race found, and an uninitialised number? Then the core's own frames: on four threads, and on one by the scalar reference,
-# for the memory sanitizer takes a store of some lanes of a vector for one of all.
+# Is a race found, and an uninitialised number? Then the core's own frames: on four threads, and on one by the scalar reference, because the memory
+# sanitizer treats a store of some lanes of a vector as one of all.
 instrumented() {
     step "the core under the thread sanitizer (preset tsan)"
     build tsan core_digests differential_seeds race
@@ -104,13 +104,13 @@ instrumented() {
     quietly msan-unset ctest --test-dir build/msan -R '^faults' --output-on-failure
     local settings
     for settings in tile=64 "execution=literal tile=8 effects=all"; do
-        # The program does not read the file itself: the library's streams are not instrumented.
+        # The program does not read the file itself, because the library's streams are not instrumented.
         # shellcheck disable=SC2086
         build/msan/tests/golden/core_digests simd=scalar $settings | diff - tests/golden/core_digests.txt
     done
 }
 
-# The digests of tests/golden/core_digests.txt from a core of each compiler at each level of optimisation.
+# Compares the digests of tests/golden/core_digests.txt with a core of each compiler at each level of optimisation.
 matrix() {
     local compiler level folder
     for compiler in g++ clang++; do

@@ -1,4 +1,4 @@
-# Unpacks FROM/NAME.tar.xz into TO/NAME, each of them; what was in TO goes.
+# Unpacks each FROM/NAME.tar.xz into TO/NAME; earlier files of TO are removed.
 file(GLOB archives "${FROM}/*.tar.xz")
 if(NOT archives)
   message(FATAL_ERROR "${FROM}: expected archives *.tar.xz, found none")

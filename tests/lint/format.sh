@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Every C++ source is formatted as clang-format 14 (Debian 12's) formats it by .clang-format. Exit status 77 (skipped) without that version.
-#   tests/lint/format.sh          names what differs
-#   tests/lint/format.sh --mend   formats it
+# Checks that every C++ source is formatted by clang-format 14 (of Debian 12) with .clang-format. Exit status 77 (skipped) without that version.
+#   tests/lint/format.sh          names the files that differ
+#   tests/lint/format.sh --mend   formats them
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 version=14

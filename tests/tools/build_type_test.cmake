@@ -1,7 +1,7 @@
-# Configures the core without a build type, with an empty one, and as a part of another project; looks for -O3 in the commands.
+# Configures the core without a build type, with an empty one, and as a part of another project; searches the compiler commands for -O3.
 set(core -DSTRATA_CORE_ONLY=ON -DSTRATA_BUILD_TESTS=OFF -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER})
 
-# expect(NAME WANTED SOURCE OPTION...): `WANTED` is whether the commands optimize.
+# expect(NAME WANTED SOURCE OPTION...): WANTED is whether the commands optimize.
 function(expect name wanted source)
   execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=CMAKE_BUILD_TYPE ${CMAKE_COMMAND} -S ${source} -B ${FOLDER}/${name} ${core}
     ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
@@ -26,7 +26,7 @@ expect(empty FALSE ${SOURCE} -DCMAKE_BUILD_TYPE=)
 expect(debug FALSE ${SOURCE} -DCMAKE_BUILD_TYPE=Debug)
 expect(part FALSE ${FOLDER}/host)
 
-# As a part, the whole project is its library: neither tests nor the command.
+# As a part of another project, only the library is built: neither tests nor the command.
 list(REMOVE_ITEM core -DSTRATA_CORE_ONLY=ON -DSTRATA_BUILD_TESTS=OFF)
 expect(whole_part FALSE ${FOLDER}/host)
 file(READ ${FOLDER}/whole_part/compile_commands.json commands)
@@ -34,8 +34,8 @@ if(NOT commands MATCHES "tools/library" OR commands MATCHES "tools/strata/|${SOU
   message(FATAL_ERROR "as a part of another project: expected the library without tests and command")
 endif()
 
-# A parent that compiles with everything: its flags are its own. A program of it that includes the library, and a source of the library,
-# are looked at by their own commands.
+# A parent that enables all warnings: its flags apply only to its own code. The test reads the compiler commands of a program that includes the
+# library, and of a source of the library.
 file(WRITE ${FOLDER}/strict/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(strict LANGUAGES CXX)\n"
   "set(CMAKE_EXPORT_COMPILE_COMMANDS ON)\nset(CMAKE_CXX_STANDARD 17)\n"
   "add_compile_options(-Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Werror)\n"

@@ -1,5 +1,5 @@
-# Installs BUILD, of which a file is missing, moves what was installed to PREFIX, and uses it from there as others would: runs the program, which must find its
-# image module; builds and runs the examples of EXAMPLES by CMake, and a program by pkg-config; asks for a component that is none.
+# Installs BUILD, in which a file is missing, moves the installation to PREFIX, and uses it there: executes the program, which must find its image
+# module; builds and executes the examples of EXAMPLES with CMake, and a program with pkg-config; requests a component that does not exist.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${PREFIX} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
   if(NOT status STREQUAL "${WANTED}")
@@ -18,7 +18,7 @@ set(WANTED 0)
 file(REMOVE_RECURSE ${PREFIX} ${PREFIX}.first)
 file(MAKE_DIRECTORY ${PREFIX})
 if(EXISTS ${BUILD}/manual)
-  file(REMOVE ${BUILD}/manual/strata.bash)  # built again, as everything is that tools/demo.sh leaves unbuilt
+  file(REMOVE ${BUILD}/manual/strata.bash)  # must be built again, like all files that tools/demo.sh does not build
 endif()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX}.first)
 file(REMOVE_RECURSE ${PREFIX})
@@ -31,7 +31,7 @@ if(EXISTS ${PREFIX}/${BIN}/strata)
   expect("${completion}" "strata")
 endif()
 
-# Headers lie below strata/ alone, and name each other so.
+# All headers are in the folder strata, and include each other by that path.
 file(GLOB found RELATIVE ${PREFIX}/${INCLUDE} ${PREFIX}/${INCLUDE}/*)
 expect("${found}" "^strata$")
 file(GLOB_RECURSE headers ${PREFIX}/${INCLUDE}/*.h)

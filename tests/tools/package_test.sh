@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# package_test.sh BUILD FOLDER: makes the Debian package of BUILD, installs it by dpkg into a root of its own below FOLDER, and uses it from there:
-# both programs, the image module, the manual, completions, and the library by a program that is compiled with it; removed, it leaves no file.
-# Exit status 77 (skipped) where a program is missing that this needs.
+# package_test.sh BUILD FOLDER: makes the Debian package of BUILD, installs it by dpkg into an empty root in FOLDER, and uses it there:
+# both programs, the image module, the manual, completions, and the library by a program that is compiled with it; after its removal no file is left.
+# Exit status 77 (skipped) if a necessary program is missing.
 set -euo pipefail
 build=$(realpath "$1")
 rm -rf "$2"
@@ -25,7 +25,8 @@ done
 root=$folder/root
 mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates"
 touch "$root/var/lib/dpkg/status" "$root/var/lib/dpkg/available"
-# Its dependencies are this machine's, which that root does not know; its scripts run outside of the root, and call nothing but ldconfig.
+# Its dependencies are installed in this system, which the empty root does not know; its scripts are executed outside the root, and call only
+# ldconfig.
 mkdir "$folder/scripts"
 ln -s /bin/true "$folder/scripts/ldconfig"
 PATH=$folder/scripts:$PATH:/usr/sbin:/sbin

@@ -1,4 +1,4 @@
-# Draws the kit on llvmpipe with 4 samples per pixel, and holds each sample's coverage to exact edges.
+# Renders the kit on llvmpipe with 4 samples per pixel, and compares each sample's coverage with exact edges.
 file(REMOVE_RECURSE "${OUT}")
 foreach(command "${STRATA};probe;-o;${OUT}/kit" "${PROBE};${OUT}/kit;-o;${OUT}/answers;--driver;llvmpipe;--samples;4"
         "${PYTHON};-B;${JUDGE};${OUT}/kit;${OUT}/answers")

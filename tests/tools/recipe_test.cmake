@@ -1,5 +1,5 @@
-# The recipe of RECIPES, as a user's continuous integration would run it: installs BUILD into FOLDER by install.sh, copies the
-# project there, and runs its check, which must pass; and fail, with kind, pixel and pictures, where the project blends wrongly.
+# Executes the recipe of RECIPES like a user's continuous integration: installs BUILD into FOLDER by install.sh, copies the project there, and
+# executes its check. The check must pass; and it must fail, with kind, pixel and pictures, if the project blends wrongly.
 function(run wanted)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(NOT status STREQUAL wanted)

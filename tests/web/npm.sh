@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # npm.sh STRATA FOLDER: makes the npm package of the renderer, installs it into a new folder, and calls it from Node.js: npm_test.js. Its types are
-# checked where tsc is found (Debian: node-typescript). Exit status 77 (skipped) without Emscripten, Node.js or npm.
+# checked if tsc is installed (Debian: node-typescript). Exit status 77 (skipped) without Emscripten, Node.js or npm.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 strata=$(realpath "$1")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the page that renders in a browser and holds it against the command: page.sh STRATA. Exit status 77 (skipped) without Emscripten
+# Builds the page that renders in a browser and compares it with the command: page.sh STRATA. Exit status 77 (skipped) without Emscripten
 # or Chromium.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

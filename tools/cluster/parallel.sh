@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A sweep of `strata invariance` in shards on several workers, by GNU parallel (Debian package "parallel"), then merged.
+# Distributes a sweep of `strata invariance` in shards over several workers, by GNU parallel (Debian package "parallel"), and merges the results.
 #   tools/cluster/parallel.sh PLAN FOLDER SHARDS [OPTIONS OF parallel...]
-# By default two workers on this machine; "--sshloginfile HOSTS --workdir ..." sends shards to others that see the same files.
-# Run again after any interruption: shards that are done are skipped (FOLDER/joblog), others go on where they stopped.
+# By default two workers on this computer; "--sshloginfile HOSTS --workdir ..." sends shards to others that have access to the same files. After an
+# interruption, start it again: finished shards are skipped (FOLDER/joblog), others resume.
 set -euo pipefail
 fail() { echo "tools/cluster/parallel.sh: $*" >&2; exit 2; }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A sweep of `strata invariance` as a Slurm job array, a task a shard, and a job after it that merges them.
+# Submits a sweep of `strata invariance` as a Slurm job array, a task per shard, and a job that merges the results.
 #   tools/cluster/slurm.sh PLAN FOLDER SHARDS [OPTIONS OF sbatch...]
-# PLAN, FOLDER and the command must be visible on every node. A task that was requeued goes on where it stopped; submit again
-# after a failure: what is done is not measured twice. Prints the number of the merging job.
+# PLAN, FOLDER and the command must be accessible on every node. A requeued task resumes; submit again after a failure: finished cells are not
+# measured again. Prints the number of the merging job.
 set -euo pipefail
 fail() { echo "tools/cluster/slurm.sh: $*" >&2; exit 2; }
 

@@ -1,6 +1,6 @@
-# Run by `cmake --install` before anything is copied: builds what is to be installed if a file of it is missing in BUILD.
+# Called by `cmake --install` before anything is copied: builds the files to be installed if one of them is missing in BUILD.
 set(list ${BUILD}/installed_files/${CMAKE_INSTALL_CONFIG_NAME}.txt)
-if(NOT EXISTS ${list})  # a build type that was named at installation alone
+if(NOT EXISTS ${list})  # a build type that was only given at installation
   return()
 endif()
 file(STRINGS ${list} files)

@@ -1,5 +1,5 @@
-# A toolchain of Debian's cross compilers, for tools/cross.sh: -DSTRATA_MACHINE=aarch64, s390x or riscv64. Programs are linked
-# statically, so that qemu-user needs no libraries of the other machine.
+# A toolchain of Debian's cross compilers, for tools/cross.sh: -DSTRATA_MACHINE=aarch64, s390x or riscv64. Programs are linked statically, so that
+# qemu-user needs no libraries of that processor.
 set(CMAKE_SYSTEM_NAME Linux)
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STRATA_MACHINE)
 set(CMAKE_SYSTEM_PROCESSOR ${STRATA_MACHINE})

@@ -1,5 +1,5 @@
-# The project as a package. find_package(strata) gives strata::rasterizer, strata::pipeline and strata::peeling with the numeric flags;
-# COMPONENTS oracle adds strata::library, whose header is <strata/strata.h>, with all that it stands on. pkg-config says the same.
+# The project as a package. find_package(strata) gives strata::rasterizer, strata::pipeline and strata::peeling with the numeric flags; COMPONENTS
+# oracle adds strata::library, whose header is <strata/strata.h>, with all of its dependencies. pkg-config gives the same.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/strata)
 set(core_targets strata_numerics strata_warnings strata_rasterizer strata_pipeline strata_peeling)
@@ -19,7 +19,7 @@ foreach(target IN LISTS core_targets oracle_targets module_targets)
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported})
   endif()
 endforeach()
-# Before 1.0 a minor version may change what programs see.
+# Before 1.0 a minor version may change the interface.
 foreach(target IN LISTS core_targets oracle_targets)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL SHARED_LIBRARY)
@@ -28,7 +28,7 @@ foreach(target IN LISTS core_targets oracle_targets)
   endif()
 endforeach()
 
-# build_missing.cmake, which is run first, builds what of these files is not there: tools/demo.sh builds the program alone.
+# build_missing.cmake, which is called first, builds the missing ones of these files: tools/demo.sh builds only the program.
 set(installed_targets strata_rasterizer strata_pipeline strata_peeling ${oracle_targets})
 if(oracle_targets)
   list(APPEND installed_targets strata_images)
@@ -59,7 +59,7 @@ write_basic_package_version_file(strata-config-version.cmake COMPATIBILITY SameM
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/strata-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/strata-config-version.cmake
         DESTINATION ${package_folder})
 
-# Static libraries name the libraries below them to every program, shared ones keep them to themselves.
+# Programs link the dependencies of static libraries, but not those of shared ones.
 if(oracle_targets)
   set(libraries "-lstrata_library -lstrata_mistakes -lstrata_oracle -lstrata_scenes -lstrata_peeling -lstrata_pipeline -lstrata_rasterizer")
   set(below "fmt libhwy libpng libxxhash OpenEXR tbb")

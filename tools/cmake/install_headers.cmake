@@ -1,5 +1,5 @@
-# Installs the headers of FOLDERS below INCLUDES/strata. In the sources they name each other from the repository's root; installed ones
-# name each other as <strata/...>, so that a program's include path needs one folder, and no folder of its own is mistaken for ours.
+# Installs the headers of FOLDERS in INCLUDES/strata. In the sources they include each other by their path in the repository; installed ones by
+# <strata/...>, so that a program's include path needs one folder, and no folder of the program is confused with ours.
 set(place "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${INCLUDES}/strata")
 foreach(folder IN LISTS FOLDERS)
   file(GLOB_RECURSE headers RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.h)

@@ -14,14 +14,14 @@ if(NOT STRATA_HAS_INT128)
   message(FATAL_ERROR "Strata needs a compiler with 128-bit integers (__int128): GCC or Clang for a 64-bit processor.")
 endif()
 
-# strata::warnings - what our own code must compile without.
+# strata::warnings - the warnings without which our own code must compile.
 add_library(strata_warnings INTERFACE)
 add_library(strata::warnings ALIAS strata_warnings)
 target_compile_options(strata_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wswitch $<$<BOOL:${STRATA_WERROR}>:-Werror>)
 # GLM's operators are deleted in our own code (rasterizer/base/no_arithmetic.h), not in programs that use the package.
 target_compile_definitions(strata_warnings INTERFACE $<BUILD_INTERFACE:STRATA_GLM_IS_STORAGE>)
 
-# Instrumented builds (presets asan, tsan, fuzz, sanitized, coverage). They ride on strata::numerics because every target links that one.
+# Instrumented builds (presets asan, tsan, fuzz, sanitized, coverage). Their flags are in strata::numerics because every target links it.
 set(STRATA_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")
 option(STRATA_SANITIZE_TESTS "Build the tests' own sources with them, too" ON)
 option(STRATA_COVERAGE "Count the branches that are taken (clang of 18 or later)" OFF)
@@ -30,7 +30,7 @@ set(sanitizer_flags "")
 if(STRATA_SANITIZE)
   list(APPEND sanitizer_flags -fsanitize=${STRATA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
 endif()
-# An index beyond a vector's end that stays in its memory, or std::clamp with its bounds the other way round: the library sees those.
+# An index beyond a vector's end but within its memory, or std::clamp with exchanged bounds: the library detects these.
 if(STRATA_SANITIZE MATCHES "address|undefined")
   list(APPEND sanitizer_flags -D_GLIBCXX_ASSERTIONS)
 endif()
@@ -40,7 +40,7 @@ endif()
 if(STRATA_COVERAGE)
   list(APPEND sanitizer_flags -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=${PROJECT_SOURCE_DIR}/tests/coverage/counted.txt)
 endif()
-# A target whose STRATA_UNSANITIZED is set is linked with them alone.
+# A target whose STRATA_UNSANITIZED is set is only linked with them.
 target_compile_options(strata_numerics INTERFACE
   "$<BUILD_INTERFACE:$<$<NOT:$<BOOL:$<TARGET_PROPERTY:STRATA_UNSANITIZED>>>:${sanitizer_flags}>>")
-target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")  # a -D there is passed over
+target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")  # -D has no effect there

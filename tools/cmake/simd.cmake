@@ -1,9 +1,8 @@
-# PkgConfig::HIGHWAY - the instruction sets that the kernels are compiled for: those that `--simd` names. A machine with none of them
-# runs the scalar reference, so Highway's own fallbacks would never run. Instrumented builds, where a kernel takes a minute
-# to compile, have one set.
+# PkgConfig::HIGHWAY - the instruction sets for which the kernels are compiled: those of `--simd`. A processor with none of them uses the scalar
+# reference, so that Highway's own fallbacks would never be used. Instrumented builds, in which a kernel takes a minute to compile, have one set.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
-# Its headers are all that is used; builds that check assertions need its library, which takes 4 ms to load (simd_dispatch.h).
+# Only its headers are used; builds that check assertions need its library, which takes 4 ms to load (simd_dispatch.h).
 get_target_property(highway_library PkgConfig::HIGHWAY INTERFACE_LINK_LIBRARIES)
 if(highway_library)
   set_target_properties(PkgConfig::HIGHWAY PROPERTIES INTERFACE_LINK_LIBRARIES "-Wl,--push-state,--as-needed,${highway_library},--pop-state")
@@ -15,13 +14,13 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   endif()
   target_compile_definitions(PkgConfig::HIGHWAY INTERFACE HWY_BASELINE_TARGETS=HWY_AVX2 "HWY_DISABLED_TARGETS=(${disabled})")
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
-  # Our batches hold vectors in arrays, which SVE's vectors without a size cannot be; NEON's target of Highway asks for AES.
+  # Our batches have vectors in arrays, which is impossible with SVE's vectors of unknown size; Highway's NEON target requires AES.
   target_compile_options(PkgConfig::HIGHWAY INTERFACE -march=armv8-a+crypto)
   target_compile_definitions(PkgConfig::HIGHWAY INTERFACE
     "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
 endif()
-# strata_kernels_of_many_forms(SOURCE...): kernels that stand in dozens of forms, one for each choice of formats and tests. An
-# optimizer that is to carry sanitizers through all of them takes half a minute a source; without it they take two seconds.
+# strata_kernels_of_many_forms(SOURCE...): kernels that are compiled in dozens of forms, one for each choice of formats and tests. With sanitizers in
+# all of them the optimizer takes half a minute per source, without them two seconds.
 function(strata_kernels_of_many_forms)
   if(STRATA_SANITIZE)
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O0)

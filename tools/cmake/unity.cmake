@@ -1,6 +1,6 @@
-# strata_unity(TARGET SIZE [APART...]): its sources are compiled SIZE at a time, for parsing takes longer than most of them. Kernels,
-# which Highway includes again and again, and sources whose names collide with a neighbour's (APART) are compiled alone.
-# Preset dev compiles the core's sources one by one: an edit of an algorithm is that file alone.
+# strata_unity(TARGET SIZE [APART...]): compiles its sources SIZE at a time, because parsing takes longer than compiling most of them. Kernels, which
+# Highway includes repeatedly, and sources whose names collide with another's (APART) are compiled alone. Preset dev compiles the core's sources one
+# by one: after an edit of an algorithm only that file is compiled.
 option(STRATA_CORE_UNITY "Compile the sources of rasterizer, pipeline and peeling many at a time" ON)
 function(strata_unity target size)
   if(target MATCHES "^strata_(rasterizer|pipeline|peeling)$" AND NOT STRATA_CORE_UNITY)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Writes RESULTS.md and its pictures, and the whole page to build/cost/RESULTS.md: all knobs on the dragon and on Sponza, in two shards at
-# once, and the teapot twice.
-#   tools/cost/make_page.sh [MODELS]     (default ../shared/models) Needs a release build. A run that was stopped goes on.
+# Writes RESULTS.md and its pictures, and the whole page to build/cost/RESULTS.md: all options for the dragon and Sponza, in two shards at once, and
+# the teapot twice.
+#   tools/cost/make_page.sh [MODELS]     (default ../shared/models) Needs a release build. Resumes after an interruption.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 trap 'echo "tools/cost/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
@@ -10,7 +10,7 @@ models=${1:-../shared/models} out=${OUT:-build/cost}
 strata=${STRATA:-build/release/strata}
 TIMEFORMAT='a shard: %U s of processor time, %R s on the clock'
 
-# Takes a folder's name, a scene and its options. A shard has one thread and times the processor, so other programs do not disturb it.
+# Takes a folder's name, a scene and its options. A shard has one thread and measures processor time, which other programs do not affect.
 sweep() {
   local folder=$out/$1
   shift
@@ -22,7 +22,7 @@ sweep() {
   "$strata" cost "${words[@]}" --merge 2 >"$folder/report.txt"
 }
 
-# Seen from 30 degrees, the usual place, the dragon's file happens to list its triangles from back to front: order would cost nothing.
+# From the usual 30 degrees the dragon's file happens to list its triangles from back to front, so that the order would not matter.
 sweep dragon "$models/dragon.glb" --orbit 120,20 --repeat 5
 sweep sponza "$models/sponza.glb" --repeat 5
 for run in once again; do sweep "$run" teapot --size 128x128; done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes RESULTS.md and its picture, and the whole page with a picture per case to build/hard_cases, in two shards at once. An interrupted
-# run continues where it stopped. frame-8192x8192 is left out because it takes 6 GiB: strata hard-cases frame-8192x8192 runs it.
+# Writes RESULTS.md and its picture, and the whole page with a picture per case to build/hard_cases, in two shards at once. Resumes after an
+# interruption. frame-8192x8192 is omitted because it takes 6 GiB: strata hard-cases frame-8192x8192 renders it.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 trap 'echo "tools/hard_cases/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
@@ -9,7 +9,7 @@ strata=${STRATA:-build/release/strata} out=${OUT:-build/hard_cases}
 mkdir -p "$out"
 mapfile -t names < <("$strata" hard-cases --list | awk 'NR > 1 {print $1}' | grep -vx frame-8192x8192)
 
-# Notes the processor time, so that a run in several goes has the sum.
+# Stores the processor time, so that the times of interrupted calls are added.
 shard() {
   TIMEFORMAT=%U
   { time "$strata" hard-cases "${names[@]}" -o "$out" --shard "$1" 2>&3; } 3>&2 2>>"$out/processor_seconds"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes RESULTS.md and its plot, and the whole page to build/hardware_check/RESULTS.md: tools/hardware_check/make_page.sh CAPTURES [STRATA]
-# CAPTURES holds SUITE/NAME.png of abaire/nxdk_pgraph_tests_golden_results (CC0 1.0), or a part of them.
+# CAPTURES has the files SUITE/NAME.png of abaire/nxdk_pgraph_tests_golden_results (CC0 1.0), or some of them.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 trap 'echo "tools/hardware_check/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 
 status=0
 "$strata" hardware-check "$captures" -o "$work/report" >/dev/null || status=$?
-[ "$status" -le 1 ] || exit "$status"  # 1: a picture is outside its bound, and the page says so
+[ "$status" -le 1 ] || exit "$status"  # 1: a picture is outside its bound, which the page reports
 "$strata" hardware-check "$captures" --hypotheses >"$work/hypotheses.txt"
 tools/hardware_check/head.py "$work/report/report.md" tools/hardware_check/RESULTS.svg >tools/hardware_check/RESULTS.md
 mkdir -p "$out"

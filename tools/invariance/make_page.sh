@@ -8,7 +8,7 @@ trap 'echo "tools/invariance/make_page.sh: failed at line $LINENO: $BASH_COMMAND
 
 models=${1:-../shared/models} out=build/invariance
 strata=$(realpath "${STRATA:-build/release/strata}")
-rm -rf "$out"  # another plan needs another folder
+rm -rf "$out"  # the results of another plan would be rejected
 mkdir -p "$out"
 folders=("$out/built-in")
 "$strata" invariance --plan tools/invariance/results.json -o "$out/built-in"

@@ -18,7 +18,7 @@ The emulation makes each mistake of the catalogue alone, on a CPU, and renders e
 picture is then diagnosed like that of an unknown port.
 
 END
-    sed -n '3,/^$/p' "$out/MISTAKES.md"  # what was found, three sentences
+    sed -n '3,/^$/p' "$out/MISTAKES.md"  # the results, three sentences
     cat <<'END'
 ![What each scene of the suite shows of the mistakes](MISTAKES.svg)
 

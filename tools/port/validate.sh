@@ -1,5 +1,5 @@
 #!/bin/bash
-# Builds the port and Strata, draws packs of every profile on every OpenGL driver that there is, and writes RESULTS.md.
+# Builds the port and Strata, renders packs of every profile on every installed OpenGL driver, and writes RESULTS.md.
 # usage: tools/port/validate.sh [options of validate.py]
 set -euo pipefail
 cd "$(dirname "$0")/../.."

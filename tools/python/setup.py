@@ -1,4 +1,4 @@
-"""Builds the extension by CMake: against the shared libraries in the folder STRATA_PREFIX of the environment, else from these sources."""
+"""Builds the extension with CMake: against the shared libraries in the folder STRATA_PREFIX of the environment, else from these sources."""
 import os
 import pathlib
 import subprocess
@@ -16,13 +16,13 @@ class CMakeBuild(build_ext):
         options = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", f"-DCMAKE_INSTALL_PREFIX={target}"]
         if "STRATA_PREFIX" in os.environ:
             options.append(f"-DSTRATA_PREFIX={os.environ['STRATA_PREFIX']}")
-        # --fresh: an installation that failed leaves its cache, which would decide this one.
+        # --fresh: a failed installation leaves a cache, whose values would be used again.
         subprocess.run(["cmake", "--fresh", "-S", source, "-B", build, "-G", "Ninja", *options], check=True)
         subprocess.run(["cmake", "--build", build], check=True)
         subprocess.run(["cmake", "--install", build], check=True)
 
 
-# All that is made on the way goes to the repository's build folder: what an earlier version left beside the sources would be in the wheel, too.
+# All intermediate files are in the repository's build folder: files of an earlier version in the source folder would become part of the wheel.
 base = pathlib.Path(__file__).resolve().parents[2] / "build" / "python-package"
 base.mkdir(parents=True, exist_ok=True)
 setuptools.setup(options={"build": {"build_base": str(base)}, "egg_info": {"egg_base": str(base)}}, ext_modules=[setuptools.Extension("strata._strata", [])], cmdclass={"build_ext": CMakeBuild})

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Python package into a virtual environment of its own, as a user would, and tests it from there: no network is needed.
 #   tools/python/test.sh [FOLDER]   builds shared libraries, the package and the environment in FOLDER (default: build/python)
-# Exit status 77 (skipped) where Debian's packages of tools/packages.txt, "Python", are missing.
+# Exit status 77 (skipped) if Debian's packages of tools/packages.txt, "Python", are missing.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source=$PWD
@@ -39,7 +39,7 @@ if STRATA_PREFIX=$folder/static install >>"$folder/build.log" 2>&1; then
 fi
 STRATA_PREFIX=$folder/installed install
 
-cd "$folder"  # away from the sources, so that what is installed is what is tested
+cd "$folder"  # away from the sources, so that the installed package is tested
 step "tests"
 environment/bin/python -m pytest -q -p no:cacheprovider "$source/tests/tools/python"
 step "types"
@@ -47,7 +47,7 @@ environment/bin/python -m mypy --strict --cache-dir "$folder/mypy" -p strata
 environment/bin/python -m mypy --strict --cache-dir "$folder/mypy" "$source/tests/tools/python/typed_use.py"
 step "the notebook, from top to bottom"
 environment/bin/python -m ipykernel install --prefix "$folder/environment" --name python3 >/dev/null
-mkdir -p notebook && cp "$source/tools/python/tour.ipynb" notebook  # it writes files beside itself
+mkdir -p notebook && cp "$source/tools/python/tour.ipynb" notebook  # it writes files into its own folder
 environment/bin/python -m nbconvert --to notebook --execute --inplace notebook/tour.ipynb
 step "the examples, from the shared libraries"
 cmake -S "$source/tools/library/examples" -B "$folder/examples" -G Ninja -DCMAKE_PREFIX_PATH="$folder/installed" >>"$folder/build.log"

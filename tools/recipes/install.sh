@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds Strata without its tests and installs it, for a container or a machine of continuous integration.
+# Builds Strata without its tests and installs it, for a container or a runner of continuous integration.
 #   tools/recipes/install.sh [PREFIX]    default: /usr/local
-# STRATA_PACKAGES=no leaves Debian's packages alone; STRATA_BUILD=FOLDER installs what is built there.
+# STRATA_PACKAGES=no installs no Debian packages; STRATA_BUILD=FOLDER installs the build of that folder.
 set -euo pipefail
 prefix=${1:-/usr/local}
 cd "$(dirname "$0")/../.."

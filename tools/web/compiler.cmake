@@ -1,4 +1,4 @@
-# What the browser's build changes for every target: packages that are headers alone, exceptions, and what Emscripten's C++ library lacks.
+# Changes of the browser's build for every target: packages of headers only, exceptions, and replacements for the gaps of Emscripten's C++ library.
 if(NOT EMSCRIPTEN)
   message(FATAL_ERROR "STRATA_WEB: expected Emscripten's compiler (tools/web/build.sh), found ${CMAKE_CXX_COMPILER}")
 endif()

@@ -1,4 +1,4 @@
-# The sources of the page's program beside the core: what scenes need neither disk, image module nor packs, layers and histories.
+# The sources of the page's program in addition to the core: scenes that need no disk, image module or packs, layers and histories.
 set(scenes ${PROJECT_SOURCE_DIR}/scenes)
 set(oracle ${PROJECT_SOURCE_DIR}/tools/oracle)
 include(${scenes}/sources.cmake)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Holds the browser's page against the command: tools/web/test.sh [STRATA]. Ten scenes by every algorithm; needs tools/web/build.sh before it.
+# Compares the browser's page with the command: tools/web/test.sh [STRATA]. Ten scenes by every algorithm; needs tools/web/build.sh first.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 exec /usr/bin/python3 -B tools/web/check_page.py "${1:-build/release/strata}" build/web/page

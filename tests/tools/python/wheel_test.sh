@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# wheel_test.sh STRATA FOLDER: makes a wheel of tools/python below FOLDER, installs it into a new environment, and calls it from there: its pictures
-# have the digests that the program STRATA prints. Exit status 77 (skipped) where one of Debian's packages is missing.
+# wheel_test.sh STRATA FOLDER: makes a wheel of tools/python in FOLDER, installs it into a new environment, and calls it there: its pictures must have
+# the digests that the program STRATA prints. Exit status 77 (skipped) if one of Debian's packages is missing.
 set -euo pipefail
 source=$(realpath "$(dirname "$0")/../../..")
 strata=$(realpath "$1")
@@ -23,7 +23,7 @@ wheels=("$folder"/wheel/*.whl)
 
 "$python" -m venv --system-site-packages "$folder/fresh/environment"  # Debian's numpy
 "$folder/fresh/environment/bin/pip" install --quiet --no-index --no-deps "${wheels[0]}"
-# What the wheel was made of is gone before it is called.
+# The sources of the wheel are removed before it is called.
 rm -rf "$folder/extension"
 cd "$folder/fresh"
 "$strata" render teapot --size 64x48 --algorithm dual,weighted_average --no-audit --stats stats.json -q -o there.png

@@ -7,7 +7,7 @@ trap 'echo "tools/docs/pictures/make.sh: failed at line $LINENO: $BASH_COMMAND" 
 out=tools/docs/pictures work=build/pictures
 mkdir -p "$work"
 view=(teapot --size 400x300 --camera "$out/teapot.json")
-# One row of pictures, without the writer's name and date: the same bytes every time.
+# A row of pictures, without the writer's name and date, so that the bytes are always the same.
 row() {  # row FILE PICTURE...
     local file=$1 pictures=()
     shift
@@ -15,7 +15,7 @@ row() {  # row FILE PICTURE...
     oiiotool "${pictures[@]}" --mosaic:pad=4 "$#x1" --nosoftwareattrib --eraseattrib ".*" -d uint8 -o "$out/$file"
 }
 
-# As the triangles come, peeled, and four times the difference.
+# In submission order, peeled, and four times the difference.
 build/release/strata render "${view[@]}" --alpha 0.75 --background 1,1,1 --algorithm unsorted,dual -o "$work/problem.png" >/dev/null
 oiiotool "$work/problem.unsorted.png" "$work/problem.dual.png" --absdiff --mulc 4 --ch R,G,B -o "$work/difference.png"
 row problem.png "$work/problem.unsorted.png" "$work/problem.dual.png" "$work/difference.png"
@@ -35,14 +35,14 @@ row layers.png "$work/all.png" "${layers[@]}"
 build/release/strata passes "${view[@]/400x300/200x150}" --background 1,1,1 --algorithm dual -o "$work/passes" >/dev/null
 oiiotool "$work/passes/contact.png" --nosoftwareattrib --eraseattrib ".*" -d uint8 -o "$out/passes.png"
 
-# Shadow-map peeling of the first device: two depths that differ, and the same with a depth bias.
+# Shadow-map peeling on geforce3: with two depths that differ, and the same with a depth bias.
 for bias in 0 16; do
     build/release/strata render "${view[@]}" --alpha 0.75 --background 1,1,1 --algorithm shadow_map --profile geforce3 --depth-format d24 \
         --depth-path window_z --reference-path perspective_rq --max-passes 8 --polygon-offset 0,$bias -o "$work/bias.$bias.png" >/dev/null
 done
 row invariance.png "$work/bias.0.png" "$work/bias.16.png"
 
-# What compare --side shows: of two algorithms (first-peel.md), of a port that forgot a factor (port-dual.md).
+# The output of compare --side: for two algorithms (first-peel.md), and for a port without a factor (port-dual.md).
 build/release/strata render teapot --size 400x300 --background 1,1,1 --algorithm dual,weighted_average -o "$work/all.png" >/dev/null
 build/release/strata compare "$work/all.dual.png" "$work/all.weighted_average.png" --side "$out/first-peel.png" >/dev/null || true
 port=(random:seed=3,triangles=200 --size 48x36 --algorithm dual)
@@ -51,11 +51,11 @@ build/release/strata render "${port[@]}" --mistake program_without_transmittance
 build/release/strata compare "$work/right.png" "$work/wrong.png" --side "$work/side.png" >/dev/null || true
 oiiotool "$work/side.png" --resample 300% --nosoftwareattrib --eraseattrib ".*" -d uint8 -o "$out/port-dual.png"
 
-# Where a peel by a shadow map goes wrong by biases of 0, 2, 4 and 64 units (bias.md).
+# The errors of a peel by a shadow map with biases of 0, 2, 4 and 64 units (bias.md).
 rm -rf "$work/planes"
 build/release/strata invariance planes:gap=4,count=4 --size 128x96 --depth-format d24 --remedy none,bias:2,bias:4,bias:64 -o "$work/planes" >/dev/null
 for cell in 0 1 2 3; do oiiotool "$work/planes/images/000$cell.errors.png" --resample 200% -o "$work/errors.$cell.png"; done
 row bias.png "$work"/errors.{0,1,2,3}.png
 
-# A report, as a browser shows it.
+# A report in a browser.
 /usr/bin/python3 tools/docs/pictures/report.py build/release/strata

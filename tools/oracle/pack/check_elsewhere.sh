@@ -1,7 +1,7 @@
 #!/bin/bash
-# Packs that the usual build writes, checked by a program that another compiler built, on every instruction set of this processor.
-# usage: tools/oracle/pack/check_elsewhere.sh [FOLDER]     FOLDER: where all of it is built (default: build/elsewhere)
-# COMPILER names the other compiler (default: clang++). Exit status 0: every byte is derived again.
+# Checks packs of the usual build with a program that another compiler built, on every instruction set of this processor.
+# usage: tools/oracle/pack/check_elsewhere.sh [FOLDER]     FOLDER: the build folder (default: build/elsewhere)
+# COMPILER names the other compiler (default: clang++). Exit status 0: every byte is reproduced.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 folder=${1:-build/elsewhere}

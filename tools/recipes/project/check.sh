@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds this project and holds its pictures to the reference. What differs is told by kind and first pixel; build/pictures keeps the
-# pictures, build/report.xml is for the service's page.
+# Builds this project and compares its pictures with the reference. Differences are reported by kind and first pixel; build/pictures has the pictures,
+# build/report.xml is for the page of the CI service.
 #   STRATA_PREFIX=WHERE ./check.sh     where Strata is installed, if not in a usual place
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -10,7 +10,7 @@ export STRATA_PICTURES=$PWD/build/pictures
 status=0
 build/panes_test || status=1
 
-# The same from the command line, for a program in any language that leaves a file of pixels behind.
+# The same on the command line, for a program in any language that writes a file of pixels.
 PATH=${STRATA_PREFIX:+$STRATA_PREFIX/bin:}$PATH
 build/panes build/panes.raw
 build/reference build/reference.exr

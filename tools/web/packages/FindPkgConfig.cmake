@@ -1,9 +1,9 @@
-# pkg-config's answers for the two packages that the core asks for: their headers. What their libraries hold stands in header_libraries.cpp.
+# Replaces pkg-config for the two packages that the core requests: their headers. Functions of their libraries are in header_libraries.cpp.
 include(${CMAKE_CURRENT_LIST_DIR}/debian_headers.cmake)
 macro(pkg_check_modules name)
   if("${name}" STREQUAL "HIGHWAY")
     debian_headers(PkgConfig::HIGHWAY hwy)
-    # Its SIMD128 has no binary64, which our kernels use: the compiler makes vectors of the plain loops.
+    # Its SIMD128 has no binary64, which our kernels use: the compiler vectorizes the plain loops.
     set_target_properties(PkgConfig::HIGHWAY PROPERTIES INTERFACE_COMPILE_DEFINITIONS HWY_COMPILE_ONLY_EMU128)
   elseif("${name}" STREQUAL "XXHASH")
     debian_headers(PkgConfig::XXHASH xxhash.h xxh3.h)

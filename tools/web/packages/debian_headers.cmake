@@ -1,5 +1,5 @@
-# debian_headers(TARGET HEADER...): an imported library of headers alone, those HEADERs of /usr/include. They are linked into a folder of
-# their own: /usr/include itself holds the C library of another machine.
+# debian_headers(TARGET HEADER...): an imported library with only the HEADERs of /usr/include. They are linked into a separate folder, because
+# /usr/include has the C library of another processor.
 function(debian_headers target)
   set(folder ${CMAKE_BINARY_DIR}/headers)
   file(MAKE_DIRECTORY ${folder})

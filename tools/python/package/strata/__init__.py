@@ -1,13 +1,13 @@
-"""Reference pictures of transparent scenes, bit by bit, for the tests of other renderers.
+"""Exact reference pictures of transparent scenes, for the tests of other renderers.
 
     scene = strata.Scene("teapot")
     wanted = strata.render(scene, "dual", profile="geforce8", width=64, height=48)
     print(strata.compare(wanted, my_pixels).text)
 
-Arrays are codes as they are stored: uint8 of 8-bit colours, float16 and float32 of float targets, uint16 and uint32 of D16 and D24. They
-are read-only; those of 32-bit channels share the library's memory. Options of the frame (width, height, depth, color_format, alpha,
-background, max_passes, depth_path, ...) are keywords with the names and words of the command `strata`; background is premultiplied, origin
-("upper_left", "lower_left") is the corner at which the device's memory begins. Rows come from the top whatever it is.
+Arrays have the stored codes: uint8 of 8-bit colours, float16 and float32 of float targets, uint16 and uint32 of D16 and D24. They are read-only;
+those of 32-bit channels share the library's memory. Options of the frame (width, height, depth, color_format, alpha,
+background, max_passes, depth_path, ...) are keywords with the names and values of the command `strata`; background is premultiplied, origin
+("upper_left", "lower_left") is the corner at which the device's memory begins. Rows always begin at the top.
 """
 from __future__ import annotations
 
@@ -31,12 +31,13 @@ Comparable = Union[Rendering, Picture, Array, str, "os.PathLike[str]"]
 
 
 class Scene(_strata.Scene):
-    """A model's file (.gltf, .glb, .obj, .ply, .stl, .off), a built-in scene, or triangles that are added; without a camera their positions are clip space."""
+    """A model's file (.gltf, .glb, .obj, .ply, .stl, .off), a built-in scene, or added triangles; without a camera their positions are in clip
+    space."""
 
     def add(self, positions: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None, indices: Optional[npt.ArrayLike] = None,
             color: Sequence[float] = (1, 1, 1, 1), transparent: bool = True, double_sided: bool = True,
             model: Optional[npt.ArrayLike] = None, name: str = "") -> "Scene":
-        """Positions are (vertices, 3) of float32 and colors (vertices, 4), straight; indices three a triangle; model a 4 x 4 matrix."""
+        """Positions are (vertices, 3) of float32 and colors (vertices, 4), straight; indices three per triangle; model a 4 x 4 matrix."""
         by_columns = None if model is None else np.asarray(model, dtype=np.float64).reshape(4, 4).T.ravel().tolist()
         self._add(_floats("positions", positions), None if colors is None else _floats("colors", colors),
                   None if indices is None else _indices(indices), list(color), transparent, double_sided, by_columns, name)
@@ -65,37 +66,37 @@ def _indices(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
 
 
 def render(scene: _strata.Scene, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> Rendering:
-    """The picture. A Rendering that is_refused raises Refused when an array is asked of it."""
+    """Renders the picture. A Rendering that is_refused raises Refused when one of its arrays is accessed."""
     return _strata._render(scene, algorithm, profile, **options)
 
 
 def layers(scene: _strata.Scene, algorithm: str = "front_to_back", *, profile: str = "ideal", **options: Any) -> list[Layer]:
-    """Near to far."""
+    """The layers from near to far."""
     return [Layer(*layer) for layer in _strata._layers(scene, algorithm, profile, **options)]
 
 
 def passes(scene: _strata.Scene, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> list[dict[str, Any]]:
-    """Every pass with all targets as it leaves them: number, kind, reads, writes, passed, queries, targets."""
+    """Every pass with all targets after it: number, kind, reads, writes, passed, queries, targets."""
     return _strata._passes(scene, algorithm, profile, **options)
 
 
 def fragments(scene: _strata.Scene, algorithm: str = "a_buffer", *, profile: str = "ideal", **options: Any) -> dict[str, Array]:
-    """All fragments of transparent triangles in submission order: pixel, primitive, code, z, color. The arrays share one memory."""
+    """All fragments of transparent triangles in submission order: pixel, primitive, code, z, color. The arrays share their memory."""
     return _strata._fragments(scene, algorithm, profile, **options)
 
 
 def explain(scene: _strata.Scene, x: int, y: int, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> History:
-    """What happened at a pixel, counted from the top left: text, json_text, svg."""
+    """The history of a pixel, counted from the top left: text, json_text, svg."""
     return _strata._explain(scene, x, y, algorithm, profile, **options)
 
 
 def history_json(history: History) -> Any:
-    """The history as dictionaries and lists: enough to do every step again."""
+    """The history as dictionaries and lists, sufficient to repeat every step."""
     return json.loads(history.json_text)
 
 
 def picture(array: Array, meaning: str = "") -> Picture:
-    """An array of stored codes as a picture. A plane of 32-bit words is a depth unless `meaning` is "color"."""
+    """Makes a picture from an array of stored codes. A plane of 32-bit words is a depth unless `meaning` is "color"."""
     if not isinstance(array, np.ndarray):
         raise InputError(f"picture: array: expected a numpy.ndarray, found {type(array).__name__}")
     return _strata._picture(array, meaning)
@@ -112,20 +113,21 @@ def _picture_of(given: Comparable) -> Picture:
 
 
 def compare(reference: Comparable, candidate: Comparable, *, color: int = 0, depth: int = 0, coverage: int = 0) -> Comparison:
-    """Exact, unless codes or pixels are to be forgiven: text, json_text, heat, distance tell the difference."""
+    """Compares exactly, unless codes or pixels are tolerated: text, json_text, heat and distance describe the difference."""
     tolerances = Tolerances(color=color, depth=depth, coverage=coverage)
     return _strata._compare(_picture_of(reference), _picture_of(candidate), tolerances)
 
 
 def diagnose(scene: _strata.Scene, candidate: Comparable, algorithm: str = "dual", *, profile: str = "ideal",
              tolerances: Optional[Tolerances] = None, **options: Any) -> Diagnosis:
-    """Which known mistake, or which two, made a picture of the scene: verdict, mistakes, alike, text. The candidate says the size."""
+    """The known mistake, or the two, that explain a picture of the scene: verdict, mistakes, alike, text. The picture has the size of the
+    candidate."""
     return _strata._diagnose(scene, _picture_of(candidate), algorithm, profile, tolerances or Tolerances(), **options)
 
 
 def assert_matches(candidate: Comparable, reference: Comparable, *, name: str = "", color: int = 0, depth: int = 0,
                    coverage: int = 0) -> None:
-    """AssertionError says the kinds of mistakes and the first pixel, and where pictures are left (STRATA_PICTURES)."""
+    """Raises AssertionError with the kinds of mistakes, the first pixel, and the folder of the pictures (STRATA_PICTURES)."""
     __tracebackhide__ = True
     known = name or (os.fspath(reference) if isinstance(reference, (str, os.PathLike)) else "reference")
     tolerances = Tolerances(color=color, depth=depth, coverage=coverage)

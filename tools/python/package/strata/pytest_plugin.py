@@ -1,4 +1,4 @@
-"""A fixture for pytest: matches_reference(candidate, reference) leaves pictures of a difference under the test's own name.
+"""A fixture for pytest: matches_reference(candidate, reference) stores pictures of a difference under the name of the test.
 
     def test_my_port(matches_reference):
         matches_reference(my_pixels, "reference.exr", color=1)
