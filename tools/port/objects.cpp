@@ -14,6 +14,8 @@ namespace {
 // softpipe uses for x (1 - t) + y t. Without the extension drivers may rearrange it.
 constexpr auto as_written = R"(#version 330 core
 #extension GL_ARB_gpu_shader5 : enable
+#extension GL_ARB_gpu_shader_fp64 : enable
+#extension GL_ARB_shader_storage_buffer_object : enable
 #ifdef GL_ARB_gpu_shader5
 #define as_written precise
 #else

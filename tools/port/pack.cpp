@@ -82,6 +82,8 @@ void check_state(const Manifest& manifest) {
     for (const char* const choice : {"depth_path", "reference_path"})
         if (state.contains(choice) && !state.at(choice).is_null())
             manifest.refuse(std::string("/state/") + choice, "null", state.at(choice).dump());
+    if (state.contains("algorithm") && !state.at("algorithm").is_null())
+        manifest.refuse("/state/algorithm", "none: the port has each algorithm's usual options", "some");
     const ordered_json& offset = manifest.at("/state/polygon_offset");
     if (offset.is_object() && offset.value("enabled", false))
         manifest.refuse("/state/polygon_offset", "none: the port has no polygon offset", "one");

@@ -21,6 +21,10 @@ const std::vector<Maker>& makers() {
                                         {"weighted_average_pow", weighted_average_pow_job},
                                         {"coherent_stencil", coherent_stencil_job},
                                         {"depth_units", depth_units_job},
+                                        {"weighted_blended", weighted_blended_job},
+                                        {"moments", moments_job},
+                                        {"moments_log", moments_log_job},
+                                        {"linked_list", linked_list_job},
                                         {"sums", sums_job}};
     return all;
 }

@@ -59,7 +59,8 @@ struct Job {
 };
 
 // depth, front_to_back, dual, weighted_average (by repeated squaring; and by GLSL's pow), coherent_stencil,
-// depth_units, and the sums of weighted averages.
+// depth_units, weighted_blended, moments (by functions of the port; moments_log: by the driver's log and exp),
+// linked_list, and the sums of weighted averages.
 [[nodiscard]] const std::vector<std::string>& job_names();
 
 // Creates all targets and programs of the algorithm, which keeps a reference to the scene. Throws std::invalid_argument
@@ -78,5 +79,9 @@ struct Job {
 [[nodiscard]] Job dual_job(const JobInput& input);              // dual.cpp
 [[nodiscard]] Job coherent_stencil_job(const JobInput& input);  // coherent_stencil.cpp
 [[nodiscard]] Job depth_units_job(const JobInput& input);       // depth_units.cpp
+[[nodiscard]] Job weighted_blended_job(const JobInput& input);  // weighted.cpp
+[[nodiscard]] Job moments_job(const JobInput& input);
+[[nodiscard]] Job moments_log_job(const JobInput& input);
+[[nodiscard]] Job linked_list_job(const JobInput& input);  // linked_list.cpp
 
 }  // namespace strata::port
