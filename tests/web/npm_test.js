@@ -1,4 +1,4 @@
-// node npm_test.js STRATA: the installed package against the program: digests, refusals, a pixel's history, a file in memory, and sentences for mistakes.
+// node npm_test.js STRATA: the installed package against the program: digests, refusals, a pixel's history, a file in memory, and error messages.
 "use strict";
 const assert = require("assert");
 const { execFileSync, spawnSync } = require("child_process");
@@ -9,7 +9,7 @@ const told = (scene, ...options) => Object.fromEntries(JSON.parse(spawnSync(prog
   ["render", scene, ...options, "--algorithm", "all", "--no-audit", "--stats", "-"], { encoding: "utf8" }).stdout)
   .map((row) => [row.algorithm, row.digest.color || null]));
 
-// One triangle over the whole picture, green, half transparent.
+// One green triangle with alpha 0.5 that covers the whole picture.
 function triangle() {
   const corners = new Float32Array([-9, -9, 0, 9, -9, 0, 0, 9, 0]);
   const uri = "data:application/octet-stream;base64," + Buffer.from(corners.buffer).toString("base64");

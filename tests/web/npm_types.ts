@@ -1,4 +1,4 @@
-// What interface.d.ts promises, for tsc --strict: right calls compile, and the wrong ones below do not.
+// Tests the types of interface.d.ts with tsc --strict: right calls compile, and the wrong ones below do not.
 import { Layers, Picture, Refused, Strata, load } from "strata-renderer";
 
 export async function uses(): Promise<number> {

@@ -1,4 +1,4 @@
-// Reads names of files from standard input, a line each, and writes a line of JSON each: the codes of what the validator found.
+// Reads names of files from standard input, one per line, and writes a line of JSON for each: the codes of the validator's errors.
 const fs = require('fs');
 const path = require('path');
 const validator = require(process.argv[2]);
@@ -14,7 +14,7 @@ async function validate(file) {
   } catch (e) { return {file, errors: ['THROWN: ' + String(e).split('\n')[0]], warnings: []}; }
 }
 
-// On some files the validator throws an exception that is not caught: that is its verdict, then, and the next file's turn.
+// For some files the validator throws an exception: that is then its verdict, and the next file follows.
 let giveUp = () => {};
 for (const event of ['uncaughtException', 'unhandledRejection'])
   process.on(event, () => giveUp('THROWN: not caught'));

@@ -39,7 +39,7 @@ function makeOperationProgram(gl, { vertex, fragment }) {
   return program;
 }
 
-// Column by column: the value before, one draw with the operation, then a bit a row by EQUAL.
+// In each column: the initial value, one draw with the operation, then one bit per row by EQUAL.
 function drawStencil(gl, work, inputs, draw) {
   const [width, height] = work.size;
   const steps = [gl.KEEP, gl.ZERO, gl.REPLACE, gl.INCR, gl.DECR, gl.INVERT, gl.INCR_WRAP, gl.DECR_WRAP];
@@ -69,7 +69,7 @@ function drawStencil(gl, work, inputs, draw) {
   gl.disable(gl.STENCIL_TEST);
 }
 
-// Depths by the first program, then what has them by the second.
+// Draws depths with the first program, then with the second, which passes where they are equal.
 function drawTwice(gl, programs, draw) {
   gl.enable(gl.DEPTH_TEST);
   gl.depthFunc(gl.ALWAYS);
@@ -102,7 +102,7 @@ function drawOperation(device, work, inputs, programs) {
   else draw();
 }
 
-// The results as an array of words; an Error with the reason where there are none.
+// The results as an array of words; an Error with the reason if there are none.
 function answerOperation(device, work) {
   const { gl } = device, [width, height] = work.size, inputs = wordsOf(work.inputs);
   while (gl.getError() !== gl.NO_ERROR);

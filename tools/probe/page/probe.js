@@ -1,4 +1,4 @@
-// Draws every scene of the kit by WebGL 2 and packs the answers as `strata infer` reads them. Clip-space +y points down in
+// Renders every scene of the kit with WebGL 2 and packs the answers for `strata infer`. Clip-space +y points down in
 // memory here: WebGL has no clip control, and a framebuffer's first row is its lowest.
 const orientation = 'down';
 const element = (id) => document.getElementById(id);
@@ -22,7 +22,7 @@ void main() { bits = uvec4(floatBitsToUint(texelFetch(depth, ivec2(gl_FragCoord.
 
 const equations = { add: 'FUNC_ADD', subtract: 'FUNC_SUBTRACT', reverse_subtract: 'FUNC_REVERSE_SUBTRACT', min: 'MIN', max: 'MAX' };
 
-// Words of a text of hexadecimal digits, 8 a word.
+// Words of a text of hexadecimal digits, 8 per word.
 function wordsOf(digits) {
   const words = new Uint32Array(digits.length / 8);
   for (let i = 0; i < words.length; ++i) words[i] = parseInt(digits.substring(8 * i, 8 * i + 8), 16);
@@ -30,7 +30,7 @@ function wordsOf(digits) {
 }
 const floatsOf = (digits) => new Float32Array(wordsOf(digits).buffer);
 
-// Of what a compiler says: the first mistake, for the others follow from it.
+// The first error of a compiler's output, because the others follow from it.
 const firstLine = (log) => log.trim().split('\n')[0];
 
 function makeProgram(gl, vertex, fragment) {
@@ -77,7 +77,7 @@ function makeDevice() {
   return device;
 }
 
-// Why the device cannot draw the scene; empty if it can.
+// The reason why the device cannot render the scene; empty if it can.
 function refusal(device, item) {
   if (item.draws.some((draw) => draw.alpha_above !== null)) return 'WebGL 2 has no alpha test';
   if (item.color !== 'rgba8' && !device.canFloat) return 'no float targets (EXT_color_buffer_float)';
@@ -116,7 +116,7 @@ function drawItem(device, item, target) {
   gl.disable(gl.POLYGON_OFFSET_FILL);
 }
 
-// The bits of a half that a float holds exactly.
+// The bits of a half whose value is given as a float.
 function halfBits(value) {
   const bits = new Uint32Array(new Float32Array([value]).buffer)[0], sign = (bits >>> 16) & 0x8000;
   const exponent = (bits >>> 23) & 0xff, mantissa = bits & 0x7fffff;
@@ -155,7 +155,7 @@ function readDepth(device, item, depth) {
   return npy('<f4', [height, width], new Uint8Array(words.filter((word, i) => i % 4 === 0).buffer));
 }
 
-// The files of one scene's answer; an Error with the reason where there is none.
+// The files of one scene's answer; an Error with the reason if there is none.
 function answer(device, item) {
   const { gl } = device, [width, height] = item.size;
   const why = refusal(device, item);
@@ -183,7 +183,7 @@ function answer(device, item) {
   }
 }
 
-// NPY 1.0: a header of 128 bytes, then the array as it lies in memory (all browsers' machines are little endian).
+// NPY 1.0: a header of 128 bytes, then the array as in memory (all computers with browsers are little endian).
 function npy(type, shape, bytes) {
   const text = `{'descr': '${type}', 'fortran_order': False, 'shape': (${shape.join(', ')}), }`;
   const head = '\x93NUMPY\x01\x00\x76\x00' + text.padEnd(117, ' ') + '\n';

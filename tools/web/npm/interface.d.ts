@@ -1,4 +1,4 @@
-// Strata in JavaScript. A question's fields have the names and meaning of the command's options; what is left out has the command's default.
+// Strata in JavaScript. The fields of a question have the names and meanings of the command's options; omitted ones have the command's defaults.
 
 export interface View {
   /** A built-in scene with its parameters ("random:triangles=300"), or a name given to `addFile`. */
@@ -20,7 +20,7 @@ export interface View {
 export interface Question extends View {
   /** A name of `lists().algorithms`. */
   algorithm: string;
-  /** Hold the picture to the exact one: more diagnostics, and slower; default false. */
+  /** Compare the picture with the exact one: more diagnostics, and slower; default false. */
   audit?: boolean;
 }
 
@@ -34,11 +34,11 @@ export interface Picture {
   /** Passes over the geometry. */
   passes: number;
   full_screen: number;
-  /** r, g, b, a, straight, a byte each; rows from the top. */
+  /** r, g, b, a, straight, one byte each; rows from the top. */
   picture: Uint8Array;
-  /** The colour target as it is stored. */
+  /** The stored codes of the colour target. */
   codes: Uint32Array;
-  /** What went wrong on the device. */
+  /** The device's errors in the picture. */
   diagnostics: { fault: string; pixels: number; detail: string }[];
   has_own_view: boolean;
   warnings: string[];
@@ -47,13 +47,13 @@ export interface Picture {
 /** Every fragment, near to far: those of pixel p = y * width + x are `first[p]` to `first[p + 1] - 1` of the other arrays. */
 export interface Layers {
   first: Uint32Array;
-  /** The depth as it is stored. */
+  /** The stored code of the depth. */
   code: Uint32Array;
-  /** The triangle. */
+  /** The number of the triangle. */
   primitive: Uint32Array;
   /** The fragment's position in the order of submission. */
   order: Uint32Array;
-  /** The depth that the shader sees, 0 to 1. */
+  /** The depth in the shader, 0 to 1. */
   z: Float32Array;
   red: Float32Array;
   green: Float32Array;
@@ -70,9 +70,9 @@ export interface Lists {
 /** The algorithm needs a feature that the profile lacks; the message names it. */
 export class Refused extends Error {}
 
-/** Every call throws an `Error` with a sentence that names the field, what was expected and what was found. */
+/** Every call throws an `Error` with a sentence that names the field, the expected and the found value. */
 export class Strata {
-  /** Keeps a copy of the bytes of a .glb or .gltf file, which questions name as their scene. */
+  /** Stores a copy of the bytes of a .glb or .gltf file, which questions name as their scene. */
   addFile(name: string, bytes: ArrayBuffer | Uint8Array): void;
   lists(): Lists;
   render(question: Question): Picture;

@@ -5,7 +5,7 @@ class Refused extends Error {}
 
 class Strata {
   #module;
-  // What the arrays of an answer hold, by name.
+  // The element types of the arrays of an answer, by name.
   static #kinds = { picture: Uint8Array, codes: Uint32Array, first: Uint32Array, code: Uint32Array, primitive: Uint32Array, order: Uint32Array,
     z: Float32Array, red: Float32Array, green: Float32Array, blue: Float32Array, alpha: Float32Array };
 
@@ -44,11 +44,11 @@ class Strata {
   }
 }
 
-// OPTIONS go to Emscripten's module: `locateFile` says where strata.wasm is.
+// OPTIONS go to Emscripten's module: `locateFile` returns the path of strata.wasm.
 async function load(options = {}) {
   if (typeof require !== "function") return new Strata(await strataModule(options));
   const given = { ...options };
-  // Emscripten 3.1.6 would fetch the file's path, and the fetch that Node.js has from version 18 on takes addresses alone.
+  // Emscripten 3.1.6 would fetch the file's path, but Node.js's fetch (from version 18) only accepts addresses.
   if (typeof process === "object" && process.versions?.node)
     given.wasmBinary = require("fs").readFileSync(options.locateFile?.("strata.wasm", __dirname + "/") ?? __dirname + "/strata.wasm");
   return new Strata(await require("./strata.js")(given));

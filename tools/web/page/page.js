@@ -40,7 +40,7 @@ function list(id, sentences) {
   at(id).replaceChildren(...sentences.map((sentence) => Object.assign(document.createElement("li"), { textContent: sentence })));
 }
 
-// A question while one is under way waits, and only the last one is asked.
+// While a question is being answered, further ones wait, and only the last of these is asked.
 async function render() {
   if (busy) { again = true; return; }
   busy = true;

@@ -1,4 +1,4 @@
-// The renderer, off the page's own thread. A message {number, question, file?} is answered by {number, answer, arrays}.
+// The renderer, in a thread other than the page's. A message {number, question, file?} is answered by {number, answer, arrays}.
 importScripts("strata.js", "interface.js");
 
 const ready = load();

@@ -1,12 +1,12 @@
 "use strict";
-// Everything is drawn from the numbers in this file: #data is a document, and each .blob an array (byte planes, deflate, base64).
+// All pictures are drawn from the numbers in this file: #data is a document, and each .blob an array (byte planes, deflate, base64).
 const report = JSON.parse(document.getElementById("data").textContent);
 const blobs = [...document.querySelectorAll("script.blob")].map((element) => element.textContent);
 const { width, height } = report, [originX, originY] = report.origin;
 const at = (id) => document.getElementById(id);
 const fates = ["none", "masked by its material's alpha", "discarded by the program", "alpha test", "sequential depth unit",
   "stencil test", "depth test"];
-const palette = ["#000000", "#f0e442", "#56b4e9", "#e69f00", "#cc79a7", "#d55e00", "#009e73", "#ffffff"];  // by lightness, too
+const palette = ["#000000", "#f0e442", "#56b4e9", "#e69f00", "#cc79a7", "#d55e00", "#009e73", "#ffffff"];  // also in order of lightness
 
 async function bytesOf(number) {
   const packed = Uint8Array.from(atob(blobs[number]), (c) => c.charCodeAt(0));
@@ -39,7 +39,7 @@ function valueOf(code, format) {
   return format.includes("16f") ? halfValue(code) : code / 255;
 }
 
-// Frames that blend linear light are encoded for the screen; others hold sRGB values.
+// Frames that blend linear light are encoded for the screen; others have sRGB values.
 const encoded = (v) => report.colour !== "linear" ? v : v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
 const byte = (v) => Math.max(0, Math.min(255, Math.round(v * 255)));
 
@@ -101,14 +101,14 @@ function differenceAt(algorithm, p) {
 }
 const heat = (v) => { const t = Math.min(1, v) * 3; return [byte(t), byte(t - 1), byte(t - 2)]; };
 
-const drawings = [];  // what is drawn again when a control moves
+const drawings = [];  // functions that draw again when a control changes
 function drawSheet() {
   const gain = 2 ** Number(at("gain").value);
   at("gain-value").textContent = gain;
   for (const draw of drawings) draw(gain);
 }
 
-// A long name may break behind its underscores.
+// A long name may break after its underscores.
 function broken(tag, name) {
   const whole = element(tag);
   name.split(/(?<=_)/).forEach((part, i) => whole.append(...(i > 0 ? [element("wbr")] : []), part));
@@ -189,7 +189,7 @@ const maps = {
   "test that killed most": { needs: (a) => a.killer, of: (p, a) => a.killer[p], classes: fates, text: "Which test rejected most fragments of a pixel in all passes" },
 };
 function tiesAt(p) {
-  const codes = columns.code.slice(columns.first[p], columns.first[p + 1]).sort();  // two codes may share a float: sorted as numbers
+  const codes = columns.code.slice(columns.first[p], columns.first[p + 1]).sort();  // sorted as codes, because two codes may have one float
   return codes.reduce((ties, code, i) => ties + (code === codes[i - 1] || code === codes[i + 1] ? 1 : 0), 0);
 }
 function lostAt(p, a) {
@@ -201,7 +201,7 @@ function firstTakenAt(p, a) {
   return columns.count[p] ? Math.max(0, passOf(a.taken[columns.first[p]]) + 1) : 0;
 }
 
-// What a legend names: every number where there are few, else the ends and two between.
+// The numbers of a legend: all if there are few, else the ends and two between.
 const steps = (most) => Number.isInteger(most) && most <= 9 ? Array.from({ length: most + 1 }, (_, i) => i) : [0, most / 3, 2 * most / 3, most];
 
 function drawMap() {
@@ -379,7 +379,7 @@ async function start() {
   showNumbers();
   at("x").min = originX; at("y").min = originY;
   at("x").max = originX + width - 1; at("y").max = originY + height - 1;
-  // The deepest pixel first, of those whose history is here.
+  // Begins with the deepest pixel whose history is in this page.
   const told = (p) => historyAt(p % width, Math.floor(p / width)) !== "";
   let deep = 0;
   for (let p = 0; p < width * height; ++p)

@@ -1,5 +1,5 @@
 "use strict";
-// Columns of words stand to the left, those of many words in lines. A heading sorts its column: numbers by value, other cells as text; once more turns it round.
+// Columns of words are left-aligned, those of many words in lines. A heading sorts its column: numbers by value, other cells as text; a second time in reverse.
 for (const table of document.querySelectorAll("table.sorts")) {
   const heads = [...table.tHead.rows[0].cells], body = table.tBodies[0];
   heads.forEach((head, column) => {
