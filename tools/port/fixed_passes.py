@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Holds weighted_blended, moments and linked_list of the port to profile llvmpipe, and writes tools/port/FIXED_PASSES.md.
+"""Compares weighted_blended, moments and linked_list of the port with the profile llvmpipe, and writes tools/port/FIXED_PASSES.md.
 
     fixed_passes.py [--build build/release] [--quick] [--driver llvmpipe_sse] [-o PAGE]
 
 Ten scenes in three sizes: every target after every pass, and the pictures. Then the same moments with the driver's own log and exp in place
-of the port's. Exit status 1 if anything differs but for those two functions.
+of the port's. Exit status 1 if anything differs except through these two functions.
 """
 import argparse
 import pathlib
@@ -27,7 +27,8 @@ def as_float(code):
 
 
 def by_driver(pack, candidate):
-    """What the driver's log and exp change: per target the pixels, of `total` the greatest relative difference, of the picture the codes."""
+    """The effect of the driver's log and exp: for each target the number of pixels that differ, for `total` the greatest relative difference, for the
+    picture the greatest difference in codes."""
     found = {}
     for number, shown in enumerate(pack.results["moments"]["passes"]):
         for target in shown["targets"]:
@@ -67,22 +68,22 @@ def page(rows, totals, own, renderer, scenes):
         table.append(f"| {name} | " + " | ".join(f"{row.get(key, 0):,}" for key in keys) + " |")
     return f"""# Weighted sums, moments and lists on llvmpipe
 
-Does the port draw with `weighted_blended`, `moments` (four) and `linked_list` what Strata's profile `llvmpipe` predicts? The port is an OpenGL program
-that shares no code with Strata; it runs on a CPU by
+Do the pictures of the OpenGL port with `weighted_blended`, `moments` (four) and `linked_list` equal those of Strata's profile `llvmpipe`? The port
+shares no code with Strata; `tools/port/fixed_passes.py` executes it on a CPU with
 {renderer}.
-{scenes} scenes in three sizes are compared bit by bit: all targets after all passes, and the finished pictures. The last three columns count pixels of
-pictures that differ.
+All bits of {scenes} scenes in three sizes are compared: all targets after all passes, and the pictures. The last three columns count pixels that
+differ.
 
 {chr(10).join(table)}
 
-`weighted_blended` has two targets with blends of their own (OpenGL 4.0). `linked_list` keeps nodes and heads in shader storage (OpenGL 4.3): one
-thread of llvmpipe draws all fragments of a pixel, so that they take their nodes in submission order, as Strata's do. Another
-driver may give them out otherwise. `moments` computes its logarithm, exponential and bound in binary64 (OpenGL 4.0) by the formulas of
+`weighted_blended` has two targets with different blend functions (OpenGL 4.0). `linked_list` has nodes and heads in shader storage (OpenGL 4.3): one
+thread of llvmpipe processes all fragments of a pixel, so that they get their nodes in submission order, like those of Strata. The order may
+differ on another driver. `moments` computes its logarithm, exponential and bound in binary64 (OpenGL 4.0) by the formulas of
 [algorithms.md](../../peeling/reference/algorithms.md) 22.
 
-A port would take GLSL's `log` and `exp`, which each driver approximates in its own way. With those of this driver, and all else as before, of the
-same {totals.get('pixels', 0):,} pixels the sum of absorbances differs at {own.get('total', 0):,} (by {own.get('relative', 0):.1e} of itself at most), the moments at {own.get('moments', 0):,}, the weighted
-colours at {own.get('sums', 0):,}, and the finished picture at {own.get('result', 0):,}, by {own.get('codes', 0)} of 255 at most where it has 8 bits.
+Most ports would use GLSL's `log` and `exp`, which each driver approximates differently. With those of this driver, of the same
+{totals.get('pixels', 0):,} pixels the sum of absorbances differs at {own.get('total', 0):,} (relatively by at most {own.get('relative', 0):.1e}), the moments at {own.get('moments', 0):,}, the weighted
+colours at {own.get('sums', 0):,}, and the picture at {own.get('result', 0):,}, by at most {own.get('codes', 0)}/255 if it has 8 bits.
 
     tools/port/fixed_passes.py --build build/release      # this page; needs strata_port (-DSTRATA_PORT=ON)
 """

@@ -1,5 +1,5 @@
-// tools/oracle/mistakes/of_fixed_passes.cpp - mistakes in the algorithms of a fixed number of passes: weights, moments,
-// lists, tails, samples and buckets (algorithms.md 18 to 24).
+// tools/oracle/mistakes/of_fixed_passes.cpp - mistakes in the algorithms with a fixed number of passes: weights,
+// moments, lists, tails, samples and buckets (peeling/reference/algorithms.md 18 to 24).
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -20,7 +20,7 @@ bool is_run_by(const Experiment& e, std::initializer_list<std::string_view> algo
 
 std::size_t lanes_of_call(const ProgramCall& call) { return static_cast<std::size_t>(call.in.count); }
 
-// Calls change(call) after the programs of passes of this kind whose first target has the name.
+// Calls change(call) after the programs of passes of this kind whose first target has this name.
 template <class Change>
 bool behind_pass_of(Experiment& e, pipeline::PassKind kind, const char* target, Change change) {
     e.alterations.push_back(
@@ -31,7 +31,7 @@ bool behind_pass_of(Experiment& e, pipeline::PassKind kind, const char* target, 
     return true;
 }
 
-// Programs of geometry passes read depth(d) where they read a window depth; tests and stores are left as they are.
+// Programs of geometry passes read depth(d) in place of a window depth d; tests and stored depths are not changed.
 bool with_depths(Experiment& e, float (*depth)(float)) {
     if (e.options.raster.depth_order == rasterizer::DepthOrder::greater) return false;
     e.alterations.push_back({.program = [depth](const ProgramCall& call, const std::function<void()>& run) {
@@ -44,7 +44,7 @@ bool with_depths(Experiment& e, float (*depth)(float)) {
     return true;
 }
 
-// The contents to which a target of this name is cleared.
+// Changes the value to which a target of this name is cleared.
 bool with_clear(Experiment& e, const char* name, const Rgba& color) {
     e.alterations.push_back(
         {.clear = [names = e.names, name, color](Region&, pipeline::Target& target, ClearValue& value) {
@@ -83,7 +83,7 @@ bool weighs_without_alpha(Experiment& e) {
 
 float in_bytes(float value) { return std::floor(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f) / 255.0f; }
 
-// Sums of codes from 0 to 255: every source is rounded before it is added, and a sum stops at 255.
+// Sums as codes from 0 to 255: every source is rounded before it is added, and a sum saturates at 255.
 bool sums_in_bytes(Experiment& e) {
     if (!is_run_by(e, {"weighted_blended", "stochastic"})) return false;
     behind_pass_of(e, pipeline::PassKind::geometry, "sums", [](const ProgramCall& call) {
@@ -99,8 +99,8 @@ bool sums_in_bytes(Experiment& e) {
     });
 }
 
-// The last quad of sums by another formula: of a channel of the sums, their alpha, what is let through and the colour
-// behind.
+// Replaces the formula of the last quad, which computes each channel from its sum, the sum of alpha, the transmittance
+// and the colour behind.
 bool resolves_by(Experiment& e, float (*formula)(float sum, float alpha, float through, float behind)) {
     return behind_pass_of(e, pipeline::PassKind::full_screen, "result", [formula](const ProgramCall& call) {
         const ColorLanes &sums = call.own.color(0), &behind = call.own.color(2);
@@ -122,7 +122,7 @@ bool takes_absorbance_by_log2(Experiment& e) {
            });
 }
 
-// A list with nodes for `most` fragments a pixel.
+// Limits the list of a pixel to `most` nodes.
 bool cuts_lists(Experiment& e, int most, peeling::Overflow rule) {
     peeling::AlgorithmOptions& options = e.options.algorithm;
     if (!is_run_by(e, {"linked_list"}) || (options.pixel_nodes > 0 && options.pixel_nodes <= most)) return false;
@@ -131,7 +131,7 @@ bool cuts_lists(Experiment& e, int most, peeling::Overflow rule) {
     return true;
 }
 
-// The head of a list is read and written without an atomic, and of two fragments at a time the second is lost.
+// The head of a list is read and written without an atomic, so that the second of two simultaneous fragments is lost.
 bool loses_every_second(Experiment& e) {
     if (!is_run_by(e, {"linked_list"})) return false;
     const auto arrived = std::make_shared<std::unordered_map<std::uint32_t, std::uint32_t>>();
@@ -149,7 +149,7 @@ bool has_one_node_less(Experiment& e) {
     return --e.options.algorithm.nodes > 0;
 }
 
-// The tail of the two with a core, blended or averaged, becomes another.
+// Replaces the tail, blended or averaged, of the two algorithms with a core.
 bool changes_tail(Experiment& e, peeling::Tail to) {
     if (!is_run_by(e, {"atomic_loop", "hybrid_transparency"})) return false;
     const peeling::Tail usual = is_run_by(e, {"atomic_loop"}) ? peeling::Tail::blend : peeling::Tail::average;
@@ -158,7 +158,7 @@ bool changes_tail(Experiment& e, peeling::Tail to) {
     return true;
 }
 
-// What has an entry of the core is drawn into the tail too.
+// Fragments with an entry in the core are also drawn into the tail.
 bool draws_core_again(Experiment& e) {
     if (!is_run_by(e, {"atomic_loop", "hybrid_transparency"})) return false;
     e.alterations.push_back({.program = [names = e.names](const ProgramCall& call, const std::function<void()>& run) {
@@ -171,7 +171,7 @@ bool draws_core_again(Experiment& e) {
     return true;
 }
 
-// OVER twice is OVER once with 1 - (1 - a)^2 for alpha.
+// OVER twice equals OVER once with alpha 1 - (1 - a)^2.
 bool blends_tail_twice(Experiment& e) {
     if (!is_run_by(e, {"atomic_loop", "hybrid_transparency"})) return false;
     return behind_pass_of(e, pipeline::PassKind::geometry, "tail", [](const ProgramCall& call) {

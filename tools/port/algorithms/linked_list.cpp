@@ -1,5 +1,6 @@
-// tools/port/algorithms/linked_list.cpp - every fragment in a list of its pixel, sorted at the end. Yang et al. 2010;
-// algorithms.md 20. Passes: 1. Nodes and heads are shader storage (OpenGL 4.3).
+// tools/port/algorithms/linked_list.cpp - stores every fragment in a list of its pixel and sorts the lists at the end
+// (Yang et al. 2010; peeling/reference/algorithms.md 20). Passes: 1. Nodes and heads are in shader storage (OpenGL
+// 4.3).
 #include <fmt/format.h>
 
 #include <memory>
@@ -35,8 +36,8 @@ void main() {
 }
 )";
 
-// From the farthest to the nearest, without an array: each turn looks for the farthest before the last one. Of equal
-// depths the later node is behind: a pixel's fragments take nodes in submission order.
+// Sorts from the farthest to the nearest without an array: each iteration searches for the farthest node before the
+// last one. Of equal depths the later node is behind, because a pixel's fragments get their nodes in submission order.
 constexpr auto sort_text = R"(
 uniform sampler2D behind_target;
 layout(location = 0) out vec4 result;
@@ -78,7 +79,7 @@ Handle make_storage() {
     return {name, [](GLuint n) { glDeleteBuffers(1, &n); }};
 }
 
-// As many nodes as there are fragments.
+// The number of fragments.
 std::size_t nodes_for(const JobInput& in) {
     const std::vector<std::uint32_t> counts = count_fragments(in.scene, in.size);
     const auto all = std::accumulate(counts.begin(), counts.end(), std::size_t{1});

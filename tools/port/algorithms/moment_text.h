@@ -1,12 +1,12 @@
 // tools/port/algorithms/moment_text.h - the programs of `moments` in GLSL: logarithm, exponential and the bound of
-// algorithms.md 22.1 in binary64, operation by operation, with four moments and the usual bias and overestimation.
-//
-// Needs    GL_ARB_gpu_shader_fp64. Numbers that must keep every bit are packed from their bits.
+// peeling/reference/algorithms.md 22.1 in binary64, with the same operations, four moments and the default bias and
+// overestimation.
+// Needs    GL_ARB_gpu_shader_fp64. Numbers whose every bit matters are packed from their bits.
 #pragma once
 
 namespace strata::port {
 
-// float minus_log(float), float exp_of_minus(float): as peeling/programs/fixed_passes/log_exp.h, rounded once.
+// float minus_log(float), float exp_of_minus(float): as in peeling/programs/fixed_passes/log_exp.h, rounded once.
 inline constexpr auto log_exp_text = R"(
 double log_of_2() { return packDouble2x32(uvec2(0xfefa39efu, 0x3fe62e42u)); }
 float minus_log(float x) {
@@ -36,13 +36,13 @@ float exp_of_minus(float x) {
 }
 )";
 
-// The same by the driver's functions, whose roundings are its own.
+// The same with the driver's functions and their rounding.
 inline constexpr auto driver_log_exp_text = R"(
 float minus_log(float x) { return -log(x); }
 float exp_of_minus(float x) { return exp(-x); }
 )";
 
-// Pass 1: powers from the left.
+// Pass 1: powers, multiplied from left to right.
 inline constexpr auto build_moments_text = R"(
 layout(location = 0) out float total;
 layout(location = 1) out vec4 moments;
@@ -58,7 +58,7 @@ void main() {
 }
 )";
 
-// double share_before(b, z): as peeling/programs/fixed_passes/moment_bound.h for n = 2.
+// double share_before(b, z): as in peeling/programs/fixed_passes/moment_bound.h for n = 2.
 inline constexpr auto share_text = R"(
 const int n = 2;
 void kernel_polynomial(double b[5], double z, out double kernel[3]) {

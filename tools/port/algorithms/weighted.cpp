@@ -1,6 +1,6 @@
-// tools/port/algorithms/weighted.cpp - sums of weighted colours over what all fragments let through:
-// weighted_blended (McGuire and Bavoil 2013, equation 10; algorithms.md 18) and moments of four powers (Muenstermann et
-// al. 2018; algorithms.md 22). Passes: 1 and 2.
+// tools/port/algorithms/weighted.cpp - sums of weighted colours, resolved with the transmittance of all fragments:
+// weighted_blended (McGuire and Bavoil 2013, equation 10; peeling/reference/algorithms.md 18) and moments of four
+// powers (Muenstermann et al. 2018; peeling/reference/algorithms.md 22). Passes: 1 and 2.
 #include <fmt/format.h>
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace strata::port {
 
 namespace {
 
-// The window depth is a program's own, in binary32.
+// The program computes the window depth in binary32.
 constexpr auto weigh_text = R"(
 layout(location = 0) out vec4 sums;
 layout(location = 1) out float revealage;
@@ -48,7 +48,7 @@ void main() {{
 
 Format sums_format(const JobInput& in) { return in.formats.color == rgba32f ? rgba32f : rgba16f; }
 
-// The quad over the opaque colour that ends both.
+// The last quad of both algorithms, over the opaque colour.
 struct Resolve {
     JobInput input;
     Handle result, framebuffer, program;
@@ -73,7 +73,7 @@ struct Resolve {
     }
 };
 
-// A pass over what is visible that adds to its targets.
+// Begins a pass over the visible fragments that adds to its targets.
 void begin_sums(const Handle& framebuffer) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glEnable(GL_DEPTH_TEST);

@@ -1,5 +1,5 @@
-// Mistakes in the algorithms of a fixed number of passes: each is named from its picture in a scene of the suite and
-// another is not, and some pictures are those of a model of the mistake.
+// Tests the diagnosis of mistakes in the algorithms with a fixed number of passes: each mistake is named from its
+// picture in a scene of the suite, and no other is. Some pictures are compared with a model of the mistake.
 #include <catch2/catch.hpp>
 
 #include "tests/tools/oracle/mistakes/scenes_of_test.h"
@@ -30,7 +30,7 @@ const NamedIn mistakes_by_scene[] = {
 
 }  // namespace
 
-TEST_CASE("mistakes of weights, moments, lists, tails, samples and buckets are named and no other is") {
+TEST_CASE("mistakes of weights and moments and lists and tails and samples and buckets are named and no other is") {
     for (const NamedIn& named : mistakes_by_scene) {
         const Bench bench{named.scene};
         const Lineup lineup{bench.laboratory};
