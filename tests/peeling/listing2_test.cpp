@@ -206,7 +206,8 @@ TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_repl
     }
 }
 
-// attributes.md 3.3: Everitt's method requires that both quotients come from the same coordinates, whichever these are.
+// rasterizer/reference/attributes.md 3.3: Everitt's method requires that both quotients come from the same coordinates,
+// whichever these are.
 TEST_CASE(
     "by the chip's own coordinates Listing 2 stores other codes than path depth_replace but compares those it stored") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {

@@ -1,7 +1,7 @@
 // tests/support/composite_model.h - expected result of each exact algorithm at one pixel, computed fragment by fragment
-// from algorithms.md 0 and 2 to 6 with the arithmetic of fragment-stages.md 8 to 9 and formats.md 2 to 3. It shares no
-// code with the implementation. Target values are modelled independently: integers over 255, or binary32 (rounded to an
-// 11-bit significand for half).
+// from peeling/reference/algorithms.md 0 and 2 to 6 with the arithmetic of pipeline/reference/fragment-stages.md 8 to 9
+// and pipeline/reference/formats.md 2 to 3. It shares no code with the implementation. Target values are modelled
+// independently: integers over 255, or binary32 (rounded to an 11-bit significand for half).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -92,8 +92,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return groups;
 }
 
-// algorithms.md 2. Of equal depths only the first submitted fragment is kept; layers are stored with non-premultiplied
-// colour.
+// peeling/reference/algorithms.md 2. Of equal depths only the first submitted fragment is kept; layers are stored with
+// non-premultiplied colour.
 [[nodiscard]] inline Rgba depth_units_model(const PeelTargets& targets, const DepthGroups& groups,
                                             const Rgba& background) {
     Rgba result = background;
@@ -106,8 +106,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 4. Of equal depths only the first submitted fragment is kept; a layer is stored premultiplied and
-// blended UNDER.
+// peeling/reference/algorithms.md 4. Of equal depths only the first submitted fragment is kept; a layer is stored
+// premultiplied and blended UNDER.
 [[nodiscard]] inline Rgba front_to_back_model(const PeelTargets& targets, const DepthGroups& groups,
                                               const Rgba& background) {
     Rgba front{0, 0, 0, 1};
@@ -126,7 +126,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 5. All fragments of a peeled depth write; component-wise MAX merges them into one layer.
+// peeling/reference/algorithms.md 5. All fragments of a peeled depth write; component-wise MAX merges them into one
+// layer.
 [[nodiscard]] inline Rgba dual_model(const PeelTargets& targets, DepthGroups groups, const Rgba& background,
                                      int peels = 1 << 20) {
     Rgba front{0, 0, 0, 0}, back = background;  // front alpha: 1 - transmittance
@@ -160,8 +161,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 6. Every fragment is blended. Of equal depths the first submitted is in front in the front half, the
-// last submitted in the back half.
+// peeling/reference/algorithms.md 6. Every fragment is blended. Of equal depths the first submitted is in front in the
+// front half, the last submitted in the back half.
 [[nodiscard]] inline Rgba dual_independent_model(const PeelTargets& targets, DepthGroups groups,
                                                  const Rgba& background) {
     Rgba front{0, 0, 0, 1}, back = background;
@@ -184,7 +185,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 17, the oracle: all fragments in binary64; of equal depths the first submitted is in front.
+// peeling/reference/algorithms.md 17, the oracle: all fragments in binary64; of equal depths the first submitted is in
+// front.
 [[nodiscard]] inline std::array<double, 3> exact_composite(const DepthGroups& groups, const Rgba& background) {
     std::array<double, 3> result{background[0], background[1], background[2]};
     for (auto depth = groups.rbegin(); depth != groups.rend(); ++depth)

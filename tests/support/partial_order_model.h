@@ -1,6 +1,6 @@
 // tests/support/partial_order_model.h - expected result of Carr's algorithms and related ones at one pixel. Written
-// from algorithms.md 9 to 14 with the target arithmetic of composite_model.h; it shares no code with the
-// implementation.
+// from peeling/reference/algorithms.md 9 to 14 with the target arithmetic of composite_model.h; it shares no code with
+// the implementation.
 #pragma once
 #include "tests/support/composite_model.h"
 
@@ -30,7 +30,8 @@ namespace strata::testing {
     return colors;
 }
 
-// algorithms.md 13: samples hold non-premultiplied colours; the program that sorts them computes in binary32.
+// peeling/reference/algorithms.md 13: samples hold non-premultiplied colours; the program that sorts them computes in
+// binary32.
 [[nodiscard]] inline Rgba routed_model(const TargetModel& target, const std::vector<Rgba>& near_to_far,
                                        const Rgba& background) {
     Rgba sum{0, 0, 0, 1};
@@ -52,7 +53,7 @@ namespace strata::testing {
     return result;
 }
 
-// algorithms.md 14: the four nearest fragments so far are held back.
+// peeling/reference/algorithms.md 14: the four nearest fragments so far are held back.
 [[nodiscard]] inline std::vector<Rgba> k_buffer_order(const std::vector<GivenFragment>& fragments) {
     std::vector<Rgba> out;
     std::multimap<float, Rgba> held;  // equal keys keep the order of their insertion

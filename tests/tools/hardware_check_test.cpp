@@ -1,5 +1,5 @@
 // Tests `strata hardware-check` on captures made here: the Clear suite's result is a uniform picture, whatever was
-// drawn before (chip-fragment.md 5).
+// drawn before (pipeline/reference/chip-fragment.md 5).
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Tests the statistics against reports.md 1, whose keys and types are listed here independently.
+// Tests the statistics against scenes/reference/reports.md 1, whose keys and types are listed here independently.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 

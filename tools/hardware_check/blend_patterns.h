@@ -4,7 +4,7 @@
 // Rule     A word's fields are extended to 8 bits by repeating their upper bits; a missing alpha is 255. The wide
 //          pattern has ramps in four equal quarters, the 16-bit one ramps over the whole; alpha decreases with the
 //          squared distance from the centre. Binary32 arithmetic, truncated, as in the test.
-// Source   the test's parameters (abaire/nxdk_pgraph_tests, MIT); chip-fragment.md 5.
+// Source   the test's parameters (abaire/nxdk_pgraph_tests, MIT); pipeline/reference/chip-fragment.md 5.
 // Tests    tests/tools/hardware_check/hardware_digests.txt
 #pragma once
 #include <array>

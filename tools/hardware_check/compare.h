@@ -5,7 +5,8 @@
 //          it stores in A R G and B. Label pixels of a colour capture, which are (255, 255, 255, 0) or `overdrawn`, and
 //          hidden rectangles are not compared. The difference of colours is their largest channel difference in 1/255,
 //          that of other words in units.
-// Source   the captures' own descriptions, repeated in chip-fragment.md and chip-geometry.md.
+// Source   the captures' own descriptions, repeated in pipeline/reference/chip-fragment.md and
+//          rasterizer/reference/chip-geometry.md.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include <array>

@@ -7,9 +7,9 @@
 //          S, each rounded to binary32, and the vertex engine computes (z S + 6 S) (1 / (z + 7)) with its truncations
 //          and its reciprocal (rasterizer/base/nv20_arithmetic.h). A CompositeMatrix contains all rows of another
 //          camera: one dot product per row, then x, y and z times the reciprocal of w, then the viewport's offset.
-// Source   chip-geometry.md 1.3, 5.4 and 6. The chip's z: [M] suite Depth_buffer_fixed_function at 24 bits, every word
-//          of 327 quads except 24 of one strip, whose slope is steep (chip-depth.md 4). Its x and y:
-//          chip-float-depth.md 9.2.
+// Source   rasterizer/reference/chip-geometry.md 1.3, 5.4 and 6. The chip's z: [M] suite Depth_buffer_fixed_function at
+//          24 bits, every word of 327 quads except 24 of one strip, whose slope is steep
+//          (rasterizer/reference/chip-depth.md 4). Its x and y: rasterizer/reference/chip-float-depth.md 9.2.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include "rasterizer/base/nv20_arithmetic.h"

@@ -3,8 +3,8 @@
 // Rule     Points are rows, multiplied by a matrix on the right. All arithmetic is in binary32, each sum from the left,
 //          except determinants: they are computed in binary64, and rounded to binary32 where they are stored. An
 //          inverse is the adjoint, whose entries are stored, times the stored reciprocal of the determinant.
-// Source   chip-geometry.md 6.1; the order of operations is that of the suite's public sources (abaire/xbox_math3d,
-//          MIT), described in our words.
+// Source   rasterizer/reference/chip-geometry.md 6.1; the order of operations is that of the suite's public sources
+//          (abaire/xbox_math3d, MIT), described in our words.
 // Tests    tests/tools/hardware_check/host_matrices_test.cpp
 #pragma once
 #include "tools/hardware_check/fixed_pipeline.h"

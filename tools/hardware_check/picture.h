@@ -4,7 +4,8 @@
 // Rule     A suite's file turns a name into draws, without reading the capture. Scenes that the reference does not
 //          describe are reported as not modelled. Pixels of a label (text that the test wrote over its picture) are not
 //          compared.
-// Source   chip-fragment.md, chip-geometry.md, chip-depth.md, by scene.
+// Source   pipeline/reference/chip-fragment.md, rasterizer/reference/chip-geometry.md,
+//          rasterizer/reference/chip-depth.md, by scene.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include <array>

@@ -2,7 +2,7 @@
 //
 // Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise in the
 //          window. A packed colour is AARRGGBB.
-// Source   chip-geometry.md 2.1; chip-fragment.md 1.1.
+// Source   rasterizer/reference/chip-geometry.md 2.1; pipeline/reference/chip-fragment.md 1.1.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // tools/hardware_check/squares.h - the two rows of four squares of three tests, which share edges and are drawn by a
 // vertex program and by the fixed-function pipeline.
 //
-// Source   chip-geometry.md 1.2, 1.3 and 5.6.
+// Source   rasterizer/reference/chip-geometry.md 1.2, 1.3 and 5.6.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include "tools/hardware_check/shapes.h"

@@ -2,7 +2,7 @@
 // combiner setups that output a register.
 //
 // Rule     Corners are listed as in shapes.h. w is 1: the captured tests use the same w for all corners of a quad.
-// Source   chip-depth.md 6 and 7, chip-geometry.md 4.
+// Source   rasterizer/reference/chip-depth.md 6 and 7, rasterizer/reference/chip-geometry.md 4.
 #pragma once
 #include "pipeline/region/fragment_path.h"
 #include "tools/hardware_check/shapes.h"

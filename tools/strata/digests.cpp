@@ -21,7 +21,8 @@ using nlohmann::ordered_json;
 
 using Digests = std::vector<scenes::FileDigest>;
 
-// The digest of a target that images.md 5 does not define, or of one channel: a hash over name, size and codes.
+// The digest of a target that scenes/reference/images.md 5 does not define, or of one channel: a hash over name, size
+// and codes.
 std::string digest_of(const oracle::Target& target, int first, int count, const std::string& name) {
     pipeline::ValueDigest digest{name};
     digest.add(static_cast<std::uint32_t>(target.width));

@@ -18,7 +18,7 @@ TEST_CASE("the built-in profiles are three GeForces plus ideal plus three raster
     CHECK(find_profile("geforce4") == nullptr);
 }
 
-// devices.md 2.
+// pipeline/reference/devices.md 2.
 TEST_CASE("geforce3 has the numbers that captures of an NV2A show") {
     const DeviceProfile& p = *find_profile("geforce3");
     CHECK(p.raster.subpixel_bits == 4);

@@ -73,7 +73,7 @@ TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k sa
     Machine m{stacks(counts), "geforce8"};
     const Target color = m.region.make(Format::rgba32f, k), stencil = m.region.make(Format::s8, k);
     m.region.clear(color, {.color = {-1, -1, -1, -1}});
-    for (int s = 0; s < k; ++s)  // algorithms.md 13
+    for (int s = 0; s < k; ++s)  // peeling/reference/algorithms.md 13
         m.region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2)}, static_cast<std::uint8_t>(1u << s));
     PassState state;
     state.color[0] = color;

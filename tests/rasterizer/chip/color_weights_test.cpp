@@ -1,5 +1,5 @@
 // Tests the colour weights of the NV2A against rasterizer/reference/attributes.md 2.2, 2.4 and the remainder rule of
-// attributes.md 2.3 in rational arithmetic.
+// rasterizer/reference/attributes.md 2.3 in rational arithmetic.
 #include "rasterizer/chip/color_weights.h"
 
 #include <catch2/catch.hpp>
@@ -134,7 +134,7 @@ TEST_CASE("interpolated colours are the 8-bit weights of the captures for triang
 }
 
 TEST_CASE("a captured quad differs from exact weights at as many pixels as on the hardware", "[slow]") {
-    // Color_mask_blend, second quad (chip-depth.md 3.1): 374 of 8,520 pixels.
+    // Color_mask_blend, second quad (rasterizer/reference/chip-depth.md 3.1): 374 of 8,520 pixels.
     const int x0 = 213 * 16, x1 = (213 + 71) * 16, y0 = 180 * 16, y1 = 300 * 16;
     SetupTriangle upper = window_triangle({{{x0, y0}, {x1, y0}, {x1, y1}}}, bits);
     SetupTriangle lower = window_triangle({{{x0, y0}, {x1, y1}, {x0, y1}}}, bits);

@@ -110,7 +110,7 @@ TEST_CASE("the view volume clips a triangle to the corners of the rule in its or
 
 namespace {
 
-// swiftshader-rasterizer.md 1.2: near, far, left, right, top, bottom.
+// pipeline/reference/swiftshader-rasterizer.md 1.2: near, far, left, right, top, bottom.
 [[nodiscard]] float distance_depth_first(int plane, const VertexValues& v) {
     const Rational w{v[3]};
     constexpr std::array<std::size_t, 6> axis{2, 2, 0, 0, 1, 1};

@@ -31,7 +31,7 @@ using namespace strata::rasterizer;
 }  // namespace
 
 TEST_CASE("positions are truncated toward zero or rounded to the nearest subpixel with ties to even", "[slow]") {
-    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // cases measured on hardware: coverage.md 4.1
+    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // cases measured on hardware: rasterizer/reference/coverage.md 4.1
     CHECK(snap(.5625f, 4, Snap::toward_zero) == 9);
     CHECK(snap(-.0624f, 4, Snap::toward_zero) == 0);
     CHECK(snap(2.5f / 16, 4, Snap::nearest_even) == 2);

@@ -40,7 +40,7 @@ using CornersOfPlane = std::array<CornerOfPlane, 3>;
     return fuses ? fused(dady, y, fused(dadx, x, origin)) : (dadx * x + origin) + dady * y;
 }
 
-// mesa-rasterizers.md 3.1 and 3.3.
+// pipeline/reference/mesa-rasterizers.md 3.1 and 3.3.
 [[nodiscard]] Rounded least_corner(CornersOfPlane c, int i, int j) {
     std::stable_sort(c.begin(), c.end(), [](const auto& a, const auto& b) { return a.y.v < b.y.v; });
     const Rounded bot_dx = c[1].x - c[0].x, bot_dy = c[1].y - c[0].y, maj_dx = c[2].x - c[0].x,

@@ -77,7 +77,7 @@ TEST_CASE("reading a deep file as flat or a flat one as deep and writing a deep 
     CHECK_THROWS_AS(write_deep(folder / "no/deep.exr", random_fragments(3, 3, 2), {}), strata::SystemError);
 }
 
-// The bytes of images.md 5, serialized here value by value, with the one-shot XXH3_128bits.
+// The bytes of scenes/reference/images.md 5, serialized here value by value, with the one-shot XXH3_128bits.
 TEST_CASE("a deep digest is XXH3-128 of the documented bytes and the same before writing and after reading") {
     const DeepFragments fragments = random_fragments(5, 3, 4);
     std::string bytes{"deep"};

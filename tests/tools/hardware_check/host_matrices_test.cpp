@@ -63,7 +63,7 @@ TEST_CASE("the axes of a view are orthonormal and its eye becomes the origin") {
 
 // Capture ProjAdjacentGeometry_0.5625: corners are requested at 9/16 pixel, on a step of the 1/16-pixel grid. After
 // un-projection and re-projection they are just above or below that step. The expected sides of columns and rows are
-// read from the capture, at world z 10 and 0 (chip-geometry.md 1.3).
+// read from the capture, at world z 10 and 0 (rasterizer/reference/chip-geometry.md 1.3).
 TEST_CASE("points that the host un-projects are re-projected to the same side of a 1/16-pixel step as in the capture") {
     const HostCamera camera = default_camera(65535.0f);
     const CompositeMatrix view = columns_of(look_at({0, 0, -7}, {0, 0, 0})),

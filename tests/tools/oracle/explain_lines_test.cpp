@@ -1,6 +1,6 @@
 // Tests that the lines of `explain` are complete: a model of one pixel repeats them from their JSON alone. It clears,
-// copies, tests and blends in integers over 255 and in binary32, written from fragment-stages.md 5 to 9, and must
-// produce the picture of the ordinary run.
+// copies, tests and blends in integers over 255 and in binary32, written from pipeline/reference/fragment-stages.md 5
+// to 9, and must produce the picture of the ordinary run.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Suite Alpha_func: AlphaFunc<function>_<Enabled|Disabled>. Ramps of alpha tested against the reference 7F, blended.
-// chip-fragment.md 2.
+// pipeline/reference/chip-fragment.md 2.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

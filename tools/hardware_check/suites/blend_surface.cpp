@@ -1,5 +1,6 @@
 // Suite Blend_surface: <DstAlpha|1-DstAlpha>_<format>: the value of destination alpha in surfaces with and without
-// alpha. <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them. chip-fragment.md 5.
+// alpha. <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them.
+// pipeline/reference/chip-fragment.md 5.
 #include <algorithm>
 
 #include "tools/hardware_check/blend_patterns.h"
@@ -30,7 +31,7 @@ constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
                               {"X_Z1RGB5", Format::x1r5g5b5, false},
                               {"X_O1RGB5", Format::x1r5g5b5, true}};
 
-// Pixels per side of an off-screen target (chip-fragment.md 5).
+// Pixels per side of an off-screen target (pipeline/reference/chip-fragment.md 5).
 constexpr int side = 128;
 
 // A filled target onto which 22FFFFFF is blended with its destination alpha. The texture unit displays the stored
@@ -58,7 +59,7 @@ std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
 }
 
 // The surface as a texture. A 16-bit surface stores the upper 5 or 6 bits of a colour with zeros below; the texture
-// unit fills these with the upper bits again, while blending reads the zeros (chip-fragment.md 5).
+// unit fills these with the upper bits again, while blending reads the zeros (pipeline/reference/chip-fragment.md 5).
 pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) {
     pipeline::Texture texture = as_texture(image);
     const auto widened = [](std::uint8_t v, int bits) { return static_cast<std::uint8_t>(v | v >> bits); };

@@ -1,5 +1,5 @@
 // Suite Blend_tests: <source factor>_<equation>_<destination factor>, and #spot_<source factor>_<equation> with all
-// destination factors in one picture. chip-fragment.md 1.1.
+// destination factors in one picture. pipeline/reference/chip-fragment.md 1.1.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

@@ -1,5 +1,5 @@
 // Suite Clear: C<write mask>_Depth_<y|n>[_ZB], and S?C_<format>: clear words as surfaces of every format store them.
-// chip-fragment.md 5: the chip's clear command ignores the write masks, which glClear obeys.
+// pipeline/reference/chip-fragment.md 5: the chip's clear command ignores the write masks, which glClear obeys.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

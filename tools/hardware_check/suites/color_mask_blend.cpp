@@ -1,5 +1,5 @@
 // Suite Color_mask_blend: C<mask>_O<equation>_S<factor>_D<factor> in the chip's register words. One picture is known:
-// only colours are written, times destination alpha. chip-fragment.md 3.3.
+// only colours are written, times destination alpha. pipeline/reference/chip-fragment.md 3.3.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

@@ -1,6 +1,6 @@
-// Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. chip-fragment.md 9. All
-// pictures are equal; the checkerboard behind two of them tests texture coordinates that are integers in exact
-// arithmetic.
+// Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads.
+// pipeline/reference/chip-fragment.md 9. All pictures are equal; the checkerboard behind two of them tests texture
+// coordinates that are integers in exact arithmetic.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/suite.h"
@@ -22,7 +22,7 @@ constexpr pipeline::DrawState over{.blend = pipeline::blend_mode::over};
 // 255 - 0: the constant 1 of a stage's inputs.
 constexpr CombinerInput one{.source = Reg::zero, .mapping = CombinerMapping::unsigned_invert};
 constexpr CombinerInput constant0{.source = Reg::constant_color0}, constant1{.source = Reg::constant_color1};
-// An input's blue, for an alpha portion (combiners.md 2.1).
+// An input's blue, for an alpha portion (pipeline/reference/combiners.md 2.1).
 constexpr CombinerInput blue(CombinerInput input) {
     input.component = CombinerComponent::blue;
     return input;
@@ -93,7 +93,7 @@ TriangleSoup world_quad(int number) {
 constexpr Argb dark = 0xff303030;
 
 // The selector is spare 0's alpha: its lowest bit, or its highest. Unset, the sum is AB, red; set, it is CD, blue. The
-// alphas 82, 81 and 0 give both results in each mode (chip-fragment.md 9).
+// alphas 82, 81 and 0 give both results in each mode (pipeline/reference/chip-fragment.md 9).
 Picture mux(const pipeline::DeviceProfile& profile) {
     struct Case {
         int alpha;
@@ -222,7 +222,7 @@ Drawing draw_combiner(std::string_view name, const pipeline::DeviceProfile& prof
     if (name == "Flags") return {flags(profile), {}};
     if (name == "Mux") return {mux(profile), {}};
     if (name == "SpecialInputs") return {special_inputs(profile), {}};
-    // Names of the suite whose scenes chip-fragment.md 9 does not describe.
+    // Names of the suite whose scenes pipeline/reference/chip-fragment.md 9 does not describe.
     for (const std::string_view known : {"AlphaFromBlue", "ColorAlphaIndependence", "Independence", "SignedCombinerOps",
                                          "SignedPassThroughPipeline", "SignedToUnsignedMapping", "UnboundTexSampler"})
         if (name == known) return {std::nullopt, "what it draws is not described"};

@@ -1,6 +1,6 @@
 // Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], depth words or colours, and
 // Depth_buffer_fixed_function, the same without DepthFmt_. Slopes of depth over small and wide quads.
-// chip-depth.md 2, chip-geometry.md 5.4.
+// rasterizer/reference/chip-depth.md 2, rasterizer/reference/chip-geometry.md 5.4.
 #include <bit>
 #include <vector>
 
@@ -71,8 +71,8 @@ float value_of(DepthFormat format, float k) {
     return format == DepthFormat::d24f ? std::bit_cast<float>(code << 7) : k;
 }
 
-// The quads of chip-depth.md 2: a grid of 31 x 32 with depths that increase from quad to quad, then three wide ones.
-// All in binary32, as in the test.
+// The quads of rasterizer/reference/chip-depth.md 2: a grid of 31 x 32 with depths that increase from quad to quad,
+// then three wide ones. All in binary32, as in the test.
 std::vector<Slope> window_slopes(DepthFormat format) {
     constexpr int columns = 31, rows = 32;
     const std::uint32_t max = greatest_code(format);
@@ -111,7 +111,8 @@ std::vector<Slope> window_slopes(DepthFormat format) {
     return slopes;
 }
 
-// The quads of chip-geometry.md 5.4 with world z at their corners, for the fixed-function pipeline.
+// The quads of rasterizer/reference/chip-geometry.md 5.4 with world z at their corners, for the fixed-function
+// pipeline.
 std::vector<Slope> world_slopes() {
     constexpr float near = -6, far = 193;
     constexpr int columns = 18, rows = 18;
@@ -201,9 +202,10 @@ Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::
     TriangleSoup soup;
     for (const Slope& slope : world_slopes()) add_world_slope(soup, slope, camera);
     Picture picture = depth_picture(profile, *setting, std::move(soup));
-    // 24 words of the right strip: the last bits of its area's reciprocal are unknown (chip-depth.md 4).
+    // 24 words of the right strip: the last bits of its area's reciprocal are unknown
+    // (rasterizer/reference/chip-depth.md 4).
     if (setting->format == DepthFormat::d24 && setting->shows_depth) picture.bound = {24, 1};
-    // Colours where w varies, next to a step of a weight (chip-float-depth.md 7).
+    // Colours where w varies, next to a step of a weight (rasterizer/reference/chip-float-depth.md 7).
     if (!setting->shows_depth) picture.bound = {5, 1};
     return {std::move(picture), {}};
 }

@@ -1,7 +1,7 @@
 // Suite Depth_Clamp. depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>: which pixels a depth
 // range removes one by one; the program adds the viewport's offset like the fixed-function pipeline.
 // depth_equal[_WBuf]_Ofs<offset>: whether a floor that is drawn twice, with removal and with clamping, has the same
-// depths. chip-geometry.md 5.3.
+// depths. rasterizer/reference/chip-geometry.md 5.3.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/suite.h"
@@ -44,7 +44,7 @@ bool take_flag(std::string_view& name, std::string_view key, bool& flag) {
 
 TriangleSoup floor() { return world_quad({{{-10, -2.5, 20}, {10, -2.5, 20}, {10, -2.5, 0}, {-10, -2.5, 0}}}); }
 
-// The range of chip-geometry.md 5.3: about w = 9 to 17. DrawState has limits from 0 to 1.
+// The range of rasterizer/reference/chip-geometry.md 5.3: about w = 9 to 17. DrawState has limits from 0 to 1.
 void limit(pipeline::DrawState& state, bool w_buffer) {
     if (w_buffer)
         limit_depth(state, 9.01f, 16.49f, units);

@@ -1,5 +1,5 @@
 // Suite Depth_function: DepthFunc[_ZB]. Every comparison function behind, at and in front of a stored depth.
-// chip-fragment.md 4.
+// pipeline/reference/chip-fragment.md 4.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

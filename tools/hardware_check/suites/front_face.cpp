@@ -1,6 +1,6 @@
 // Suite Front_face: FrontFace_[FM_|LM_]<CW|CCW|0x00|0x63>_CF_<F|B|FaB>, polygons filled or (LM) as lines. The left quad
 // is counterclockwise in the window, the right one clockwise; a word that is not a direction leaves CW in effect.
-// chip-geometry.md 5.2.
+// rasterizer/reference/chip-geometry.md 5.2.
 #include <algorithm>
 
 #include "tools/hardware_check/names.h"

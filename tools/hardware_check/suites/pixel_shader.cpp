@@ -1,5 +1,5 @@
-// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6,
-// chip-geometry.md 4.
+// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader.
+// rasterizer/reference/chip-depth.md 6, rasterizer/reference/chip-geometry.md 4.
 //
 // All are equal except DotZW, which differs by at most 1 unit at no more than 0.25 % of its pixels: the last bits of
 // its quotient are not understood. DotZW and DotST sample images that the test loads from its own disk.
@@ -67,7 +67,8 @@ pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
     return stages;
 }
 
-// Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are from chip-depth.md 6.
+// Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are from
+// rasterizer/reference/chip-depth.md 6.
 Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_depth_replace),
                                 show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
@@ -100,7 +101,7 @@ std::array<float, 3> direction(const Vector& from, const Vector& to) {
 }
 
 // The two dot products are the coordinates of a lookup: rows are the directions from the eye to a point and from it to
-// a light (chip-geometry.md 4.1). `image` is 128 x 128 texels, addressed from 0 to 1.
+// a light (rasterizer/reference/chip-geometry.md 4.1). `image` is 128 x 128 texels, addressed from 0 to 1.
 Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image) {
     // The suite's images are loaded as rectangles; this stage takes coordinates from 0 to 1.
     image.target = pipeline::TextureTarget::two_d;
@@ -116,7 +117,7 @@ Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image
     return {.image = surface.color()};
 }
 
-// s, t, r, q of the units 0, 1 and 2 at the four corners (chip-geometry.md 4.2).
+// s, t, r, q of the units 0, 1 and 2 at the four corners (rasterizer/reference/chip-geometry.md 4.2).
 constexpr std::array<Units, 4> planes{
     {{{{0, 0.1f, -0.02f, -0.25f}, {-0.1f, -0.1f, 0.02f, 0.25f}, {-0.1f, -0.1f, -0.1f, 0.1f}}},
      {{{1, -0.3f, 1, 0}, {0.1f, 0.3f, -0.2f, -0.01f}, {0.1f, -0.1f, -0.1f, -0.1f}}},

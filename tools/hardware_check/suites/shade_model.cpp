@@ -1,6 +1,6 @@
 // Suite Shade_model: [W_]<Prog|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives are split
 // into triangles, and the provoking vertex of flat shading; lit by the fixed-function pipeline, textured, and with a
-// different w at each vertex. chip-fragment.md 3.3, chip-geometry.md 5.8.
+// different w at each vertex. pipeline/reference/chip-fragment.md 3.3, rasterizer/reference/chip-geometry.md 5.8.
 #include <bit>
 #include <vector>
 
@@ -49,7 +49,8 @@ std::vector<Triangle> strip(std::size_t vertices) {
     return all;
 }
 
-// The table of chip-fragment.md 3.3. Quads and quad strips have the colour of their last vertex in both modes.
+// The table of pipeline/reference/chip-fragment.md 3.3. Quads and quad strips have the colour of their last vertex in
+// both modes.
 std::vector<Primitive> primitives() {
     return {{"Tri",
              {{left, top},
@@ -169,7 +170,8 @@ TriangleSoup shaded(const Primitive& primitive, const Shading& s) {
 }
 
 // Flat pictures are equal. Smooth ones differ in at most one pixel, by one unit, where 256 times a weight is close to
-// an integer (chip-fragment.md 3.3); two are allowed. A textured one may have the texel beyond a cell's edge there.
+// an integer (pipeline/reference/chip-fragment.md 3.3); two are allowed. A textured one may have the texel beyond a
+// cell's edge there.
 Bound bound_of(const Shading& s) {
     if (s.is_textured) return {5, 255};
     return s.flat ? Bound{} : Bound{2, 1};

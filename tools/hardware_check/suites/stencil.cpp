@@ -1,4 +1,5 @@
-// Suites Stencil: Stencil_<zpass operation>[_ST][_DT][_ZB] and Stencil_func: <function>[_ZB]. chip-fragment.md 4.
+// Suites Stencil: Stencil_<zpass operation>[_ST][_DT][_ZB] and Stencil_func: <function>[_ZB].
+// pipeline/reference/chip-fragment.md 4.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

@@ -1,5 +1,5 @@
 // Suite Surface_clip: x<X>y<Y>_w<W>h<H>[_A8R8G8B8|_B8|_G8B8]: a surface's clip rectangle, over memory that is displayed
-// as A8R8G8B8 whatever the surface's own format. chip-geometry.md 5.7.
+// as A8R8G8B8 whatever the surface's own format. rasterizer/reference/chip-geometry.md 5.7.
 #include <charconv>
 
 #include "tools/hardware_check/names.h"

@@ -1,5 +1,6 @@
 // Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checkerboard, or four colours, on a quad whose w
-// varies, with perspective correction and without; two corners are far outside the window. chip-geometry.md 5.1.
+// varies, with perspective correction and without; two corners are far outside the window.
+// rasterizer/reference/chip-geometry.md 5.1.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -33,7 +34,7 @@ ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     return v;
 }
 
-// Where 256 times a weight is close to an integer (chip-float-depth.md 7).
+// Where 256 times a weight is close to an integer (rasterizer/reference/chip-float-depth.md 7).
 constexpr Bound few_colors{5, 1};
 // Texels from the other side of a cell's edge: none in the available captures, which do not include a quad.
 constexpr Bound few_texels{5, 255};

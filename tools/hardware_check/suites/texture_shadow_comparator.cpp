@@ -1,5 +1,5 @@
 // Suite Texture_shadow_comparator: <stage><source><format>_<min>-<max>_<reference>_<function>: a depth texture compared
-// with r. chip-depth.md 7.
+// with r. rasterizer/reference/chip-depth.md 7.
 //
 //   stage   2 or 3: the two- or the three-dimensional projective one, which compares 0 or r
 //   source  R: texels written by the CPU, numbers hexadecimal; P, F: depth rendered by a vertex program or the fixed
@@ -120,7 +120,7 @@ void fill_cells(Image& texels, const Setting& s) {
         }
 }
 
-// The texels of names with R (chip-depth.md 7.1). The codes next to reference and greatest wrap
+// The texels of names with R (rasterizer/reference/chip-depth.md 7.1). The codes next to reference and greatest wrap
 // around at 0 and are masked.
 Image raw_texels(const Setting& s) {
     const std::uint32_t max = rasterizer::max_code(s.format), reference = s.raw_reference;
@@ -146,8 +146,8 @@ float depth_of(const Setting& s, float z) {
 
 constexpr float side_margin = 0.8f;  // of the quads that cover the window
 
-// The depth pass of names with P and F (chip-depth.md 7.2): a background from `least` at the top to `greatest` at the
-// bottom, and the boxes.
+// The depth pass of names with P and F (rasterizer/reference/chip-depth.md 7.2): a background from `least` at the top
+// to `greatest` at the bottom, and the boxes.
 Image rendered_texels(const pipeline::DeviceProfile& profile, const Setting& s) {
     const float shift = s.source == Source::fixed ? viewport_offset : 0.0f;
     const std::array<float, 4> white{1, 1, 1, 1};

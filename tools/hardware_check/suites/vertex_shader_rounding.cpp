@@ -1,7 +1,6 @@
 // Suite Vertex_shader_rounding_tests: where positions are truncated, and which triangle owns a pixel centre.
-// chip-geometry.md 1. TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B,
-// GeometrySubscreen_B with B a shift
-// in pixels.
+// rasterizer/reference/chip-geometry.md 1. TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B,
+// ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift in pixels.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -19,7 +18,7 @@ constexpr Argb green = 0xff009900, magenta = 0xffff00ff;
 constexpr pipeline::SurfaceLayout screen{.depth = pipeline::DepthFormat::d16};
 
 // Green over magenta. The magenta that remains along the upper and the left side shows where `shift` was truncated, and
-// which triangle owns the pixel centres on the edge (chip-geometry.md 1.1).
+// which triangle owns the pixel centres on the edge (rasterizer/reference/chip-geometry.md 1.1).
 Picture geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
@@ -73,9 +72,9 @@ class Lines {
   public:
     Lines(bool along_x, const std::array<float, 4>& marks) : along_x_{along_x}, marks_{marks} {}
 
-    // The shapes of chip-geometry.md 1.5 starting at `start`, four pixels apart. Their edges are on pixel centres, one
-    // sixteenth away, and one binary32 below either: each column shows the effect of rounding and of the tie rule on
-    // one of these.
+    // The shapes of rasterizer/reference/chip-geometry.md 1.5 starting at `start`, four pixels apart. Their edges are
+    // on pixel centres, one sixteenth away, and one binary32 below either: each column shows the effect of rounding and
+    // of the tie rule on one of these.
     void draw_all(float start, float sliver_start, const std::array<std::array<float, 2>, 3>& slivers) {
         float p = start;
         for (int i = 0; i < 20; ++i, p += 4) skewed_quad(p, p + 0.5f + sixteenths(i));

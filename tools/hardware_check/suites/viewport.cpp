@@ -1,5 +1,5 @@
 // Suite Viewport: <x>_<y>-<scale x>_<scale y>: the effect of the viewport's offset and scale on squares drawn by a
-// vertex program and by the fixed-function pipeline. chip-geometry.md 5.6.
+// vertex program and by the fixed-function pipeline. rasterizer/reference/chip-geometry.md 5.6.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/squares.h"
 #include "tools/hardware_check/suite.h"

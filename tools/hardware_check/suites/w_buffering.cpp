@@ -1,5 +1,6 @@
 // Suite W_buffering: <Z|W>Buf<16|24><D|F>_<shape>[-left-top]_V<program>_ZB<bias>_ZS<slope>[_ZB]: depth formats, polygon
-// offset and the w buffer over wide shapes whose corners are far outside the window. chip-float-depth.md 9.1.
+// offset and the w buffer over wide shapes whose corners are far outside the window.
+// rasterizer/reference/chip-float-depth.md 9.1.
 #include "rasterizer/rules/depth_code.h"
 #include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
@@ -189,7 +190,7 @@ const Drawing unknown_quad{std::nullopt,
                            "which quad gives the w slope of this shape is not known (chip-float-depth.md 4.5)"};
 
 // Undetermined: the reciprocal of one sum, the slope of slivers, weights where w varies, and the last bits of a w slope
-// (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
+// (rasterizer/reference/chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
 Bound bound_of(const BufferSetting& s) {
     if (s.is_w) return {250, s.has_slope ? 2u : 1u};
     // One triangle of the floor with the fixed-function pipeline: the last bit of its reciprocals.
@@ -212,7 +213,7 @@ Picture color_picture(const pipeline::DeviceProfile& profile, const BufferSettin
     constexpr Argb red = 0xffff0000;
     if (s.top != default_top) surface.draw({}, box({left, top, picture_width, top + 1}, red));
     if (s.left != default_left) surface.draw({}, box({left, top, left + 1, picture_height}, red));
-    // Texels from the other side of a cell's edge (chip-float-depth.md 4.4 and 7).
+    // Texels from the other side of a cell's edge (rasterizer/reference/chip-float-depth.md 4.4 and 7).
     return {.image = surface.color(), .overdrawn = std::array<std::uint8_t, 4>{255, 255, 0, 255}, .bound = {200, 255}};
 }
 

@@ -1,5 +1,5 @@
 // Suite W_param: prog_w_zero_inf__<quad|bitri>_w<m>: the coverage of a square whose w are negative, zero, infinite, or
-// very different. chip-float-depth.md 8.
+// very different. rasterizer/reference/chip-float-depth.md 8.
 #include <bit>
 #include <limits>
 
@@ -78,7 +78,7 @@ Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profi
     surface.clear_color(unpack(0xfe251135));
     const pipeline::BlendTerm sum{pipeline::BlendEquation::add, pipeline::BlendFactor::one, pipeline::BlendFactor::one};
     surface.draw({.blend = {true, sum, sum}, .texture = &texture}, std::move(soup));
-    // Texels whose coordinates are exactly on a cell's edge (chip-float-depth.md 8).
+    // Texels whose coordinates are exactly on a cell's edge (rasterizer/reference/chip-float-depth.md 8).
     return {Picture{.image = surface.color(), .bound = {200, 192}}, {}};
 }
 

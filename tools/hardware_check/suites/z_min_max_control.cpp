@@ -1,5 +1,5 @@
 // Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: the fragments and whole triangles that the
-// depth range removes, by z or by w. chip-float-depth.md 5.1.
+// depth range removes, by z or by w. rasterizer/reference/chip-float-depth.md 5.1.
 #include "tools/hardware_check/host_matrices.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -126,7 +126,8 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
             add_quad(soup, corner);
             surface.draw(state, std::move(soup));
         }
-    // Colours where 256 times a weight is close to an integer: none in the available captures (chip-float-depth.md 7).
+    // Colours where 256 times a weight is close to an integer: none in the available captures
+    // (rasterizer/reference/chip-float-depth.md 7).
     return {Picture{.image = surface.color(), .bound = {16, 1}}, {}};
 }
 

@@ -1,5 +1,5 @@
 // Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8 pixel.
-// The pixels that the chip's occlusion query counts. chip-fragment.md 6.
+// The pixels that the chip's occlusion query counts. pipeline/reference/chip-fragment.md 6.
 #include <algorithm>
 
 #include "tools/hardware_check/fixed_pipeline.h"
@@ -53,7 +53,7 @@ std::uint64_t draw_fixed_points(pipeline::Surface& surface, std::uint32_t size) 
 // A vertex program's size is not rounded, except for 0 and the end of the range.
 std::uint64_t draw_program_points(pipeline::Surface& surface, std::uint32_t size) {
     // 0 draws one pixel at the point itself, 504 to 511 a square of side 64, and 512 and above wrap around to one pixel
-    // (chip-fragment.md 6.1).
+    // (pipeline/reference/chip-fragment.md 6.1).
     const bool is_zero = size == 0, wraps = size >= 512;
     const float side = is_zero || wraps ? 1.0f : size >= 504 ? 64.0f : static_cast<float>(size) / 8.0f;
     const float shift = is_zero ? 0.5f : 0.0f;
@@ -77,7 +77,7 @@ std::uint64_t draw_lines(pipeline::Surface& surface, std::uint32_t width) {
 // A kind of picture whose name ends with a size register's hexadecimal digits.
 struct Sized {
     std::string_view prefix;
-    // The largest register value that chip-fragment.md 6 describes.
+    // The largest register value that pipeline/reference/chip-fragment.md 6 describes.
     std::uint32_t largest;
     std::uint64_t (*draw)(pipeline::Surface&, std::uint32_t size);
 };

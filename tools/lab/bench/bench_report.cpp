@@ -72,7 +72,7 @@ std::string per_fragment(const BenchResult& r, double value, int digits) {
     return fragments(r) > 0 ? fmt::format("{:.{}f}", value, digits) : "-";
 }
 
-// The keys of a job as reports.md 2 lists them, in that order.
+// The keys of a job as scenes/reference/reports.md 2 lists them, in that order.
 ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     const Spread spread = spread_of(result.seconds);
     ordered_json job = words_of(result.job);

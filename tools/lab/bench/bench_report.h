@@ -15,7 +15,7 @@ using Baseline = std::map<std::string, Spread>;
 // Reads a document of --json. Throws InputError if the file is missing, unreadable or of another kind.
 [[nodiscard]] Baseline load_baseline(const std::string& path);
 
-// The document of `strata bench --json` (reports.md 2).
+// The document of `strata bench --json` (scenes/reference/reports.md 2).
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<BenchResult>& results, const Baseline& baseline);
 
 // The jobs, the refusals, and with several executions a comparison of these.

@@ -3,7 +3,7 @@
 // Rule     The time of a frame is the longest of three: vertices of all geometry passes, fragments of all passes (a
 //          full-screen pass has one per pixel), and bytes between stages and targets, each divided by the card's rate.
 //          The three are assumed to overlap perfectly, so it is a lower bound.
-// Source   reports.md 10.3 lists every rate with its source and evidence mark.
+// Source   scenes/reference/reports.md 10.3 lists every rate with its source and evidence mark.
 // Tests    tests/tools/cost_card_test.cpp
 #pragma once
 #include <cstdint>

@@ -1,9 +1,9 @@
 // tools/lab/cost/cost_plan.h - the cells of `strata cost`: every option that trades accuracy for work, changed one at a
 // time from the defaults.
 //
-// Rule     reports.md 10.1 lists the knobs and their values. Depth format and path, and algorithm or number of peels
-//          and colour format, are combined. A feature that a knob needs and the profile lacks is enabled in a copy of
-//          the profile, and reported. Cells are numbered scene by scene, knob by knob.
+// Rule     scenes/reference/reports.md 10.1 lists the knobs and their values. Depth format and path, and algorithm or
+//          number of peels and colour format, are combined. A feature that a knob needs and the profile lacks is
+//          enabled in a copy of the profile, and reported. Cells are numbered scene by scene, knob by knob.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <optional>

@@ -1,8 +1,8 @@
 // tools/lab/cost/cost_row.h - writes a cell as a line of results.jsonl and of timings.jsonl, and combines both into a
 // row of the report.
 //
-// Rule     reports.md 10.2. Times are only in timings.jsonl. Of several timings of a cell the last is used: an
-//          interrupted sweep may have measured it twice.
+// Rule     scenes/reference/reports.md 10.2. Times are only in timings.jsonl. Of several timings of a cell the last is
+//          used: an interrupted sweep may have measured it twice.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

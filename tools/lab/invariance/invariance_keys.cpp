@@ -113,7 +113,8 @@ const std::vector<Choice<Split>> splits{{"none", Split::none},
                                         {"moved", Split::moved},
                                         {"clamped", Split::clamped}};
 
-// In the order of nesting, which numbers the cells (reports.md 5.1): moving a key changes every number.
+// In the order of nesting, which numbers the cells (scenes/reference/reports.md 5.1): moving a key changes every
+// number.
 std::vector<PlanKey> make_keys() {
     return {
         {"scene", "what is drawn", "a scene's name or file", "",

@@ -35,7 +35,7 @@ struct DepthRange {
 // moved: a viewport one pixel further in x and y. clamped: with depth clamp.
 enum class Split : std::uint8_t { none, rotated, diagonal, moved, clamped };
 
-// One experiment. Its fields are the values of a plan's keys, which are listed in reports.md 5.1.
+// One experiment. Its fields are the values of a plan's keys, which are listed in scenes/reference/reports.md 5.1.
 struct Cell {
     std::string scene, profile = "geforce3";
     int width = 256, height = 192;

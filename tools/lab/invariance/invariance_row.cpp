@@ -56,8 +56,8 @@ constexpr std::array columns{"cell",
                              "safe_bias",
                              "outcome"};
 
-// The pair of fragments that determines a value (reports.md 5.2). `width` is for converting the pixel's index to x and
-// y.
+// The pair of fragments that determines a value (scenes/reference/reports.md 5.2). `width` is for converting the
+// pixel's index to x and y.
 ordered_json witness(const peeling::PathPair& pair, int width) {
     return {{"x", static_cast<int>(pair.pixel) % width},
             {"y", static_cast<int>(pair.pixel) / width},
@@ -89,14 +89,15 @@ ordered_json to_json(const std::optional<peeling::SafeAbsolute>& range) {
     return json;
 }
 
-// Bins of differences in codes: lowest, highest, count (audit.md 8.2).
+// Bins of differences in codes: lowest, highest, count (peeling/reference/audit.md 8.2).
 ordered_json histogram(const peeling::PathComparison& paths) {
     ordered_json bins = ordered_json::array();
     for (const peeling::UlpBin& bin : paths.histogram) bins.push_back({bin.low, bin.high, bin.count});
     return bins;
 }
 
-// The keys after `refusal`, in the order of reports.md 5.2. A refused cell has them, too, with counts of 0.
+// The keys after `refusal`, in the order of scenes/reference/reports.md 5.2. A refused cell has them, too, with counts
+// of 0.
 void add_findings(ordered_json& line, const Cell& cell, const peeling::Measurement& m) {
     const bool ran = !m.refusal && m.peeled;
     line["fragments"] = m.paths.fragments;
@@ -130,7 +131,7 @@ std::string without_folder(const std::string& name) {
     return scenes::is_procedural(name) ? name : std::filesystem::path(name).filename().string();
 }
 
-// One of the outcomes of reports.md 5.2.
+// One of the outcomes of scenes/reference/reports.md 5.2.
 std::string outcome(const CellResult& result) {
     if (!result.refusal.empty()) return "refused";
     if (!result.measured.peeled) return "compared";

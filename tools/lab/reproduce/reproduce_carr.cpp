@@ -243,7 +243,8 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
                  counts(r.iterations, r.passes), is_paper ? ratio(fps, paper.layer_fps) : "",
                  times_faster(layer.seconds, r.seconds), ratio(double(r.fragments), double(layer.fragments)), why});
         };
-        // Geometry passes per iteration: layer_peel 2, formulation A 6, formulation B 5 (algorithms.md 9, 10.2 and 11).
+        // Geometry passes per iteration: layer_peel 2, formulation A 6, formulation B 5
+        // (peeling/reference/algorithms.md 9, 10.2 and 11).
         row("layer_peel", layer, paper.layers, 2 * paper.layers, paper.layer_fps);
         row("coherent_stencil", run(model.scene, view, "coherent_stencil", render, true), paper.coherent,
             6 * paper.coherent, paper.a_fps);

@@ -7,7 +7,8 @@
 // Numbers  Intervals of binary64 with outward rounding (interval.h). Blends in binary32 have an error of at most 2^-22
 //          of the sum of their terms: at most five operations with 2^-24 each. Codes are whole numbers times 1 / (2^n -
 //          1), rounded once.
-// Source   GL 4.6 17.3.6; fragment-stages.md 8 and 9; algorithms.md 4 (UNDER), 5 (both ends).
+// Source   GL 4.6 17.3.6; pipeline/reference/fragment-stages.md 8 and 9; peeling/reference/algorithms.md 4 (UNDER), 5
+//          (both ends).
 // Tests    tests/tools/oracle/verdict/composite_test.cpp: all pairs of 8-bit source and target for one layer and for
 //          two; random lists against a model of each rounding
 #pragma once

@@ -1,6 +1,6 @@
 // tools/oracle/verdict/ties.h - the correct ways to composite fragments of equal depth.
 //
-// Source   keys-and-counts.md 2.2
+// Source   peeling/reference/keys-and-counts.md 2.2
 // Tests    tests/tools/oracle/verdict/structure_test.cpp
 #pragma once
 #include <cstdint>

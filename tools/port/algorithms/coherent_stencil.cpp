@@ -1,6 +1,6 @@
 // tools/port/algorithms/coherent_stencil.cpp - runs of fragments that are submitted in depth order, found by counting
-// in the stencil buffer. Carr, Mech and Miller 2008, section 5; algorithms.md 10. Passes: 1 + 6 per iteration; it ends
-// by a query of the first.
+// in the stencil buffer. Carr, Mech and Miller 2008, section 5; peeling/reference/algorithms.md 10. Passes: 1 + 6 per
+// iteration; it ends by a query of the first.
 #include <fmt/format.h>
 
 #include <memory>
@@ -199,7 +199,7 @@ void composite(const CoherentTargets& t, Record* record) {
     const std::uint64_t run = draw(t, t.composite_run, t.nearest.texture.name(), t.reached.name());
     show(t, "geometry", t.breaker, run, record);
     glFlush();  // ends the pass: otherwise softpipe would keep blending in the same tiles, unrounded
-                // (fragment-stages.md 9.5)
+                // (pipeline/reference/fragment-stages.md 9.5)
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
     const std::uint64_t end = draw(t, t.composite_end, t.reached.name(), 0);
     show(t, "geometry", t.breaker, end, record);

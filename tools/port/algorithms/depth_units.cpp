@@ -1,6 +1,6 @@
 // tools/port/algorithms/depth_units.cpp - one layer per pass, with a shadow comparison as the second depth test; layers
-// are composited at the end. Everitt 2001, Listing 1 with the depth texture of its shadow mapping; algorithms.md 2.
-// Passes: N + 1.
+// are composited at the end. Everitt 2001, Listing 1 with the depth texture of its shadow mapping;
+// peeling/reference/algorithms.md 2. Passes: N + 1.
 #include <fmt/format.h>
 
 #include <memory>

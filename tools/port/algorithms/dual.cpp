@@ -1,6 +1,6 @@
 // tools/port/algorithms/dual.cpp - the nearest and the farthest layer per pass, under one MAX equation, to the last
-// layer. Bavoil and Myers 2008; algorithms.md 5. Passes: 1 + max(1, ceil(N/2)); it ends by a query of the pixels whose
-// min-max depth is not empty.
+// layer. Bavoil and Myers 2008; peeling/reference/algorithms.md 5. Passes: 1 + max(1, ceil(N/2)); it ends by a query of
+// the pixels whose min-max depth is not empty.
 #include <fmt/format.h>
 
 #include <memory>

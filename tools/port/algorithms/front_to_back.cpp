@@ -1,5 +1,5 @@
-// tools/port/algorithms/front_to_back.cpp - one layer per pass, nearest first, to the last layer.
-// Everitt 2001, Bavoil and Myers 2008; algorithms.md 4. Passes: N + 1; it ends by an occlusion query of the peel.
+// tools/port/algorithms/front_to_back.cpp - one layer per pass, nearest first, to the last layer. Everitt 2001, Bavoil
+// and Myers 2008; peeling/reference/algorithms.md 4. Passes: N + 1; it ends by an occlusion query of the peel.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,5 +1,6 @@
 // tools/port/algorithms/single_pass.cpp - algorithms of one geometry pass: a depth pass, weighted averages, a count of
-// fragments. weighted_average: Bavoil and Myers 2008; algorithms.md 7. Half-float sums and count, as Strata's.
+// fragments. weighted_average: Bavoil and Myers 2008; peeling/reference/algorithms.md 7. Half-float sums and count, as
+// Strata's.
 #include <fmt/format.h>
 
 #include <cstring>
@@ -21,8 +22,8 @@ void main() {{
 }}
 )";
 
-// The power by repeated squaring from the lowest bit of n, as in algorithms.md 7, because pow() differs between
-// drivers.
+// The power by repeated squaring from the lowest bit of n, as in peeling/reference/algorithms.md 7, because pow()
+// differs between drivers.
 constexpr auto average_text = R"(
 uniform sampler2D sums;
 uniform sampler2D count;
@@ -141,8 +142,8 @@ Job depth_job(const JobInput& input) {
                 glDepthFunc(t->input.way.depth_func);
                 glClearBufferfv(GL_DEPTH, 0, &far_plane);
                 glUseProgram(t->program.name());
-                // With a query, as peels have: without one softpipe steps D16 along its spans (mesa-rasterizers.md
-                // 3.3).
+                // With a query, as peels have: without one softpipe steps D16 along its spans
+                // (pipeline/reference/mesa-rasterizers.md 3.3).
                 glBeginQuery(GL_SAMPLES_PASSED, t->query.name());
                 t->input.scene.draw();
                 glEndQuery(GL_SAMPLES_PASSED);

@@ -91,8 +91,8 @@ FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipel
 
 namespace {
 
-// A target to which one pass adds: with blending, or in tiles that a profile keeps in binary32 (fragment-stages.md
-// 9.5).
+// A target to which one pass adds: with blending, or in tiles that a profile keeps in binary32
+// (pipeline/reference/fragment-stages.md 9.5).
 class Sums {
   public:
     Sums(const rasterizer::Rect& frame, const pipeline::DeviceProfile& profile, pipeline::Format format)

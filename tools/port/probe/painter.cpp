@@ -64,7 +64,8 @@ void Painter::draw(const KitItem& item) const {
     glUseProgram(program_.name());
     glBindVertexArray(layout_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    // With a query, as peels have: without one softpipe steps D16 along its spans (mesa-rasterizers.md 3.3).
+    // With a query, as peels have: without one softpipe steps D16 along its spans
+    // (pipeline/reference/mesa-rasterizers.md 3.3).
     glBeginQuery(GL_SAMPLES_PASSED, query_.name());
     for (const KitDraw& one : item.draws) draw(one);
     glEndQuery(GL_SAMPLES_PASSED);

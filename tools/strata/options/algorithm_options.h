@@ -10,7 +10,8 @@ namespace strata::tools {
 
 void add_algorithm_options(CLI::App& app, peeling::AlgorithmOptions& options);
 
-// The options that differ from their defaults, each followed by its value, in the order of reports.md 7.
+// The options that differ from their defaults, each followed by its value, in the order of scenes/reference/reports.md
+// 7.
 [[nodiscard]] std::vector<std::string> words_of(const peeling::AlgorithmOptions& options);
 
 }  // namespace strata::tools

@@ -50,8 +50,8 @@ std::string to_text(const pipeline::Rgba& b) {
     return b[3] == 1.0f ? rgb : fmt::format("{},{}", rgb, b[3]);
 }
 
-// Each of these functions appends the options of one group that differ from their defaults, in the order of reports.md
-// 7.
+// Each of these functions appends the options of one group that differ from their defaults, in the order of
+// scenes/reference/reports.md 7.
 void add_scene(Words& words, const RunOptions& options) {
     const scenes::SceneOptions& scene = options.scene_options;
     if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));

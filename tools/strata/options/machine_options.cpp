@@ -14,7 +14,7 @@ namespace strata::tools {
 
 namespace {
 
-// Parses a termination rule of keys-and-counts.md 3.1, with its ratio or number of passes.
+// Parses a termination rule of peeling/reference/keys-and-counts.md 3.1, with its ratio or number of passes.
 std::optional<pipeline::Termination> to_termination(std::string_view text) {
     using enum pipeline::TerminationRule;
     if (text == "exact") return pipeline::Termination{.rule = exact};
@@ -31,7 +31,7 @@ std::optional<pipeline::Termination> to_termination(std::string_view text) {
     return std::nullopt;
 }
 
-// Parses a sort order of keys-and-counts.md 5. A seed is any 64-bit number.
+// Parses a sort order of peeling/reference/keys-and-counts.md 5. A seed is any 64-bit number.
 std::optional<peeling::Sort> to_sort(std::string_view text) {
     using enum peeling::SortRule;
     if (text == "none") return peeling::Sort{.rule = none};

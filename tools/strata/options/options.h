@@ -16,7 +16,7 @@
 
 namespace strata::tools {
 
-// The options of a command. Every default is that of reports.md 6.
+// The options of a command. Every default is that of scenes/reference/reports.md 6.
 struct RunOptions {
     // The start of the process, as early as this program can read the clock; statistics report the seconds since.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();

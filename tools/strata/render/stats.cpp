@@ -23,7 +23,7 @@ std::string_view outcome_name(peeling::Outcome outcome) {
     return "";  // unreachable: the enum is closed
 }
 
-// These functions build the objects of a row, with the keys of reports.md 1 in its order.
+// These functions build the objects of a row, with the keys of scenes/reference/reports.md 1 in its order.
 // Null if counters were not requested.
 ordered_json to_json(const std::optional<pipeline::Counters>& counted) {
     if (!counted) return nullptr;

@@ -1,5 +1,5 @@
 // tools/strata/render/stats.h - the statistics of a command: one JSON object per algorithm. Every key is always
-// present. Source: reports.md 1. Tests: tests/tools/stats_test.cpp
+// present. Source: scenes/reference/reports.md 1. Tests: tests/tools/stats_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,7 +34,7 @@ struct RunContext {
 // A sentence that says how the fragments were obtained, and why a faster path was not used.
 [[nodiscard]] std::string path_sentence(const RunSummary& run);
 
-// The document of --stats (reports.md 1), with its newline.
+// The document of --stats (scenes/reference/reports.md 1), with its newline.
 [[nodiscard]] std::string to_json(const std::vector<RunSummary>& runs, const RunContext& context);
 
 // A table for the terminal, with the diagnostics and refusals below it.

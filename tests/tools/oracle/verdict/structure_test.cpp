@@ -1,4 +1,5 @@
-// Tests the layers of lists with equal depths. The expected layers are written by hand from keys-and-counts.md 2.2.
+// Tests the layers of lists with equal depths. The expected layers are written by hand from
+// peeling/reference/keys-and-counts.md 2.2.
 #include "tools/oracle/verdict/structure.h"
 
 #include <algorithm>
