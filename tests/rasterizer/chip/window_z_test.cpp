@@ -1,5 +1,6 @@
 // Tests the NV2A's window z against a second implementation of rasterizer/reference/depth.md 4.4 in rational
-// arithmetic, and against the counts of differing pixels in hardware captures of one scene (rasterizer/reference/chip-depth.md 2).
+// arithmetic, and against the counts of differing pixels in hardware captures of one scene
+// (rasterizer/reference/chip-depth.md 2).
 #include "rasterizer/chip/window_z.h"
 
 #include <bit>
