@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the matrices of an engine's own camera as a camera file of Strata, which every command takes by --camera.
+"""Writes the matrices of an engine's own camera as a camera file of Strata, for --camera of every command.
 
     camera.py ENGINE LOOK.json --size WxH -o CAMERA.json
 

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Draws the scene of a golden pack with an engine and writes the picture. The interpreter is Debian's, which has Debian's VTK.
+"""Renders the scene of a golden pack with an engine and writes the picture. The interpreter is Debian's, which has Debian's VTK.
 
     draw.py ENGINE PACK -o PICTURE [--way WAY] [--peels N] [--targets FOLDER]
 
 PICTURE ends in .png or .npy; a picture of floats is .npy. --targets writes a candidate (tools/oracle/PACK.md): Babylon's targets after
-every pass. Exit status 2, and a sentence, if the pack holds what the engine cannot draw here; 77 if a program or a package is missing.
+every pass. Exit status 2, and a sentence, if the pack has something that the engine cannot render here; 77 if a program or a package is missing.
 """
 import argparse
 import contextlib
@@ -30,7 +30,7 @@ SKIPPED = 77
 
 
 def missing(engine):
-    """What this machine lacks to draw with the engine, as a sentence; "" if it has all."""
+    """The packages that this computer lacks for the engine, as a sentence; "" if none is missing."""
     if engine in WEB:
         package = WEB[engine][0]
         if not (PACKAGES / package / "package.json").is_file():
@@ -44,13 +44,13 @@ def missing(engine):
 
 
 def with_display():
-    """Runs this program again under Xvfb, where there is no display."""
+    """Starts this program again under Xvfb if there is no display."""
     return subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv]).returncode
 
 
 def draw(engine, scene, way, browser, peels=None, wants_targets=False):
-    """The targets that the engine drew, as web.Drawn; `picture` is one of them. VTK's has three channels, for its own has alpha 0 behind.
-    `browser` is a web.Browser, for VTK None."""
+    """The targets that the engine rendered, as web.Drawn; `picture` is one of them. VTK's has three channels, because VTK's own alpha is 0 behind all
+    surfaces. `browser` is a web.Browser, for VTK None."""
     if engine == "vtk":
         data = pictures.without_alpha(vtk_driver.draw(scene, way, peels))
         return [web.Drawn("picture", scene.width, scene.height, 3, "u1", data)]
@@ -58,7 +58,7 @@ def draw(engine, scene, way, browser, peels=None, wants_targets=False):
 
 
 def browser_for(engine):
-    """What draw() takes for a browser, as a context."""
+    """The browser argument of draw(), as a context."""
     return web.Browser(PACKAGES) if engine in WEB else contextlib.nullcontext()
 
 

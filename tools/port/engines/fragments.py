@@ -1,7 +1,7 @@
-"""The fragments of every pixel of a pack's frame, computed here and not by Strata: from clip-space vertices, in binary64.
+"""The fragments of every pixel of a pack's frame, computed without Strata from clip-space vertices, in binary64.
 
-Colours are mixed as they are, encoded, or in linear light, as an engine does that takes colours of corners for linear ones.
-A pixel counts where nothing is near a tie of rasterization: its centre is at least MARGIN pixels from every edge, and no two fragments'
+Colours are interpolated as stored (encoded), or in linear light, like in an engine that treats colours of corners as linear.
+A pixel is used only if it is not near a tie of rasterization: its centre is at least MARGIN pixels from every edge, and no two fragments'
 depths are nearer than NEAR unless they are those of surfaces parallel to the picture, which are compared exactly.
 """
 import dataclasses
@@ -28,7 +28,7 @@ class Undecided(Exception):
 
 
 def decoded(colors):
-    """sRGB to linear light; alpha stays."""
+    """Converts sRGB to linear light; alpha is unchanged."""
     rgb = numpy.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
     return numpy.concatenate([rgb[..., :3], colors[..., 3:]], -1)
 
@@ -56,7 +56,7 @@ class Triangle:
         return a
 
     def box(self, width, height):
-        """Pixels that it may touch, with the margin."""
+        """The pixels that it may touch, with the margin."""
         low = [max(int(numpy.floor(v.min() - 1)), 0) for v in (self.x, self.y)]
         high = [min(int(numpy.ceil(v.max() + 1)), n) for v, n in ((self.x, width), (self.y, height))]
         return range(low[0], high[0]), range(low[1], high[1])
@@ -77,7 +77,7 @@ class Triangle:
                         is_front=sign < 0, exact=bool(exact), **self.of)  # y points down here
 
     def color_at(self, weights):
-        """With perspective; a triangle of one colour has that colour to the bit."""
+        """Interpolates with perspective; a triangle of one colour has exactly that colour."""
         if (self.colors == self.colors[0]).all():
             return tuple(map(float, self.colors[0]))
         mix = lambda colors: (weights[:, None] * colors).sum(0) / weights.sum()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what the drivers of engines need and no other part of Strata does: Debian's VTK, Xvfb and Chromium, and the npm packages of
-# packages.txt, each held against its checksum, into build/engines (or FOLDER).
+# Installs the packages that only the drivers of engines need: Debian's VTK, Xvfb and Chromium, and the npm packages of packages.txt, each compared
+# with its checksum, into build/engines (or FOLDER).
 #   tools/port/engines/install.sh [FOLDER]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,7 +1,7 @@
-"""A golden pack as an engine takes it: meshes with one colour a vertex, two matrices, a size and a background.
+"""Reads a golden pack as input of an engine: meshes with one colour per vertex, two matrices, a size and a background.
 
-Shapes as in tools/oracle/PACK.md: matrices are 16 numbers, column by column; colours are straight and encoded, 0 to 1; triangles are
-numbers of the mesh's own vertices. Numbers are those of the pack to the bit. The standard library is enough.
+Shapes as in tools/oracle/PACK.md: matrices are 16 numbers, column by column; colours are straight and encoded, 0 to 1; triangles are indices of the
+mesh's own vertices. Numbers are exactly those of the pack. Needs only the standard library.
 """
 import array
 import dataclasses
@@ -14,12 +14,12 @@ IDENTITY = [float(i % 5 == 0) for i in range(16)]
 
 
 class PackError(Exception):
-    """The pack holds something that no driver here draws: a sentence."""
+    """The pack has something that no driver here renders; the text is a sentence."""
 
 
 @dataclasses.dataclass
 class Mesh:
-    """What one object of the scene draws in one call."""
+    """The triangles of one object of the scene in one draw."""
     name: str
     opaque: bool
     model: list
@@ -43,8 +43,8 @@ class Scene:
     meshes: list
 
     def runs(self):
-        """The meshes, cut where the colour changes: for engines that take one colour a mesh. A triangle with several colours stays in
-        the mesh of its neighbours."""
+        """The meshes, divided where the colour changes, for engines with one colour per mesh. A triangle with several colours stays in the mesh of
+        its neighbours."""
         return [run for mesh in self.meshes for run in runs_of(mesh)]
 
 
@@ -58,7 +58,7 @@ def runs_of(mesh):
 
 
 def part_of(mesh, first, last):
-    """Triangles `first` to `last` (not included) with the vertices that they use."""
+    """Triangles `first` to `last` (excluded) with the vertices that they use."""
     used = mesh.triangles[3 * first:3 * last]
     numbers = {vertex: i for i, vertex in enumerate(dict.fromkeys(used))}
     pick = lambda values, width: array.array("f", [x for v in numbers for x in values[width * v:width * v + width]])
@@ -74,7 +74,7 @@ def read_npy(path):
 
 
 def expect(manifest):
-    """Refuses what the drivers do not draw."""
+    """Refuses features that the drivers do not render."""
     state, scene = manifest["state"], manifest["scene"]
     wanted = {"depth_order": "less", "clip_depth": "minus_one_to_one", "y_direction": "up", "front_face": "counter_clockwise", "alpha": None,
               "depth_clamp": False}
@@ -88,7 +88,7 @@ def expect(manifest):
 
 
 def meshes_of(folder, manifest, draw):
-    """One mesh an object of a draw. Vertices of an object lie one behind the other, in the order of its mesh's positions."""
+    """One mesh for each object of a draw. The vertices of an object are consecutive, in the order of its mesh's positions."""
     load = lambda key: read_npy(folder / draw[key])
     triangles, objects, front, flags = load("triangles"), load("objects"), load("front"), load("flags")
     if load("back") != front or any(not flag & 1 for flag in flags):
@@ -111,7 +111,7 @@ def meshes_of(folder, manifest, draw):
 
 
 def read_scene(folder):
-    """PackError, with the place, if the pack holds what no driver draws."""
+    """PackError, with the place, if the pack has something that no driver renders."""
     folder = pathlib.Path(folder)
     try:
         manifest = json.loads((folder / "manifest.json").read_text())

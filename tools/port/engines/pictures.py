@@ -1,4 +1,4 @@
-"""Pictures of drivers as files: PNG for 8 bits, NPY for all else. The top row comes first."""
+"""Reads and writes pictures of drivers: PNG for 8 bits, NPY for all others. The top row is first."""
 import array
 import pathlib
 import struct
@@ -9,7 +9,7 @@ NPY_CODES = {"u1": "|u1", "f4": "<f4"}
 
 
 def without_alpha(data):
-    """R G B of bytes R G B A."""
+    """R, G and B of bytes R G B A."""
     kept = bytearray(len(data) // 4 * 3)
     for c in range(3):
         kept[c::3] = data[c::4]
@@ -25,7 +25,7 @@ def png(data, width, height, channels):
 
 
 def npy(data, width, height, channels, element):
-    """NPY 1.0 with a header of 128 bytes, as packs have them."""
+    """NPY 1.0 with a header of 128 bytes, as in packs."""
     shape = f"({height}, {width})" if channels == 1 else f"({height}, {width}, {channels})"
     head = f"{{'descr': '{NPY_CODES[element]}', 'fortran_order': False, 'shape': {shape}, }}"
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", 118) + head.ljust(117).encode() + b"\n" + data
@@ -48,7 +48,7 @@ def read(path):
 
 
 def write(path, data, width, height, channels, element):
-    """By the ending of the path's name; ValueError if the format cannot hold the numbers."""
+    """The ending of the path selects the format; ValueError if it cannot represent the numbers."""
     path = pathlib.Path(path)
     if path.suffix == ".npy":
         made = npy(data, width, height, channels, element)

@@ -1,7 +1,8 @@
-"""What each engine makes of a pixel's fragments, written from its source: tools/docs/engines.md has all lines. In binary64, without formats.
+"""The colour that each engine computes from a pixel's fragments, written from its source (lines: tools/docs/engines.md). In binary64, without
+formats.
 
-A rule takes a frame of pixels (fragments.py) and a background, and answers with rows of R G B; an undecided pixel, None, stays None.
-What is right is `exact`: all visible fragments, nearest first, each once. Fragments of equal depth are composited in either order, and
+A rule takes a frame of pixels (fragments.py) and a background, and returns rows of R G B; an undecided pixel, None, stays None. The right picture is
+`exact`: all visible fragments, nearest first, each once. Fragments of equal depth are composited in either order, and
 a fragment on the opaque surface is hidden by it (LESS, as in the papers).
 """
 import dataclasses
@@ -15,7 +16,7 @@ EPSILON = FLOAT(1e-7)  # vtkDualDepthPeelingPass.cxx:264, vtkDepthPeelingPass.cx
 
 
 def distance(a, b):
-    """Of two colours, in codes of 8 bits."""
+    """The distance of two colours, in codes of 8 bits."""
     return 255 * max(abs(x - y) for x, y in zip(a, b))
 
 
@@ -25,7 +26,7 @@ def over(color, behind):
 
 
 def opaque_of(pixel, background):
-    """Depth and colour behind; infinity and the background where nothing opaque is."""
+    """Depth and colour of the opaque surface; infinity and the background if there is none."""
     nearest = min((f for f in pixel if f.opaque), key=lambda f: f.z, default=None)
     return (nearest.z, nearest.color[:3]) if nearest else (float("inf"), tuple(background))
 
@@ -35,7 +36,7 @@ def blended_of(pixel):
 
 
 def a_pixel(rule):
-    """A rule of the frame from one of a pixel: (pixel, background) -> R G B. Equal pixels are computed once."""
+    """Makes a rule of the frame from a rule of one pixel: (pixel, background) -> R G B. Equal pixels are computed once."""
     def of_frame(frame, background):
         kept = functools.lru_cache(maxsize=None)(lambda pixel: rule(pixel, background))
         return [[None if pixel is None else kept(pixel) for pixel in row] for row in frame]
@@ -45,7 +46,7 @@ def a_pixel(rule):
 # --- what is right
 
 def exact(pixel, background):
-    """All colours that are right: one, or several where depths are equal."""
+    """All right colours: one, or several if depths are equal."""
     z, behind = opaque_of(pixel, background)
     visible = sorted((f for f in blended_of(pixel) if f.z < z), key=lambda f: -f.z)
     groups = [list(group) for _, group in itertools.groupby(visible, key=lambda f: f.z)]
@@ -58,7 +59,7 @@ def exact(pixel, background):
 # --- three.js, and the others without an order of their own
 
 def submitted(pixel, background, writes_depth, sort=None, is_less=False):
-    """Object by object, the back faces of each first (or all faces as they come), tested against the opaque surface."""
+    """Object by object, the back faces of each first (or all faces in submission order), tested against the opaque surface."""
     depth, color = opaque_of(pixel, background)
     for f in sorted(blended_of(pixel), key=sort) if sort else blended_of(pixel):
         if f.z > depth or (is_less and f.z == depth):
@@ -101,7 +102,7 @@ def molstar_blended(_):
 # --- dual depth peeling as in webgl2examples, which Babylon and Mol* took up
 
 def dual(pixel, background, peels, is_visible, blends_back=True):
-    """MAX of what each fragment at the front of the range makes of the front colour, MAX of the straight colours at its far end."""
+    """MAX of the front colours that the fragments at the near end give, MAX of the straight colours at the far end."""
     fragments = blended_of(pixel)
     z, back = opaque_of(pixel, background)
     waiting = [f.z for f in fragments if is_visible(f.z, z)]
@@ -124,7 +125,7 @@ def dual(pixel, background, peels, is_visible, blends_back=True):
 
 
 def under(front, color):
-    """A straight colour blended under a premultiplied one; alpha is what the front hides."""
+    """A straight colour blended under a premultiplied one; alpha is the coverage of the front."""
     open_ = 1 - front[3]
     return (*(c + s * color[3] * open_ for c, s in zip(front[:3], color[:3])), 1 - open_ * (1 - color[3]))
 
@@ -147,7 +148,7 @@ def molstar_dpoit(peels):
 # --- sums without an order
 
 def weighted(pixel, background, weight, is_visible):
-    """Sum of colour times weight over the sum of weights, with what all fragments together let through."""
+    """The weighted sum of colours divided by the sum of weights, with the transmittance of all fragments."""
     z, behind = opaque_of(pixel, background)
     visible = [f for f in blended_of(pixel) if is_visible(f.z, z)]
     if not visible:
@@ -166,21 +167,21 @@ def molstar_wboit():
 
 
 def vtk_weighted():
-    """vtkOrderIndependentTranslucentPass.cxx:389: weight alpha; LEQUAL, against the depth that is copied in."""
+    """vtkOrderIndependentTranslucentPass.cxx:389: weight alpha; LEQUAL, against the depth that is copied before."""
     return a_pixel(lambda pixel, background: weighted(pixel, background, lambda f: f.color[3], lambda z, opaque: z <= opaque))
 
 
 # --- VTK's peels, which end for the whole frame at once
 
 def opaque_in_vtk(pixel, background):
-    """The opaque surface's depth comes to the peels through a buffer of 24 bits, copied into binary32 (vtkDualDepthPeelingPass.cxx:1095)."""
+    """The opaque surface's depth is stored in a buffer of 24 bits and copied into binary32 (vtkDualDepthPeelingPass.cxx:1095)."""
     z, behind = opaque_of(pixel, background)
     most = 2 ** 24 - 1
     return (z if z == float("inf") else float(FLOAT(round(z * most) / most))), behind
 
 
 def vtk_dual_peels(pixel, background, peels):
-    """After each peel: the front, the layers behind it, whether a back fragment was written, and what waits."""
+    """After each peel: the front, the layers behind it, whether a back fragment was written, and the remaining fragments."""
     fragments = blended_of(pixel)
     opaque, _ = opaque_in_vtk(pixel, background)
     seen = [f.z for f in fragments if f.z <= opaque]
@@ -207,7 +208,8 @@ def vtk_dual_peels(pixel, background, peels):
 
 
 def vtk_dual(peels):
-    """vtkDualDepthPeelingPass.cxx: ends once no pixel has written a back fragment (1217); what waits then is blended as it comes (1641)."""
+    """vtkDualDepthPeelingPass.cxx: ends when no pixel has written a back fragment (1217); the remaining fragments are blended in submission order
+    (1641)."""
     def finish(pixel, background, count, goes_on):
         behind = opaque_of(pixel, background)[1]
         front, back, _, (near, far) = list(vtk_dual_peels(pixel, background, count))[-1] if count else ((0.0,) * 4, (0.0,) * 4, True, (-1, 2))
@@ -228,8 +230,8 @@ def vtk_dual(peels):
 
 
 def vtk_peeling(peels):
-    """vtkDepthPeelingPass.cxx: LEQUAL, so the last of equal depths stays; LESS against the opaque surface; the last of the peels blends
-    all that is left as it comes (530). Fragments less than an epsilon behind a peeled one are lost (675)."""
+    """vtkDepthPeelingPass.cxx: LEQUAL, so that the last of equal depths is kept; LESS against the opaque surface; the last of the peels blends all
+    remaining fragments in submission order (530). Fragments less than an epsilon behind a peeled one are lost (675)."""
     def rule(pixel, background):
         opaque, behind = opaque_in_vtk(pixel, background)
         left = [f for f in blended_of(pixel) if f.z < opaque]
@@ -249,7 +251,7 @@ def vtk_peeling(peels):
 
 
 def rule_of(engine, way, scene, peels=None):
-    """The rule of a picture that draw.py makes with the same options."""
+    """The rule for a picture that draw.py makes with the same options."""
     count = lambda own: own if peels is None else peels
     rules = {
         ("vtk", "dual"): lambda: vtk_dual(count(4)), ("vtk", "peeling"): lambda: vtk_peeling(count(4)), ("vtk", "weighted"): vtk_weighted,

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the scenes of this folder's table as glTF: flat colours, no light, each with what sets one engine apart from another.
+"""Writes the scenes of this folder's table as glTF: flat colours, no light, each with a feature in which engines differ.
 
     scenes.py FOLDER    writes FOLDER/NAME.gltf and the cameras, front.json, torus.json, shells.json
 
-All but `torus` and `shells` are panes before the camera of front.json, which stands at z = 1 and sees x, y, z from -1 to 1 in parallel: z = 1 has window
-depth 0, z = -1 has 1, and no product or sum on the way rounds. Each pane is an object of its own, for engines that sort objects.
-Colours are codes of 8 bits, for Mol* keeps no others. glTF's are linear, so they are decoded here, and encoded again by what reads them.
+All except `torus` and `shells` are panes in front of the orthographic camera of front.json, which is at z = 1 and shows x, y, z from -1 to 1: z = 1
+has window depth 0, z = -1 has 1, and all products and sums are exact. Each pane is a separate object, for engines that sort objects. Colours are
+codes of 8 bits, because Mol* stores no others. Colours of glTF are linear, so that they are decoded here, and encoded again by the reader.
 """
 import array
 import base64
@@ -24,7 +24,7 @@ def decoded(code):
 
 
 class Builder:
-    """A glTF document that grows by surfaces: a node, a mesh and a material each."""
+    """Builds a glTF document surface by surface, each with a node, a mesh and a material."""
     def __init__(self):
         self.document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "extensionsUsed": ["KHR_materials_unlit"],
                          "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": [], "buffers": []}
@@ -40,7 +40,7 @@ class Builder:
         return self.add("accessors", {"bufferView": view, "componentType": component, "count": count, "type": shape, **more})
 
     def surface(self, points, triangles, color, alpha=None, translation=(0, 0, 0)):
-        """Alpha None is an opaque surface. `color` is one colour or a list of one a point. `translation` is its node's."""
+        """Alpha None is an opaque surface. `color` is one colour or a list with one per point. `translation` is that of its node."""
         values = array.array("f", [x for p in points for x in p])
         box = [[f(values[k::3]) for k in range(3)] for f in (min, max)]
         positions = self.accessor(values.tobytes(), 5126, len(points), "VEC3", min=box[0], max=box[1])
@@ -57,7 +57,7 @@ class Builder:
         self.document["scenes"][0]["nodes"].append(self.add("nodes", {"mesh": mesh, "translation": translation}))
 
     def pane(self, left, bottom, right, top, z, color, alpha=None):
-        """A rectangle at one z. Its sides lie between pixel centres where they are multiples of 1/16 (frames of 32 n pixels)."""
+        """A rectangle at one z. Its sides lie between pixel centres if they are multiples of 1/16 (frames of 32 n pixels)."""
         self.surface([(left, bottom, 0), (right, bottom, 0), (right, top, 0), (left, top, 0)], [(0, 1, 2), (0, 2, 3)], color, alpha, (0, 0, z))
 
     def text(self):
@@ -101,7 +101,7 @@ def decal(b):
 
 
 def close(b):
-    """Pairs whose window depths are 2^-24, 2^-23, 2^-22 and 2^-20 apart, the far one last."""
+    """Pairs whose window depths differ by 2^-24, 2^-23, 2^-22 and 2^-20, the far one last."""
     for k, steps in enumerate([1, 2, 4, 16]):
         left = -0.875 + 0.4375 * k
         b.pane(left, -0.75, left + 0.3125, 0.25, -0.5, RED, 0.5)
@@ -130,7 +130,7 @@ def grid(b):
 
 
 def gradient(b):
-    """Colours that change within a surface. Mol* draws none such."""
+    """Colours that change within a surface, which Mol* does not support."""
     b.pane(-0.75, -0.75, 0.375, 0.375, 0.5, [RED, GREEN, BLUE, YELLOW], 0.5)
     b.pane(-0.375, -0.375, 0.75, 0.75, 0.0, [WHITE, BLACK, WHITE, BLUE], 0.5)
     b.pane(-0.875, -0.25, 0.875, 0.25, -0.5, [YELLOW, BLUE, RED, WHITE], 0.5)
@@ -160,7 +160,7 @@ def shells(b, rings=20, sides=10):
 
 
 def by_lot(seed):
-    """Panes as a seed draws them: 2 to 14 of them, each at a depth of its own, up to two of them opaque, in any order, of any colour and alpha."""
+    """Random panes: 2 to 14, each at a different depth, up to two of them opaque, in any order, with any colour and alpha."""
     def make(b):
         lot = random.Random(seed)
         count, opaque = lot.randint(2, 14), lot.choice([0, 0, 1, 2])
@@ -186,7 +186,7 @@ def camera_of(name):
 
 
 def main(folder, seeds=()):
-    """Scenes by lot are named `lot-SEED`."""
+    """Random scenes are named `lot-SEED`."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     for name, make in {**SCENES, **{f"lot-{seed}": by_lot(seed) for seed in seeds}}.items():

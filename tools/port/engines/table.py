@@ -1,13 +1,12 @@
 #!/usr/bin/python3
-"""Draws every scene with every engine, explains each picture from the engine's source, and writes two pages: what is true of each picture,
-whether the rules of that source give it, and what `strata compare` says of it with no option given. RESULTS.md counts per engine and way, and
-lists the wrong verdicts; build/engines/RESULTS.md has a row for each picture.
+"""Renders every scene with every engine, explains each picture from the engine's source, and writes two pages: the truth about each picture, whether
+the rules of that source give it, and the verdict of `strata compare` without options. RESULTS.md has counts per engine and way, and the wrong
+verdicts; build/engines/RESULTS.md has a row for each picture.
 
     table.py [--build FOLDER] [--only SCENE] [--lot FIRST..LAST] [--keep FOLDER] [-o FILE] [--whole FILE]
 
---lot draws the scenes of these seeds instead: no person chose them. --keep is where packs and pictures stay; what lies there is not drawn
-again. Exit status 1 if a rule does not give its picture or truth.py says something else than the rules; 77, and a sentence, if a program or
-a package is missing.
+--lot uses the random scenes of these seeds instead. --keep is the folder in which packs and pictures are stored; existing ones are not rendered
+again. Exit status 1 if a rule does not give its picture or truth.py contradicts the rules; 77, and a sentence, if a program or a package is missing.
 """
 import argparse
 import os
@@ -34,12 +33,12 @@ import web  # noqa: E402
 BACKGROUND = [51, 51, 102]
 HARD = {name: ["hard:case=" + name, "--size", "32x32"] for name in ("cyclic-overlap", "woven", "inside-out")}
 CLOSE_ENOUGH = 2  # codes between a rule in binary64 and a picture of any format here
-SAME = 0.01  # codes between two colours that are one
-SHOWN = 2  # codes: of a scene by lot a mistake that changes no pixel by more is not expected to be seen
+SAME = 0.01  # codes between two colours that count as equal
+SHOWN = 2  # codes: in random scenes a mistake that changes no pixel by more is not expected to be detected
 
 
 def words_of(name, folder):
-    """The scene as `strata golden` takes it."""
+    """The words for `strata golden` that describe the scene."""
     own = [folder / f"{name}.gltf", "--camera", folder / f"{scenes.camera_of(name)}.json", "--size", "128x96"]
     return HARD.get(name) or own
 
@@ -64,7 +63,7 @@ class Frame:
         self.right = [[None if pixel is None else rules.exact(pixel, self.background) for pixel in row] for row in self.pixels[False]]
 
     def explain(self, engine, way, picture):
-        """The greatest distance of the rule from the picture, distances of the rule from what is right where it is not, and of how many pixels."""
+        """The greatest distance between rule and picture, the distance between rule and right colours where they differ, and the number of pixels."""
         mixes_light = engine == "three" and way != "float"
         made = rules.rule_of(engine, way, self.scene)(self.pixels[mixes_light], self.background)
         decided = [(x, y) for y, row in enumerate(made) for x, color in enumerate(row) if color]
@@ -74,7 +73,7 @@ class Frame:
 
 
 def verdict_of(strata, pack, picture):
-    """Exit status and what Strata says."""
+    """Exit status and output of `strata compare`."""
     done = run([strata, "compare", pack, picture], allowed=(0, 1))
     return done.returncode, done.stdout.strip()
 
@@ -102,7 +101,7 @@ def rows_of(name, folder, strata, browser):
 
 
 def sentence_of(verdict):
-    """The verdict's first line, and of several mistakes that look the same all."""
+    """The verdict's first line; if several mistakes look the same, all of them."""
     lines = verdict.splitlines()
     if "look the same here" not in lines[0]:
         return lines[0]
@@ -135,27 +134,27 @@ def page_of(rows):
     true = sum(row["judgment"] == "true" for row in rows)
     other = [row for row in rows if row["judgment"] != "true"]
     return "\n".join([
-        "# Pictures of four engines, and what Strata says of them", "",
-        "The question: given only a scene and an engine's picture of it, does `strata compare PACK PICTURE`, without any option, say whether the",
-        "picture is right, and if not, why?", "",
-        f"Of {len(rows)} verdicts {true} are true ({100 * true / len(rows):.1f} %). {len({row['scene'] for row in rows})} scenes were drawn by VTK, Babylon.js, Mol* and three.js in each of their ways to draw",
-        "transparent surfaces. A verdict is true if it calls a right picture right, or names the mistake of a wrong one, alone or among those that give",
-        "the same picture in this scene. If the engine differs only where several fragments have one depth, *right* is true if the verdict says that",
-        "such pixels are left open. *Wrong without a name*: called wrong, without the cause. *False*: anything else.", "",
+        "# Verdicts on pictures of four engines", "",
+        "Given only a scene and an engine's picture of it, does `strata compare PACK PICTURE` decide without any option whether the picture is right, and",
+        "name the mistake of a wrong one? VTK rendered with Mesa's llvmpipe, Babylon.js, Mol* and three.js with Chromium's SwiftShader, all on a CPU.", "",
+        f"Of {len(rows)} verdicts {true} are true ({100 * true / len(rows):.1f} %). Each engine rendered {len({row['scene'] for row in rows})} scenes in each of its ways to render transparent",
+        "surfaces. A verdict is true if it calls a right picture right, or names the mistake of a wrong one, alone or among those that give",
+        "the same picture of this scene. If the engine differs only where several fragments have one depth, *right* is true if the verdict reports that",
+        "it does not decide such pixels. *Wrong without a name*: called wrong, without the cause. *False*: all others.", "",
         *tally_of(rows), "",
-        "*Right* and *wrong* come from the engine's source, not from Strata: [fragments.py](fragments.py) computes every fragment in binary64, and",
-        "[rules.py](rules.py) combines them as the engine's code does. If that computation agrees with the picture within two codes of 8 bits, it",
-        f"explains the picture: {explained} of {len(rows)} are explained. Pixels at edges are left out.", "",
+        "*Right* and *wrong* are from the engine's source, not from Strata: [fragments.py](fragments.py) computes every fragment in binary64, and",
+        "[rules.py](rules.py) combines them like the engine's code. If that computation agrees with the picture within two codes of 8 bits, it",
+        f"explains the picture: {explained} of {len(rows)} are explained. Pixels at edges are omitted.", "",
         "Verdicts that are not true: " + ("; ".join(f"{row['scene']} by {row['engine']}, {row['way']} ({row['why']}): {row['judgment']}" for row in other[:LISTED])
                                           or "none") + ("; and others" if len(other) > LISTED else "") + ".", "",
         "## The whole table", "",
         "    tools/port/engines/install.sh && tools/port/engines/table.py", "",
-        "The commands install the engines ([README.md](README.md) names the versions), draw the pictures and write this page;",
-        "`build/engines/RESULTS.md` then has a row for each picture, with the verdict in full.", ""])
+        "The commands install the engines (versions: [README.md](README.md)), render the pictures and write this page, and",
+        "`build/engines/RESULTS.md` with a row for each picture and its complete verdict.", ""])
 
 
 def whole_page_of(rows):
-    return "\n".join(["# Pictures of four engines, one by one", "", *ROW_HEAD, *map(line_of, rows), ""])
+    return "\n".join(["# Verdicts on pictures of four engines, one by one", "", *ROW_HEAD, *map(line_of, rows), ""])
 
 
 def main():

@@ -1,5 +1,5 @@
-"""What is true of each engine's picture of each scene of the table, and why, told from the engine's source. `rules.py` proves the numbers:
-a picture is right exactly where nothing stands here. A truth has the words of which one must stand in Strata's verdict, if that is to be true.
+"""The truth about each engine's picture of each scene of the table, with the reason, from the engine's source. `rules.py` proves the numbers: a
+picture is right exactly if it has no entry here. A truth has several words; a true verdict of Strata contains one of them.
 """
 import dataclasses
 import re
@@ -52,7 +52,7 @@ WRONG = {
     ("three", "no-depth-write"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES, "gradient": LINEAR},
     ("three", "float"): {**{scene: AS_THEY_COME for scene in BLENDS}, **OPAQUE_TIES},
 }
-# Of scenes by lot a rule says where they are wrong, and this what may be wrong then. Depths are all different there.
+# For random scenes a rule determines where they are wrong, and this table the possible mistakes. Depths are all different there.
 BY_LOT = {
     ("vtk", "dual"): Truth("4 peels, then what is left is blended as submitted; or the peel ended where all far ends were opaque", "order of submission|nearest"),
     ("vtk", "peeling"): left_over(3),
@@ -62,13 +62,13 @@ BY_LOT = {
 
 
 def of_scene(engine, way, scene, is_wrong):
-    """The Truth of a picture, None if it is right. `is_wrong` is what the rule says, which decides for scenes by lot."""
+    """The Truth of a picture, None if it is right. `is_wrong` is the result of the rule, which decides for random scenes."""
     if scene.startswith("lot-"):
         return BY_LOT[engine, way] if is_wrong else None
     return WRONG[engine, way].get(scene)
 
 
-# What an engine cannot draw.
+# Scenes that the engine cannot render.
 CANNOT = {("molstar", "gradient")}
 
 # A wrong picture that no listed mistake explains is called wrong without a name.
@@ -77,7 +77,7 @@ JUDGMENTS = ["true", "wrong without a name", "right called wrong without a name"
 
 
 def judgment(true, status, verdict):
-    """Of Strata's verdict, given a Truth, or None for a right picture: one of JUDGMENTS. `false` is a wrong verdict told with confidence."""
+    """Judges Strata's verdict, given a Truth, or None for a right picture: one of JUDGMENTS. `false` is a wrong verdict without reservation."""
     if status == 0:
         return "true" if true is None or (true.told_by(verdict) and "one depth" in verdict) else "false"
     if UNNAMED in verdict:

@@ -1,8 +1,8 @@
-"""Draws a scene of a pack with VTK, into a window of X that need not be seen (Xvfb).
+"""Renders a scene of a pack with VTK, into an X window that need not be visible (Xvfb).
 
-Ways, each VTK's own code: `dual` (vtkDualDepthPeelingPass, what SetUseDepthPeeling(1) takes), `peeling` (vtkDepthPeelingPass, what it
-takes where dual is not supported) and `weighted` (vtkOrderIndependentTranslucentPass, what VTK does without depth peeling).
-Colours go to uniforms, as properties of an actor a run of one colour: nothing rounds them to 8 bits. Lighting is off.
+Ways, each VTK's own code: `dual` (vtkDualDepthPeelingPass, selected by SetUseDepthPeeling(1)), `peeling` (vtkDepthPeelingPass, selected if dual is
+not supported) and `weighted` (vtkOrderIndependentTranslucentPass, without depth peeling). Colours are uniforms, properties of one actor per sequence
+of triangles of one colour, so that they are not rounded to 8 bits. Lighting is off.
 """
 WAYS = ["dual", "peeling", "weighted"]
 PEELS = 4  # vtkRenderer.cxx: MaximumNumberOfPeels
@@ -28,7 +28,7 @@ def actor_of(vtk, mesh):
     data.SetPolys(cells)
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(data)
-    mapper.SetVBOShiftScaleMethod(0)  # positions as they are
+    mapper.SetVBOShiftScaleMethod(0)  # positions without shift and scale
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     actor.SetUserMatrix(matrix_of(vtk, mesh.model))
@@ -45,7 +45,7 @@ def actor_of(vtk, mesh):
 
 
 def scalars_of(vtk, mesh):
-    """Colours a vertex are bytes in VTK (vtkMapper::MapScalars), so here they are rounded."""
+    """Colours of vertices are bytes in VTK (vtkMapper::MapScalars), so that they are rounded here."""
     scalars = vtk.vtkUnsignedCharArray()
     scalars.SetNumberOfComponents(4)
     for i in range(0, len(mesh.colors), 4):
@@ -54,7 +54,7 @@ def scalars_of(vtk, mesh):
 
 
 def camera_of(vtk, scene):
-    """The view's matrix is the model transform of a camera that stands at the origin and looks along -z."""
+    """The view's matrix is the model transform of a camera at the origin that looks along -z."""
     camera = vtk.vtkCamera()
     camera.SetPosition(0, 0, 0)
     camera.SetFocalPoint(0, 0, -1)
@@ -79,7 +79,7 @@ def matrices(look, width, height):
 
 
 def use_old_peeling(vtk, renderer, peels):
-    """The sequence of passes that VTK's own tests give vtkDepthPeelingPass (TestDepthPeelingPass.cxx)."""
+    """The sequence of passes that VTK's own tests use with vtkDepthPeelingPass (TestDepthPeelingPass.cxx)."""
     sequence, passes = vtk.vtkSequencePass(), vtk.vtkRenderPassCollection()
     peeling, opaque, lights = vtk.vtkDepthPeelingPass(), vtk.vtkOpaquePass(), vtk.vtkLightsPass()
     peeling.SetMaximumNumberOfPeels(peels)
@@ -101,7 +101,7 @@ def draw(scene, way, peels=None):
     renderer.SetActiveCamera(camera_of(vtk, scene))
     for mesh in scene.runs():
         renderer.AddActor(actor_of(vtk, mesh))
-    renderer.RemoveCuller(renderer.GetCullers().GetLastItem())  # it would cull what it finds small or outside, and sort
+    renderer.RemoveCuller(renderer.GetCullers().GetLastItem())  # it would cull actors that it considers small or outside, and sort
     if way == "dual":
         renderer.UseDepthPeelingOn()
         renderer.SetMaximumNumberOfPeels(PEELS if peels is None else peels)

@@ -1,5 +1,5 @@
-"""Draws scenes with engines of the web in headless Chromium: a server on this machine alone gives it the page, the engine's files and a
-job, and takes back what the page has drawn.
+"""Renders scenes with engines of the web in headless Chromium: a server that only this computer can reach sends the page, the engine's files and a
+job, and receives the results of the page.
 """
 import contextlib
 import dataclasses
@@ -17,13 +17,13 @@ import urllib.parse
 
 HERE = pathlib.Path(__file__).resolve().parent
 TYPES = {".html": "text/html", ".js": "text/javascript", ".json": "application/json"}
-# SwiftShader, the same on every machine; nothing is fetched but from the server here.
+# SwiftShader, the same on every computer; Chromium only loads from the server here.
 FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
          "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
 
 
 class WebError(Exception):
-    """The engine, the page or the browser failed: a sentence."""
+    """The engine, the page or the browser failed; the text is a sentence."""
 
 
 @dataclasses.dataclass
@@ -42,7 +42,7 @@ def numbers(values):
 
 
 def job_of(scene, engine, way, peels, wants_targets):
-    """What the page needs, as JSON; floats as the shortest decimals that read back to the same number."""
+    """The input of the page, as JSON; floats as the shortest decimals that read back to the same number."""
     meshes = [{"name": m.name, "opaque": m.opaque, "model": numbers(m.model), "positions": numbers(m.positions), "colors": numbers(m.colors),
                "triangles": list(m.triangles), "flat": m.flat()} for m in (scene.runs() if engine == "molstar" else scene.meshes)]
     return {"engine": engine, "way": way, "peels": peels, "targets": wants_targets, "width": scene.width, "height": scene.height,
@@ -50,14 +50,14 @@ def job_of(scene, engine, way, peels, wants_targets):
 
 
 class Job:
-    """What the page is to do, and what it sent back: targets, a camera, or why it failed."""
+    """The task of the page, and its results: targets, a camera, or the reason of a failure."""
     def __init__(self, described):
         self.engine, self.text = described["engine"], json.dumps(described).encode()
         self.drawn, self.camera, self.failure, self.ended = [], None, None, threading.Event()
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
-    """Answers the page. The server has `packages`, `waiting`, a queue of jobs, and `job`, the one that the page has."""
+    """Answers the page's requests. The server has `packages`, `waiting`, a queue of jobs, and `job`, the current one."""
     def log_message(self, *_):
         pass
 
@@ -94,7 +94,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
 
 def file_of(path, packages):
-    """The file of a request's path; None if there is none. Imports within packages may leave the ending out."""
+    """The file of a request's path; None if there is none. Imports within packages may omit the ending."""
     kind, _, rest = path.lstrip("/").partition("/")
     root = {"page": HERE / "page", "packages": packages}.get(kind)
     found = (root / rest).resolve() if root else None
@@ -111,7 +111,7 @@ def target_of(query, body):
 
 
 class Browser:
-    """Chromium with the page, and the server that it talks to; both end with the `with`. The page is loaded again for each job."""
+    """Chromium with the page, and its server; both end with the `with`. The page is loaded again for each job."""
     def __init__(self, packages):
         self.program = shutil.which("chromium")
         self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
@@ -129,7 +129,7 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        with contextlib.suppress(ProcessLookupError):  # it may have ended by itself
+        with contextlib.suppress(ProcessLookupError):  # it may already have ended
             os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         self.server.shutdown()
@@ -137,7 +137,7 @@ class Browser:
         self.profile.cleanup()
 
     def run(self, described, seconds=300):
-        """The job, done; WebError otherwise."""
+        """Executes the job and returns it; WebError on failure."""
         job = Job(described)
         self.server.waiting.put(job)
         for _ in range(seconds):
@@ -152,7 +152,7 @@ class Browser:
         return job
 
     def draw(self, scene, engine, way, peels=None, wants_targets=False):
-        """The targets that the page sent, the one with the name `picture` among them."""
+        """The targets of the page, of which one has the name `picture`."""
         return self.run(job_of(scene, engine, way, peels, wants_targets)).drawn
 
     def matrices(self, engine, look, width, height):
