@@ -1,5 +1,5 @@
 // Babylon.js, WebGL2 engine. Ways: `oit` (scene.useOrderIndependentTransparency, its dual depth peeling; peels are passCount) and
-// `blended`, what it does without. With targets: every target after every pass, under the names of a pack's `dual`.
+// `blended`, without that option. With targets: every target after every pass, with the names of a pack's `dual`.
 import { Engine } from '@babylonjs/core/Engines/engine.js';
 import { Scene } from '@babylonjs/core/scene.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
@@ -33,7 +33,7 @@ function add_mesh(mesh, scene) {
     made.freezeWorldMatrix(Matrix.FromArray(mesh.model));
 }
 
-// Babylon's matrices multiply rows, so their memory is OpenGL's.
+// Babylon multiplies row vectors by matrices, so that their layout in memory is OpenGL's.
 function add_camera(job, scene) {
     const camera = new FreeCamera('camera', Matrix.FromArray(job.view).invert().getTranslation(), scene);  // meshes are sorted by their distance
     camera._getViewMatrix = () => Matrix.FromArray(job.view);
@@ -52,7 +52,7 @@ export function matrices({ eye, center, up, fovy_degrees, near, far }, width, he
     return { view: camera.getViewMatrix().asArray(), projection: camera.getProjectionMatrix().asArray() };
 }
 
-// The peel's textures are made while frames are drawn, so frames are drawn until all is there.
+// The peel's textures are created while frames are drawn, so that frames are drawn until all exist.
 async function render_until_ready(scene, job) {
     const is_ready = () => scene.isReady() && (job.way !== 'oit' || scene.depthPeelingRenderer.isReady());
     for (let frame = 0; !is_ready(); ++frame) {
@@ -62,7 +62,7 @@ async function render_until_ready(scene, job) {
     }
 }
 
-// Reads a texture's first level; f4, whatever it holds.
+// Reads a texture's first level as f4, for every format.
 function read_texture(gl, texture, width, height, channels) {
     const framebuffer = gl.createFramebuffer();
     const bound = gl.getParameter(gl.READ_FRAMEBUFFER_BINDING);
@@ -75,7 +75,7 @@ function read_texture(gl, texture, width, height, channels) {
     return channels === 4 ? pixels : pixels.filter((_, i) => i % 4 < channels);
 }
 
-// Keeps every target after every pass of the next frame. A geometry pass ends with _renderSubMeshes, a full-screen pass with the effect
+// Stores every target after every pass of the next frame. A geometry pass ends with _renderSubMeshes, a full-screen pass with the effect
 // renderer's render (thinDepthPeelingRenderer.pure.js, 409, 441 and 453).
 function watch(peeling, gl, job) {
     const kept = [];
@@ -83,8 +83,8 @@ function watch(peeling, gl, job) {
     const keep = () => {
         const number = String(passes++).padStart(3, '0');
         const textures = peeling._thinTextures;
-        const layer = 1 - peeling._currentPingPongState;  // that side is drawn into
-        // Depth, front and back of one side of the ping-pong, the same of the other, and what the back is blended into (_createTextures).
+        const layer = 1 - peeling._currentPingPongState;  // the side that is written
+        // Depth, front and back of one side of the ping-pong, the same of the other, and the target into which the back is blended (_createTextures).
         const targets = { 'min_max': [textures[0], 2], 'front': [textures[1], 4], 'min_max.1': [textures[3], 2], 'front.1': [textures[4], 4],
                           'back_layer': [textures[3 * layer + 2], 4], 'back': [textures[6], 4] };
         for (const [name, [texture, channels]] of Object.entries(targets)) {

@@ -1,5 +1,5 @@
-// Mol*, its DrawPass without a plugin around it. Ways: `dpoit` (dual depth peeling; peels are its iterations), `wboit`, `blended`.
-// Colours are uniforms of 8 bits a channel (mol-util/color), alpha is a float; a mesh has one of each.
+// Mol*: its DrawPass without a plugin. Ways: `dpoit` (dual depth peeling; peels are its iterations), `wboit`, `blended`.
+// Colours are uniforms of 8 bits per channel (mol-util/color), alpha is a float; a mesh has one of each.
 import { ValueCell } from 'molstar/mol-util/index.js';
 import { Color } from 'molstar/mol-util/color/index.js';
 import { Mat4, Vec3 } from 'molstar/mol-math/linear-algebra.js';
@@ -17,7 +17,7 @@ import { send } from '/page/page.js';
 
 const ITERATIONS = 2;  // canvas3d.js, dpoitIterations
 
-// Color.fromNormalizedRgb cuts to 8 bits (mol-util/color/color.js 48): 148 / 255 of a binary32 becomes 147.
+// Color.fromNormalizedRgb truncates to 8 bits (mol-util/color/color.js 48): 148 / 255 of a binary32 becomes 147.
 const color_of = rgb => Color.fromRgb(...rgb.slice(0, 3).map(c => Math.round(255 * c)));
 
 function world_positions(mesh) {

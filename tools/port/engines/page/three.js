@@ -1,9 +1,9 @@
-// three.js, WebGLRenderer. Ways: `blended`, a transparent material as it comes, which writes depth; `no-depth-write`, the same with
+// three.js, WebGLRenderer. Ways: `blended`, a transparent material with its defaults, which writes depth; `no-depth-write`, the same with
 // depthWrite = false; `float`, no-depth-write into a target of binary32, without the canvas's 8 bits and its sRGB encoding.
 import * as THREE from 'three';
 import { send } from '/page/page.js';
 
-// Vertex colours are linear to three.js, which encodes them again for the canvas; a float target holds them as they are.
+// three.js treats vertex colours as linear and encodes them again for the canvas; a float target stores them unchanged.
 function colors_of(mesh, way) {
     const colors = new Float32Array(mesh.colors);
     if (way === 'float') return colors;
