@@ -128,6 +128,36 @@ TEST_CASE("a cost sweep draws a frontier for each of its three times and reports
           "All of it: out/cost.csv, out/sentences.txt, out/results.csv and out/results.jsonl");
 }
 
+TEST_CASE("algorithms of few passes are measured with their options and what their targets and buffers take") {
+    const Folder folder;
+    REQUIRE(run_strata(folder, {"cost", "planes:count=6", "--alpha", "0.5", "--size", "16x16", "--knob", "transparency",
+                                "--repeat", "1", "--threads", "1", "-o", "out"})
+                .status == 0);
+    const auto results = rows_of(content_of(folder / "out/results.csv")),
+               costs = rows_of(content_of(folder / "out/cost.csv"));
+    const auto figure = [&](const std::string& value, const char* name) {
+        return number(results.at("transparency " + value), name);
+    };
+    for (const auto& [name, row] : results) {
+        INFO(name);
+        CHECK(row.at("outcome") == "done");
+    }
+    const auto bytes = [&](const std::string& value) { return figure(value, "bytes_per_pixel"); };
+    CHECK(bytes("weighted_blended") == 8 + 2 + 4);                            // sums, revealage, result
+    CHECK(bytes("moments --moments 6") == 4 + 16 + 8 + 8 + 4);                // total, moments, sums, result
+    CHECK(bytes("stochastic --stochastic-samples 8") == 2 * 16 + 8 + 2 + 4);  // samples, sums, through, result
+    CHECK(bytes("multi_layer --nodes 6") == 2 * 16 + 6 * 4 + 4);              // depths, layers, result
+    CHECK(bytes("atomic_loop --nodes 2") == 4 + 4 + 2 * 20);                  // tail, result, entries
+    CHECK(bytes("hybrid_transparency") == 4 + 8 + 2 + 4 + 4 * 20);  // tail, its sums and count, result, entries
+    CHECK(bytes("linked_list") > 4 + 4);                            // result, head
+    CHECK(bytes("linked_list") <= 4 + 4 + 6 * 24);
+    CHECK(bytes("linked_list --pixel-nodes 4") <= 4 + 4 + 4 * 24);
+    CHECK(figure("atomic_loop --nodes 6", "rmse") == figure("linked_list", "rmse"));  // as many entries as planes
+    CHECK(figure("front_to_back --max-passes 2 --tail none", "rmse") > figure("dual", "rmse"));
+    CHECK(costs.at("transparency linked_list").at("modelled").empty());
+    CHECK_FALSE(costs.at("transparency weighted_blended").at("modelled").empty());
+}
+
 TEST_CASE("a scene without a reference and a repeated scene and a missing folder are rejected with an error message") {
     const Folder folder;
     const CommandResult light =

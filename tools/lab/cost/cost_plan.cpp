@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tools/strata/options/algorithm_options.h"
 #include "tools/strata/options/choices.h"
 
 namespace strata::tools {
@@ -12,6 +13,7 @@ namespace strata::tools {
 namespace {
 
 using Cells = std::vector<CostCell>;
+using peeling::Tail;
 
 // Adds a cell that differs from the defaults by `change`.
 void add(Cells& cells, const CostBase& base, const std::string& knob, const std::string& value,
@@ -107,6 +109,51 @@ void peel_cells(const CostBase& base, Cells& cells) {
     }
 }
 
+// What the cell's algorithm needs beyond the profile.
+void open_features(CostCell& cell) {
+    using pipeline::DeviceProfile;
+    const auto open_if = [&](pipeline::Feature feature, bool DeviceProfile::*field, const char* name) {
+        if (std::ranges::find(cell.algorithm->features, feature) != cell.algorithm->features.end())
+            open(cell, field, name);
+    };
+    open_if(pipeline::Feature::float_targets, &DeviceProfile::has_float_targets, "float targets");
+    open_if(pipeline::Feature::independent_blend, &DeviceProfile::has_independent_blend, "independent blending");
+    open_if(pipeline::Feature::unordered_access, &DeviceProfile::has_unordered_access, "unordered access");
+    open_if(pipeline::Feature::ordered_rmw, &DeviceProfile::has_ordered_rmw, "ordered views");
+    if (cell.options.algorithm.tail == Tail::weighted)
+        open(cell, &DeviceProfile::has_independent_blend, "independent blending");
+}
+
+// The algorithms of few passes with what they let a caller choose, and what they are measured against. The value is
+// what follows --algorithm in a command.
+void transparency_cells(const CostBase& base, Cells& cells) {
+    using peeling::AlgorithmOptions;
+    const auto with = [&](const std::string& name, const AlgorithmOptions& choice = {}, int max_passes = 0) {
+        std::string value = max_passes > 0 ? fmt::format("{} --max-passes {}", name, max_passes) : name;
+        for (const std::string& word : tools::words_of(choice)) value += ' ' + word;
+        add(cells, base, "transparency", value, [&](CostCell& cell) {
+            cell.algorithm = peeling::find_algorithm(name);
+            cell.options.algorithm = choice;
+            cell.options.max_passes = max_passes;
+            open_features(cell);
+        });
+    };
+    for (const char* name :
+         {"a_buffer", "dual", "unsorted", "painter", "weighted_sum", "weighted_average", "bucket_peel"})
+        with(name);
+    using peeling::Weight;
+    for (const Weight weight : {Weight::eq7, Weight::eq8, Weight::eq9, Weight::eq10, Weight::constant})
+        with("weighted_blended", {.weight = weight});
+    for (const int moments : {4, 6, 8}) with("moments", {.moments = moments});
+    for (const int samples : {1, 2, 4, 8}) with("stochastic", {.stochastic_samples = samples});
+    for (const char* name : {"multi_layer", "adaptive", "atomic_loop", "hybrid_transparency"})
+        for (const int nodes : {2, 4, 6}) with(name, {.nodes = nodes});
+    for (const int nodes : {0, 4, 8}) with("linked_list", {.pixel_nodes = nodes});
+    for (const int passes : {1, 2, 4, 8})
+        for (const Tail tail : {Tail::none, Tail::average, Tail::weighted})
+            with("front_to_back", {.tail = tail}, passes);
+}
+
 void execution_cells(const CostBase& base, Cells& cells) {
     add(cells, base, "execution", "literal",
         [](CostCell& cell) { cell.options.execution = pipeline::Execution::literal; });
@@ -131,7 +178,7 @@ void chain_cells(const CostBase& base, Cells& cells) {
 const std::vector<std::string>& cost_knobs() {
     static const std::vector<std::string> knobs{"default",       "subpixel_bits", "depth",     "algorithm",
                                                 "average_count", "peels",         "execution", "effects",
-                                                "audit",         "chain",         "alone"};
+                                                "audit",         "chain",         "alone",     "transparency"};
     return knobs;
 }
 
@@ -145,8 +192,8 @@ std::vector<int> peel_steps(int all) {
 std::vector<CostCell> cost_cells(const CostBase& base, const std::vector<std::string>& knobs) {
     Cells cells;
     add(cells, base, "default", base.algorithm->name, [](CostCell&) {});
-    for (const auto part :
-         {subpixel_cells, depth_cells, algorithm_cells, count_cells, peel_cells, execution_cells, chain_cells})
+    for (const auto part : {subpixel_cells, depth_cells, algorithm_cells, count_cells, peel_cells, execution_cells,
+                            chain_cells, transparency_cells})
         part(base, cells);
     std::erase_if(cells, [&](const CostCell& cell) {
         return cell.knob != "default" && std::find(knobs.begin(), knobs.end(), cell.knob) == knobs.end();

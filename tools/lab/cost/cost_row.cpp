@@ -37,6 +37,7 @@ constexpr std::array cost_columns{"cell",
                                   "vertices",
                                   "fragments",
                                   "bytes",
+                                  "bytes_per_pixel",
                                   "modelled_seconds",
                                   "printed_seconds"};
 
@@ -88,11 +89,14 @@ void relate_spread(std::vector<CostRow>& rows, std::optional<Spread> CostRow::*c
         });
 }
 
-// The oracle is not a device's algorithm, and sorting triangles is work of the CPU: the card's rates do not apply.
+// The oracle is not a device's algorithm, sorting triangles is work of the CPU, and what programs read and write in
+// buffers is not counted: the card's rates do not apply.
 [[nodiscard]] bool runs_on_a_card(const std::string& name) {
     const peeling::Algorithm* const algorithm = peeling::find_algorithm(name);
     if (algorithm == nullptr) return true;
-    return !algorithm->is_oracle && algorithm->order != peeling::ListOrder::back_to_front;
+    const bool has_buffers =
+        std::ranges::find(algorithm->features, pipeline::Feature::unordered_access) != algorithm->features.end();
+    return !algorithm->is_oracle && !has_buffers && algorithm->order != peeling::ListOrder::back_to_front;
 }
 
 }  // namespace
@@ -141,6 +145,7 @@ ordered_json cost_line(std::size_t number, const CostScene& scene, const CostCel
     line["vertices"] = if_drawn(result.work.vertices);
     line["fragments"] = if_drawn(result.work.fragments);
     line["bytes"] = if_drawn(result.work.bytes);
+    line["bytes_per_pixel"] = if_drawn(result.bytes_per_pixel);
     line["modelled_seconds"] = if_drawn(result.modelled);
     line["printed_seconds"] = or_null(is_drawn ? printed_seconds(scene.name, cell.algorithm->name) : std::nullopt);
     return line;

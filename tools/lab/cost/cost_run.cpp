@@ -1,10 +1,13 @@
 #include "tools/lab/cost/cost_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
 #include "peeling/render.h"
 #include "peeling/truth/truth.h"
+#include "pipeline/frame/alteration.h"
+#include "pipeline/region/region.h"
 
 namespace strata::tools {
 
@@ -12,9 +15,10 @@ namespace {
 
 using peeling::RenderResult;
 
-[[nodiscard]] RenderResult rendered(const Session& session, const CostCell& cell,
-                                    const peeling::RenderOptions& options) {
-    return peeling::Renderer(session.scene.list, session.view, cell.profile, options).render(*cell.algorithm);
+[[nodiscard]] RenderResult rendered(const Session& session, const CostCell& cell, const peeling::RenderOptions& options,
+                                    const pipeline::Instruments& instruments = {}) {
+    return peeling::Renderer(session.scene.list, session.view, cell.profile, options)
+        .render(*cell.algorithm, {}, instruments);
 }
 
 [[nodiscard]] CostCell default_cell(const CostBase& base) { return cost_cells(base, {}).front(); }
@@ -33,6 +37,28 @@ using peeling::RenderResult;
     return {scene.vertices * static_cast<std::uint64_t>(passes.geometry),
             counters.fragments_rasterized + pixels * static_cast<std::uint64_t>(passes.full_screen),
             counters.bytes_read + counters.bytes_written};
+}
+
+// Of what the algorithm makes beside the two targets of the opaque scene.
+[[nodiscard]] int target_bytes(const pipeline::Region& region) {
+    int bytes = 0;
+    for (int id = 2; id < region.targets().count(); ++id) {
+        const pipeline::TargetStorage& storage = region.storage({id});
+        bytes += pipeline::info(storage.format()).bytes_per_pixel * storage.samples();
+    }
+    return bytes;
+}
+
+// Of buffers in the memory of a device: a head of 4 bytes a pixel and 24 a node (linked_list), or a code and a colour
+// of 16 bytes an entry (algorithms.md 20 and 21).
+[[nodiscard]] double buffer_bytes(const CostCell& cell, const RenderResult& result) {
+    const auto pixels = static_cast<double>(cell.options.width) * cell.options.height;
+    const std::string& name = cell.algorithm->name;
+    const double nodes = static_cast<double>(result.frame.counters.value_or(pipeline::Counters{}).fragments_rasterized);
+    const int most = cell.options.algorithm.pixel_nodes;
+    if (name == "linked_list") return 4 + 24 * (most > 0 ? std::min(double(most), nodes / pixels) : nodes / pixels);
+    const bool has_entries = name == "atomic_loop" || name == "hybrid_transparency";
+    return has_entries ? 20.0 * cell.options.algorithm.nodes : 0;
 }
 
 // Set-up and passes are timed; loading, truth and audit (unless the audit is timed) are not.
@@ -73,7 +99,11 @@ CostResult run_cell(const CostScene& scene, const CostCell& cell) {
     }
     peeling::RenderOptions counted = cell.options;
     counted.counters = true;
-    const RenderResult result = rendered(scene.session, cell, counted);
+    int bytes = 0;
+    const pipeline::Alteration look{.pass = [&](pipeline::Region& region, pipeline::PassState&, pipeline::PassKind) {
+        bytes = std::max(bytes, target_bytes(region));
+    }};
+    const RenderResult result = rendered(scene.session, cell, counted, {.alteration = &look});
     if (result.refusal) {
         found.refusal = result.refusal->sentence(cell.profile);
         return found;
@@ -85,6 +115,7 @@ CostResult run_cell(const CostScene& scene, const CostCell& cell) {
     found.layers = result.audit.layers_max;
     found.passes = result.frame.passes;
     found.work = work_of(scene, cell, result);
+    found.bytes_per_pixel = bytes + buffer_bytes(cell, result);
     found.modelled = modelled_seconds(card_of(scene.base.profile.has_fragment_programs), found.work);
     return found;
 }

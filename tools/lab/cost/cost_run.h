@@ -38,7 +38,8 @@ struct CostResult {
     int layers = 0;
     pipeline::PassCount passes;
     CardWork work;
-    double modelled = 0;  // seconds
+    double modelled = 0;         // seconds
+    double bytes_per_pixel = 0;  // of the algorithm's targets and buffers, beside the opaque scene's
 };
 
 // Ratios to the default cell, one per round; empty if nothing was timed.
