@@ -23,6 +23,29 @@ TEST_CASE("compare with a scene accepts a correct picture in any format and orde
     }
 }
 
+TEST_CASE("a screenshot over a transparent background is right with straight colours and its alpha is compared") {
+    const Folder folder;
+    REQUIRE(shell(folder, "strata render teapot --size 24x18 --background none -q -o a.png").status == 0);
+    const CommandResult right = run_strata(folder, {"compare", "teapot", "a.png", "--background", "none"});
+    INFO(right.out << right.err);
+    CHECK(right.status == 0);
+    CHECK(right.out.find("\n  alpha is right at all of them\n") != std::string::npos);
+    CHECK(right.out.find("\n  colours are taken for straight and multiplied by their alpha: ") != std::string::npos);
+    const CommandResult other = run_strata(folder, {"compare", "teapot", "a.png", "--report", "page.html"});
+    CHECK(other.status == 1);
+    CHECK(other.out.starts_with("wrong: alpha is not what the layers leave at 432 of 432 pixels; "));
+    CHECK(other.out.find("alpha is right over a background of alpha 0: --background ") != std::string::npos);
+    CHECK(content_of(folder / "page.html").find("432 pixels: alpha alone is wrong") != std::string::npos);
+    CHECK(run_strata(folder, {"compare", "teapot", "a.png", "--channels", "rgb"}).status == 0);
+    const CommandResult json = run_strata(folder, {"compare", "teapot", "a.png", "--json"});
+    const auto document = nlohmann::json::parse(json.out);
+    CHECK(document["alpha"]["mistake"] == "other_background");
+    CHECK(document["colors"] == "straight");
+    const CommandResult pixel = run_strata(folder, {"explain", "teapot", "--candidate", "a.png", "--pixel", "0,0"});
+    CHECK(pixel.status == 1);
+    CHECK(pixel.out.find("; the candidate 0.00\n") != std::string::npos);
+}
+
 TEST_CASE("compare with a scene names the mistake of a peel that stops early and exits with status 1", "[long]") {
     const Folder folder;
     REQUIRE(shell(folder,

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "rasterizer/base/input_error.h"
 
 namespace strata::oracle {
@@ -52,7 +50,8 @@ std::uint32_t times_alpha(const Target& target, std::uint32_t code, std::uint32_
     return static_cast<std::uint32_t>((2 * product + one) / (2 * one));
 }
 
-// Empty if all alphas are 1.
+}  // namespace
+
 std::optional<Target> premultiplied(const Target& target) {
     if (!has_alpha(target) || target.code == Code::integer) return std::nullopt;
     const auto channels = static_cast<std::size_t>(target.channels);
@@ -69,6 +68,8 @@ std::optional<Target> premultiplied(const Target& target) {
     made.alpha_form = AlphaForm::premultiplied;
     return changes ? std::optional{std::move(made)} : std::nullopt;
 }
+
+namespace {
 
 // One of the two colours that are compared: an image's target, or one converted from it.
 struct Side {

@@ -9,6 +9,7 @@
 #pragma once
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct Pair {
         return worst;
     }
 };
+
+// Straight colours multiplied by their alpha, rounded to the nearest code. Empty if all alphas are 1 or there are none.
+[[nodiscard]] std::optional<Target> premultiplied(const Target& target);
 
 // The channels of colours that are compared.
 enum class ColorChannels : std::uint8_t { all, rgb };

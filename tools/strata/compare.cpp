@@ -43,7 +43,8 @@ struct CompareOptions {
 // True if the result is a verdict (right or wrong apart from rounding): the reference is a scene or a pack, and neither
 // --exact nor --tolerance is given. Otherwise the result is a list of differences.
 bool asks_for_verdict(const CompareOptions& options) {
-    return is_scene(options.reference) && !options.exact && options.tolerances == oracle::Tolerances{};
+    const oracle::Tolerances none{.channels = options.tolerances.channels};
+    return is_scene(options.reference) && !options.exact && options.tolerances == none;
 }
 
 ComparedPaths paths_of(const CompareOptions& options) { return {options.reference, options.candidate}; }
@@ -152,7 +153,10 @@ int compare(const CompareOptions& options) {
         check_without_files(options);
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
         state_alpha(picture, options.alpha_form);
-        return compare_with_scene({options.run, options.algorithm, options.json, options.report}, picture);
+        const bool has_alpha = options.tolerances.channels == oracle::ColorChannels::all;
+        return compare_with_scene(
+            {options.run, options.algorithm, options.json, options.report, options.alpha_form.has_value(), has_alpha},
+            picture);
     }
     const oracle::Picture reference = reference_of(options);
     oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);

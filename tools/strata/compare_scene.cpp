@@ -12,6 +12,7 @@
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/verdict/edits.h"
+#include "tools/oracle/verdict/form.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/sample.h"
 #include "tools/oracle/verdict/telling.h"
@@ -64,7 +65,7 @@ using oracle::verdict::EditMap;
 // Colours of the kinds of edits, by their index; they repeat after the last one.
 constexpr std::array<std::uint8_t, 3> edit_colors[] = {{230, 80, 60},  {70, 140, 230},  {240, 200, 60},
                                                        {80, 190, 100}, {190, 100, 210}, {70, 200, 210}};
-constexpr std::array<std::uint8_t, 3> unexplained_color = {255, 255, 255};
+constexpr std::array<std::uint8_t, 3> unexplained_color = {255, 255, 255}, wrong_alpha_color = {140, 140, 140};
 
 pipeline::Image drawn(const EditMap& map) {
     pipeline::Image image{pipeline::Format::rgba8, map.width, map.height};
@@ -74,8 +75,9 @@ pipeline::Image drawn(const EditMap& map) {
             const std::uint8_t edit = map.of_pixel[first / 4];
             image.codes[first + 3] = 255;
             if (edit == EditMap::right) continue;
-            const auto& color =
-                edit == EditMap::unexplained ? unexplained_color : edit_colors[(edit - 1u) % std::size(edit_colors)];
+            const auto& color = edit == EditMap::unexplained   ? unexplained_color
+                                : edit == EditMap::wrong_alpha ? wrong_alpha_color
+                                                               : edit_colors[(edit - 1u) % std::size(edit_colors)];
             std::ranges::copy(color, image.codes.begin() + static_cast<std::ptrdiff_t>(first));
         }
     return image;
@@ -100,18 +102,21 @@ std::string counted(std::uint64_t pixels, const std::string& what) {
     return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
 }
 
-// Returns the JSON verdict with the name of the profile, under whose rules it holds, as its last key.
-std::string with_profile(const std::string& verdict, const pipeline::DeviceProfile& profile) {
+// Returns the JSON verdict with the form that colours were read in and the name of the profile, under whose rules it
+// holds, as its last keys.
+std::string with_reading(const std::string& verdict, const oracle::verdict::Formed& formed,
+                         const pipeline::DeviceProfile& profile) {
     nlohmann::ordered_json document = nlohmann::ordered_json::parse(verdict);
+    if (formed.is_chosen) document["colors"] = formed.use.is_divided ? "straight" : "premultiplied";
     document["profile"] = profile.name;
     return document.dump(2) + '\n';
 }
 
 PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::verdict::Verdict& found,
-                  const EditMap& map, const pipeline::DrawList& list, const std::string& profile) {
+                  const EditMap& map, const pipeline::DrawList& list, const std::string& reading) {
     PlainPage page{"Verdict", std::filesystem::path(candidate.file).filename().string() + " of " +
                                   std::filesystem::path(scene).filename().string()};
-    std::istringstream lines(to_text(found, list) + profile);
+    std::istringstream lines(to_text(found, list) + reading);
     std::vector<std::string> sentences;
     for (std::string line; std::getline(lines, line);) sentences.push_back(line.substr(line.find_first_not_of(' ')));
     page.sentence(sentences[0]);
@@ -126,6 +131,8 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, co
     for (std::size_t i = 0; i < map.edits.size(); ++i)
         kinds.push_back({edit_colors[i % std::size(edit_colors)],
                          counted(map.edits[i].pixels, sentence(map.edits[i].rules, found.facts, list))});
+    if (!found.alpha.wrong_pixels.empty())
+        kinds.push_back({wrong_alpha_color, counted(found.alpha.wrong_pixels.size(), "alpha alone is wrong")});
     if (map.not_explained > 0)
         kinds.push_back({unexplained_color, counted(map.not_explained, "no mistake that is known here")});
     page.legend(kinds);
@@ -140,25 +147,28 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const peeling::RenderOptions& options = question.run.render;
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
                                               options.fragment_memory};
-    const oracle::verdict::Colors seen{colors};
+    oracle::verdict::Formed formed = oracle::verdict::formed(fragments, colors, question.is_form_stated);
+    formed.use.has_alpha = question.has_alpha;
+    const oracle::verdict::Colors seen = formed.colors();
     oracle::verdict::Verdict found = judge(fragments, seen);
     const pipeline::DrawList& list = session.scene.list;
     std::optional<OtherProfile> other;
-    if (!found.is_right && !found.is_undecided())
+    const bool has_wrong_alpha = found.alpha.state == oracle::verdict::AlphaState::wrong;
+    if (!found.is_right && !found.is_undecided() && !has_wrong_alpha)
         other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen,
                                        found.right.wrong_pixels);
-    std::string profile;
+    std::string reading = formed.sentence();
     if (other) {
-        profile = other->sentence(session.profile.name, found.right.wrong_pixels.size());
+        reading += other->sentence(session.profile.name, found.right.wrong_pixels.size());
         found = other->verdict;
     }
     found.telling = telling_command(found);
     if (!question.report.empty())
         write_page(question.report,
                    page_of(question.run.scene, candidate, found,
-                           edit_map(other ? *other->fragments : fragments, seen, found), list, profile));
-    print(question.json ? with_profile(to_json(found, list), other ? *other->profile : session.profile)
-                        : with_painted_verdicts(to_text(found, list) + profile));
+                           edit_map(other ? *other->fragments : fragments, seen, found), list, reading));
+    print(question.json ? with_reading(to_json(found, list), formed, other ? *other->profile : session.profile)
+                        : with_painted_verdicts(to_text(found, list) + reading));
     return found.is_right ? 0 : 1;
 }
 

@@ -17,7 +17,9 @@ struct SceneQuestion {
     RunOptions run{};       // of the scene; width and height are replaced by the candidate's
     std::string algorithm;  // empty: any exact algorithm
     bool json = false;
-    std::string report;  // path of the page; empty: none
+    std::string report;           // path of the page; empty: none
+    bool is_form_stated = false;  // an option says whether the candidate's colours are straight or premultiplied
+    bool has_alpha = true;        // alpha is compared, too
 };
 
 // The candidate's colour target. Throws InputError if it has none.

@@ -1,6 +1,7 @@
 #include "tools/strata/explain_candidate.h"
 
 #include "tools/oracle/verdict/edits.h"
+#include "tools/oracle/verdict/form.h"
 #include "tools/strata/compare_scene.h"
 #include "tools/strata/table.h"
 
@@ -17,7 +18,8 @@ int explain_candidate(CandidateQuestion question) {
     const Session session = open_at_size(scene, colors);
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, scene.run.render},
                                               scene.run.render.fragment_memory};
-    const oracle::verdict::Colors seen{colors};
+    const oracle::verdict::Formed formed = oracle::verdict::formed(fragments, colors, false);
+    const oracle::verdict::Colors seen = formed.colors();
     const oracle::verdict::Verdict verdict = judge(fragments, seen);
     const oracle::verdict::PixelEdits edits = edits_at(fragments, seen, verdict, question.x, question.y);
     print(question.json ? to_json(edits, verdict, session.scene.list) : to_text(edits, verdict, session.scene.list));

@@ -17,7 +17,7 @@ namespace {
 
 oracle::verdict::Families definite(const oracle::verdict::Colors& candidate) {
     using namespace oracle::verdict;
-    return families(storage_of(candidate.code()), {0, 0x1p-20}, Looseness::definite);
+    return families(storage_of(candidate.code()), {0, 0x1p-20}, Looseness::definite, candidate.use().is_divided);
 }
 
 // The explanation of the candidate as a right picture, with fragments that are equal or differ by a few units in the
@@ -109,6 +109,8 @@ std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input
                          .width = other.fragments->width(),
                          .facts = facts_of(*other.fragments, sample),
                          .right = *std::move(right)};
+        other.verdict.alpha = check_alpha(*other.fragments, candidate, other.verdict.right.account.hypothesis);
+        other.verdict.is_right = other.verdict.alpha.state != AlphaState::wrong;
         return other;
     }
     return std::nullopt;

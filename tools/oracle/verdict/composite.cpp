@@ -76,9 +76,19 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
     return k;
 }
 
-// The rounding of a shader's result when it is stored: once.
-Keeper storing(const End& result) {
+// The rounding of a shader's result when it is stored: once. If the result was divided by its alpha, stored, and
+// multiplied by it again, colour and alpha are each off by up to half a code, and their product by up to one code.
+Keeper storing(const End& result, bool is_divided) {
     Keeper k = keeper(result.storage, result.rounding, false);
+    if (is_divided) {
+        constexpr double of_product = 1 + 1.0 / 255;
+        k.minus += of_product;
+        k.plus += of_product;
+        k.cut_low -= of_product;
+        k.cut_high += of_product;
+        k.relative *= 4;
+        return k;
+    }
     const bool is_known = result.rounding == Rounding::nearest || result.rounding == Rounding::cut;
     if (result.storage != Storage::half || !is_known) return k;
     k.half = result.rounding == Rounding::cut ? Keeper::Half::cut : Keeper::Half::nearest;
@@ -279,7 +289,7 @@ Compositor::Compositor(const Hypothesis& h)
     : hypothesis_{h},
       front_{means_of(h.front, h.slack)},
       back_{means_of(h.back, h.slack)},
-      result_{storing(h.result)},
+      result_{storing(h.result, h.is_divided)},
       converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held ||
                 h.result.rounding == Rounding::any} {}
 

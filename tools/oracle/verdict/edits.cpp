@@ -56,7 +56,9 @@ EditMap edit_map(const SceneFragments& scene, const Colors& candidate, const Ver
                                                        : static_cast<std::uint8_t>(edit - map.edits.begin() + 1);
         }
     });
+    for (const std::uint32_t pixel : verdict.alpha.wrong_pixels) map.of_pixel[pixel] = EditMap::wrong_alpha;
     for (const std::uint8_t number : map.of_pixel) {
+        if (number == EditMap::wrong_alpha) continue;
         if (number == EditMap::unexplained)
             ++map.not_explained;
         else if (number != EditMap::right)
@@ -145,8 +147,12 @@ PixelEdits edits_at(const SceneFragments& scene, const Colors& candidate, const 
     StackMaker maker{scene.setting()};
     const Stack right = maker.right(list, {});
     found.right = compositor.reach(right);
-    found.is_right = is_right_at(compositor, list, found.pixel.value, maker);
-    if (found.is_right) return found;
+    if (verdict.alpha.is_told && candidate.has_alpha()) found.alpha = candidate.alpha_at(x, y);
+    found.has_wrong_alpha =
+        std::ranges::binary_search(verdict.alpha.wrong_pixels, static_cast<std::uint32_t>(y * scene.width() + x));
+    const bool has_right_colors = is_right_at(compositor, list, found.pixel.value, maker);
+    found.is_right = has_right_colors && !found.has_wrong_alpha;
+    if (has_right_colors) return found;
     std::vector<Stack> seen;
     // Rules that hold for the given coverage are preferred to those that need another rasterizer's.
     for (const bool at_edge : {false, true})

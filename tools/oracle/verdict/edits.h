@@ -18,7 +18,8 @@ struct EditCount {
     std::uint64_t pixels = 0;
 };
 struct EditMap {
-    static constexpr std::uint8_t right = 0, unexplained = 255;  // any other number n means edits[n - 1]
+    // Any other number n means edits[n - 1].
+    static constexpr std::uint8_t right = 0, wrong_alpha = 254, unexplained = 255;
     int width = 0, height = 0;
     std::vector<EditCount> edits{};
     std::uint64_t not_explained = 0;
@@ -36,7 +37,9 @@ struct PixelEdits {
     SampledPixel pixel{};
     Hypothesis hypothesis{};
     Reach right{};
-    bool is_right = false;
+    bool is_right = false;          // alpha, too
+    std::optional<double> alpha{};  // the candidate's, where the verdict tells something of alpha
+    bool has_wrong_alpha = false;
     std::vector<PixelEdit> edits{};
 };
 [[nodiscard]] PixelEdits edits_at(const SceneFragments& scene, const Colors& candidate, const Verdict& verdict, int x,

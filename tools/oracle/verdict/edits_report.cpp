@@ -15,13 +15,13 @@ using nlohmann::ordered_json;
 // A value in units of 1/255, as image viewers show it.
 std::string parts(double v) { return fmt::format("{:.2f}", v * 255); }
 
+std::string reach_text(const Interval& channel) {
+    const std::string low = parts(channel.low), high = parts(channel.high);
+    return low == high ? low : low + " to " + high;
+}
+
 std::string reach_text(const Reach& reach) {
-    std::string text;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::string low = parts(reach[c].low), high = parts(reach[c].high);
-        text += (c == 0 ? "" : ", ") + (low == high ? low : low + " to " + high);
-    }
-    return text;
+    return reach_text(reach[0]) + ", " + reach_text(reach[1]) + ", " + reach_text(reach[2]);
 }
 
 std::string fragment_text(const Fragment& f, const pipeline::DrawList& list) {
@@ -54,6 +54,8 @@ std::string to_text(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
                                    p.is_right ? "right" : "wrong", parts(value[0]), parts(value[1]), parts(value[2]));
     const auto add = [&](const std::string& line) { text += "  " + line + '\n'; };
     add("a right port has " + reach_text(p.right) + " with " + describe(p.hypothesis));
+    if (p.alpha)
+        add(fmt::format("alpha: a right port has {}; the candidate {}", reach_text(p.right[3]), parts(*p.alpha)));
     std::size_t number = 0;
     for (const Fragment& f : pixel.visible) add(fmt::format("layer {}: {}", ++number, fragment_text(f, list)));
     for (const Fragment& f : pixel.hidden) add("hidden: " + fragment_text(f, list));
@@ -62,7 +64,7 @@ std::string to_text(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
     if (pixel.edge != nullptr) add("at an edge: another rasterizer may cover it otherwise");
     for (const PixelEdit& edit : p.edits)
         add(fmt::format("it comes out so if {} ({})", sentence_of(edit, v, list), reach_text(edit.reach)));
-    if (!p.is_right && p.edits.empty()) add("no mistake that is known here gives its value");
+    if (!p.is_right && !p.has_wrong_alpha && p.edits.empty()) add("no mistake that is known here gives its value");
     return text;
 }
 
@@ -89,6 +91,7 @@ std::string to_json(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
                           {"has_opaque", pixel.has_opaque},
                           {"at_edge", pixel.edge != nullptr},
                           {"edits", ordered_json::array()}};
+    if (p.alpha) document["alpha"] = {{"candidate", *p.alpha}, {"right", {p.right[3].low, p.right[3].high}}};
     for (const Fragment& f : pixel.visible) document["layers"].push_back(fragment_json(f));
     for (const Fragment& f : pixel.hidden) document["hidden"].push_back(fragment_json(f));
     for (const PixelEdit& edit : p.edits) {

@@ -70,8 +70,8 @@ class SceneFragments {
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] std::size_t most_visible() const noexcept { return most_visible_; }
 
-    // Sets the colour that the candidate has where nothing is drawn.
-    void set_seen_background(const Rgba& color) { setting_.seen_background = color; }
+    // Sets the colour that the candidate has where nothing is drawn, if that is one colour and not the background's.
+    void set_seen_background(const std::optional<Rgba>& color) { setting_.seen_background = color; }
     // Computes the other possible coverage of pixels at edges; does nothing for scenes that are too large.
     void find_coverages();
 

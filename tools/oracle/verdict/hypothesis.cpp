@@ -127,6 +127,7 @@ std::string describe(const Hypothesis& h) {
     const bool converts = h.result.storage != (has_front(h.order) ? h.front.storage : h.back.storage);
     if (converts) text += fmt::format(", stored in {}", name(h.result.storage));
     if (h.result.rounding == Rounding::cut) text += ", cut";
+    if (h.is_divided) text += ", divided by alpha";
     if (h.slack > 0) text += fmt::format(", colours within {:.3g} of a code of 255", h.slack * 255);
     return text;
 }
@@ -142,8 +143,8 @@ End widest_of(Storage storage) {
 
 class FamilyMaker {
   public:
-    FamilyMaker(Storage result, const std::vector<double>& slacks, Looseness looseness)
-        : result_{result}, slacks_{slacks}, looseness_{looseness} {}
+    FamilyMaker(Storage result, const std::vector<double>& slacks, Looseness looseness, bool is_divided)
+        : result_{result}, slacks_{slacks}, looseness_{looseness}, is_divided_{is_divided} {}
 
     void add(Order order, const std::vector<End>& fronts, const std::vector<End>& backs) {
         HypothesisFamily family;
@@ -151,7 +152,8 @@ class FamilyMaker {
                          .front = widest_of(fronts[0].storage),
                          .back = widest_of(backs[0].storage),
                          .result = {result_, Source::any, Rounding::any},
-                         .slack = slacks_.back()};
+                         .slack = slacks_.back(),
+                         .is_divided = is_divided_};
         for (const double slack : slacks_)
             for (const End& front : fronts)
                 for (const End& back : backs) add(order, front, back, slack, family);
@@ -165,7 +167,8 @@ class FamilyMaker {
                          .front = widest,
                          .back = widest,
                          .result = {result_, Source::any, Rounding::any},
-                         .slack = slacks_.back()};
+                         .slack = slacks_.back(),
+                         .is_divided = is_divided_};
         for (const double slack : slacks_)
             for (const End& end : ends) add(order, end, end, slack, family);
         if (!family.members.empty()) made_.push_back(std::move(family));
@@ -177,7 +180,12 @@ class FamilyMaker {
         const auto is_loose = [](const End& end) { return end.rounding == Rounding::any && has_codes(end.storage); };
         if (looseness_ == Looseness::definite && (is_loose(front) || is_loose(back))) return;
         const End nearest{result_, Source::unrounded, Rounding::nearest};
-        family.members.push_back({.order = order, .front = front, .back = back, .result = nearest, .slack = slack});
+        family.members.push_back({.order = order,
+                                  .front = front,
+                                  .back = back,
+                                  .result = nearest,
+                                  .slack = slack,
+                                  .is_divided = is_divided_});
         const bool may_cut = has_codes(result_) || (result_ == Storage::half && front.storage == Storage::single);
         if (!may_cut || has_codes(front.storage)) return;
         family.members.push_back(family.members.back());
@@ -187,14 +195,15 @@ class FamilyMaker {
     Storage result_;
     std::vector<double> slacks_;
     Looseness looseness_;
+    bool is_divided_;
     Families made_{};
 };
 
 }  // namespace
 
-Families families(Storage result, const std::vector<double>& slacks, Looseness looseness) {
+Families families(Storage result, const std::vector<double>& slacks, Looseness looseness, bool is_divided) {
     constexpr Storage storages[] = {Storage::unorm8, Storage::single, Storage::half, Storage::unorm10};
-    FamilyMaker maker{result, slacks, looseness};
+    FamilyMaker maker{result, slacks, looseness, is_divided};
     for (const Storage storage : storages) {
         for (const Order order : {Order::over, Order::over_apart, Order::under}) maker.add(order, ends(storage));
         // A port may keep the opaque scene in 8 bits while other accumulators have another format.

@@ -72,6 +72,8 @@ struct Hypothesis {
     End front{}, back{};  // `over` uses only the back, `under` only the front; the background is stored as `back`
     End result{};         // its source is not used
     double slack = 0;     // possible error of a fragment's colours and alpha, whose values are in [0, 1]
+    // The picture's colours were divided by its alpha, which adds an error of up to one code to results of floats.
+    bool is_divided = false;
     friend bool operator==(const Hypothesis&, const Hypothesis&) = default;
 };
 
@@ -88,7 +90,8 @@ using Families = std::vector<HypothesisFamily>;
 // All hypotheses that are tried for a picture of this storage, once per slack, in increasing order. Definite ones have
 // one rounding and one format per end, as a device or a program has; loose ones also include arbitrary rounding.
 enum class Looseness : std::uint8_t { definite, loose };
-[[nodiscard]] Families families(Storage result, const std::vector<double>& slacks, Looseness looseness);
+[[nodiscard]] Families families(Storage result, const std::vector<double>& slacks, Looseness looseness,
+                                bool is_divided = false);
 // One hypothesis per order, which includes all values of the families of that order.
 [[nodiscard]] std::vector<Hypothesis> widest(const Families& all);
 

@@ -36,11 +36,19 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     if (v.is_undecided())
         return fmt::format("not decided: a right port may leave all {}; {}", pixels(v.right.pixels),
                            rounding_of(v.right));
+    if (v.alpha.state == AlphaState::wrong)
+        return fmt::format("wrong: alpha is not what the layers leave at {} of {}; their colours are right",
+                           v.alpha.wrong_pixels.size(), pixels(v.right.pixels));
     if (v.explanations.empty())
         return fmt::format("wrong: {} of {} are beyond what a right port reaches, and no one mistake explains them all",
                            v.right.wrong_pixels.size(), pixels(v.right.pixels));
     if (v.explanations.size() == 1) return "wrong: " + sentence(v.explanations[0].account.rules, v.facts, list);
     return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
+}
+
+// Pixels with wrong colours, or with wrong alpha if all colours are right.
+const std::vector<std::uint32_t>& wrong_pixels(const Verdict& v) {
+    return v.right.is_whole() ? v.alpha.wrong_pixels : v.right.wrong_pixels;
 }
 
 // The pixels at which a mistake is visible.
@@ -74,8 +82,9 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     if (account.at_edges > 0)
         add(fmt::format("{} at edges, slivers or depths that nearly meet: as another rasterizer snaps or breaks ties",
                         pixels(account.at_edges)));
-    if (!v.right.wrong_pixels.empty()) {
-        const std::uint32_t first = v.right.wrong_pixels[0], width = static_cast<std::uint32_t>(v.width);
+    if (const std::string alpha = describe(v.alpha); !alpha.empty()) add(alpha);
+    if (const auto& wrong = wrong_pixels(v); !wrong.empty()) {
+        const std::uint32_t first = wrong[0], width = static_cast<std::uint32_t>(v.width);
         add(fmt::format("the first wrong pixel is {},{}", first % width, first / width));
     }
     for (const Lead& lead : v.leads) add("lead: " + lead_of(lead, v, list));
@@ -94,6 +103,13 @@ ordered_json json_of(const Rule& rule, const Verdict& v, const pipeline::DrawLis
     ordered_json json{{"kind", name(rule.kind)}, {"n", rule.n}};
     if (rule.value != 0) json["value"] = rule.value;
     json["sentence"] = sentence(rule, v.facts, list);
+    return json;
+}
+
+ordered_json json_of(const AlphaChecked& alpha) {
+    ordered_json json{{"verdict", name(alpha.state)}, {"wrong", alpha.wrong_pixels.size()}};
+    if (alpha.state == AlphaState::wrong) json["mistake"] = name(alpha.mistake);
+    if (alpha.mistake == AlphaMistake::other_background) json["background"] = alpha.background;
     return json;
 }
 
@@ -133,6 +149,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
                                      {"of", l.of},
                                      {"contradicted", l.contradicted},
                                      {"right", l.right}});
+    if (v.right.is_whole() && v.explanations.empty()) document["alpha"] = json_of(v.alpha);
     document["alike"] = ordered_json::array();
     for (const Rule& rule : v.alike) document["alike"].push_back(name(rule.kind));
     document["kinds"] = v.kinds;
@@ -141,8 +158,9 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
     document["first_wrong"] = ordered_json::array();
     constexpr std::size_t most = 16;
     const auto width = static_cast<std::uint32_t>(v.width);
-    for (std::size_t i = 0; i < std::min(most, v.right.wrong_pixels.size()); ++i)
-        document["first_wrong"].push_back({v.right.wrong_pixels[i] % width, v.right.wrong_pixels[i] / width});
+    const std::vector<std::uint32_t>& wrong = wrong_pixels(v);
+    for (std::size_t i = 0; i < std::min(most, wrong.size()); ++i)
+        document["first_wrong"].push_back({wrong[i] % width, wrong[i] / width});
     return document.dump(2) + '\n';
 }
 

@@ -8,17 +8,23 @@
 
 namespace strata::oracle::verdict {
 
-Colors::Colors(const Target& target) : target_{&target} {}
+Colors::Colors(const Target& target, const ChannelUse& use) : target_{&target}, use_{use} {}
 
-std::array<double, 4> Colors::at(int x, int y) const noexcept {
+double Colors::value(int x, int y, int channel) const noexcept {
     const std::size_t pixel =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(target_->width) + static_cast<std::size_t>(x);
-    std::array<double, 4> value{0, 0, 0, 1};
-    const int channels = target_->channels;
-    for (int c = 0; c < 3; ++c) value[static_cast<std::size_t>(c)] = target_->value_at(pixel, channels < 3 ? 0 : c);
-    if (has_alpha()) value[3] = target_->value_at(pixel, channels - 1);
-    return value;
+    return target_->value_at(pixel, channel);
 }
+
+std::array<double, 4> Colors::at(int x, int y) const noexcept {
+    if (target_->channels < 3) {
+        const double grey = value(x, y, 0);
+        return {grey, grey, grey, 1};
+    }
+    return {value(x, y, 0), value(x, y, 1), value(x, y, 2), 1};
+}
+
+double Colors::alpha_at(int x, int y) const noexcept { return has_alpha() ? value(x, y, target_->channels - 1) : 1; }
 
 Sample::Sample(const Sample& other) : setting_{other.setting_} {
     for (const SampledPixel& pixel : other.pixels_) add(pixel.list, pixel.value);

@@ -11,21 +11,34 @@
 
 namespace strata::oracle::verdict {
 
-// The colours of a candidate, row by row from the top, as values of red, green, blue and alpha; grey is used for all
-// three colour channels.
+// How the channels of a target are used.
+struct ChannelUse {
+    bool is_divided = false;  // the file has straight colours, and the target has them multiplied by alpha again
+    bool has_alpha = true;    // false: alpha is not compared
+};
+
+// The colours of a candidate, row by row from the top; grey is used for all three colour channels.
 class Colors {
   public:
-    explicit Colors(const Target& target);
+    explicit Colors(const Target& target, const ChannelUse& use = {});
     [[nodiscard]] const Target& target() const noexcept { return *target_; }
     [[nodiscard]] int width() const noexcept { return target_->width; }
     [[nodiscard]] int height() const noexcept { return target_->height; }
     [[nodiscard]] Code code() const noexcept { return target_->code; }
-    [[nodiscard]] bool has_alpha() const noexcept { return target_->channels == 2 || target_->channels == 4; }
-    // Alpha is 1 if the candidate has none.
+    [[nodiscard]] const ChannelUse& use() const noexcept { return use_; }
+    [[nodiscard]] bool has_alpha() const noexcept {
+        return use_.has_alpha && (target_->channels == 2 || target_->channels == 4);
+    }
+    // Red, green, blue, and always 1: alpha is compared separately (alpha.h).
     [[nodiscard]] std::array<double, 4> at(int x, int y) const noexcept;
+    // 1 if the candidate has no alpha.
+    [[nodiscard]] double alpha_at(int x, int y) const noexcept;
 
   private:
+    [[nodiscard]] double value(int x, int y, int channel) const noexcept;
+
     const Target* target_;
+    ChannelUse use_;
 };
 
 struct SampledPixel {

@@ -18,10 +18,12 @@ struct Choices {
     Families loose{};     // as coarse, with blending errors of up to one code per layer
 };
 
-Choices choices(Storage storage) {
-    const std::vector<double> coarse{0x1p-17, 0x1p-14, 0x1p-11, 0x1p-9};
-    return {families(storage, {0, 0x1p-20}, Looseness::definite), families(storage, coarse, Looseness::definite),
-            families(storage, coarse, Looseness::loose)};
+Choices choices(const Colors& candidate) {
+    const std::vector<double> fine{0, 0x1p-20}, coarse{0x1p-17, 0x1p-14, 0x1p-11, 0x1p-9};
+    const auto with = [&](const std::vector<double>& slacks, Looseness looseness) {
+        return families(storage_of(candidate.code()), slacks, looseness, candidate.use().is_divided);
+    };
+    return {with(fine, Looseness::definite), with(coarse, Looseness::definite), with(coarse, Looseness::loose)};
 }
 
 double bits_of(const Checked& c, Storage storage) {
@@ -101,7 +103,7 @@ std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const C
                                             const Families& definite, std::size_t most_sampled) {
     for (const RuleKind kind : {RuleKind::rows_reversed, RuleKind::columns_reversed, RuleKind::turned}) {
         const Target target = rearranged(candidate, kind);
-        const Colors colors{target};
+        const Colors colors{target, candidate.use()};
         Sample sample = sampled(scene, colors, most_sampled);
         auto found = account_for(definite, {}, scene, colors, sample);
         if (!found) continue;
@@ -196,9 +198,11 @@ std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int wid
 Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
     constexpr std::size_t most_sampled = 2048, most_structures = 32768;
     Work& work = *scene.setting().work;
+    work.restart();
+    scene.set_seen_background(std::nullopt);
     const std::uint64_t of_fragments = limits.of_fragment * scene.count();
     const Storage storage = storage_of(candidate.code());
-    const Choices all = choices(storage);
+    const Choices all = choices(candidate);
     Verdict verdict{.width = scene.width()};
     const auto is_right = [&](Checked&& right, const Sample& even) {
         verdict.right = std::move(right);
@@ -209,7 +213,11 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
         verdict.explanations = told_better(scene, candidate, all, verdict.right, even);
         verdict.is_stopped = work.is_cut_short();
         verdict.is_right = verdict.explanations.empty() && (is_narrow || !verdict.is_stopped);
-        if (verdict.explanations.empty()) find_alike(scene, candidate, verdict);
+        if (verdict.explanations.empty()) {
+            find_alike(scene, candidate, verdict);
+            verdict.alpha = check_alpha(scene, candidate, verdict.right.account.hypothesis);
+        }
+        if (verdict.alpha.state == AlphaState::wrong) verdict.is_right = false;
         return verdict;
     };
     {
@@ -221,7 +229,7 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     }
     scene.find_coverages();
     const Sample even = sampled(scene, candidate, most_sampled);
-    if (const auto color = other_background(scene, candidate)) scene.set_seen_background(*color);
+    scene.set_seen_background(other_background(scene, candidate));
     verdict.facts = facts_of(scene, even);
     Sample sample = even, examples{scene.setting()};
     verdict.right = closest_account(scene, candidate, all.definite, even, examples);

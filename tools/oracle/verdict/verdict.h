@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tools/oracle/verdict/account.h"
+#include "tools/oracle/verdict/alpha.h"
 #include "tools/oracle/verdict/rules.h"
 
 namespace strata::oracle::verdict {
@@ -21,7 +22,8 @@ struct Verdict {
     int width = 0;  // of the picture, in pixels
     SceneFacts facts{};
     Checked right{};                      // the closest account of the right structure
-    std::vector<Checked> explanations{};  // mistakes, if the picture is wrong
+    AlphaChecked alpha{};                 // of a picture whose colours are all right
+    std::vector<Checked> explanations{};  // mistakes, if colours are wrong
     std::vector<Lead> leads{};            // if no mistake explains the whole picture
     // The kinds of mistakes that give the same picture of this scene: if it is right, those that would be called right,
     // too.
@@ -32,7 +34,9 @@ struct Verdict {
 
     // True if rounding by more than two codes explains every pixel, but the search ended before all mistakes that may
     // explain the picture better were tried.
-    [[nodiscard]] bool is_undecided() const noexcept { return !is_right && explanations.empty() && right.is_whole(); }
+    [[nodiscard]] bool is_undecided() const noexcept {
+        return !is_right && explanations.empty() && right.is_whole() && alpha.state != AlphaState::wrong;
+    }
 };
 
 class SceneFragments;

@@ -17,6 +17,11 @@ namespace strata::oracle::verdict {
 class Work {
   public:
     void add(std::uint64_t steps) noexcept { done_.fetch_add(steps, std::memory_order_relaxed); }
+    // Removes all limits that were set before.
+    void restart() noexcept {
+        allowed_ = most_ = no_limit;
+        has_left_one_ = false;
+    }
     // Allows that many more steps.
     void allow(std::uint64_t more) noexcept {
         allowed_ = more;
@@ -40,10 +45,11 @@ class Work {
 
   private:
     static constexpr std::size_t batch = 8, shares = 32;
+    static constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
     std::atomic<std::uint64_t> done_{0};
     std::atomic<bool> has_left_one_{false};
-    std::uint64_t allowed_ = ~std::uint64_t{0}, most_ = ~std::uint64_t{0};
+    std::uint64_t allowed_ = no_limit, most_ = no_limit;
 };
 
 // The steps of one sequential part: layers listed and layers composited.

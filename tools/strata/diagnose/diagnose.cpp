@@ -18,6 +18,7 @@
 #include "tools/oracle/mistakes/telling.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
+#include "tools/oracle/verdict/form.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/sample.h"
 #include "tools/oracle/verdict/verdict.h"
@@ -179,10 +180,13 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     const pipeline::DrawList& list = opened.session.scene.list;
     oracle::verdict::SceneFragments fragments{{list, opened.session.view, opened.session.profile, options},
                                               options.fragment_memory};
-    const oracle::verdict::Colors seen{*colors};
+    oracle::verdict::Formed formed = oracle::verdict::formed(fragments, *colors, opened.options.alpha_form.has_value());
+    formed.use.has_alpha = opened.options.tolerances.channels == oracle::ColorChannels::all;
+    const oracle::verdict::Colors seen = formed.colors();
     oracle::verdict::Verdict layers = judge(fragments, seen);
     std::string profile;
-    if (!layers.is_right && !layers.is_undecided()) {
+    const bool has_wrong_alpha = layers.alpha.state == oracle::verdict::AlphaState::wrong;
+    if (!layers.is_right && !layers.is_undecided() && !has_wrong_alpha) {
         const pipeline::DeviceProfile& given = opened.session.profile;
         if (auto other = right_by_other_profile({list, opened.session.view, given, options}, options.fragment_memory,
                                                 seen, layers.right.wrong_pixels, more_profiles(opened.options))) {
@@ -190,8 +194,9 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
             layers = std::move(other->verdict);
         }
     }
-    if (!layers.is_right && layers.explanations.empty()) return;
-    found.structure = to_text(layers, list) + profile;
+    if (!layers.is_right && layers.explanations.empty() && layers.alpha.state != oracle::verdict::AlphaState::wrong)
+        return;
+    found.structure = to_text(layers, list) + formed.sentence() + profile;
     found.structure_json = to_json(layers, list);
     found.is_nearly = false;
     found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::unknown_mistake;

@@ -1,0 +1,47 @@
+#include "tools/oracle/verdict/form.h"
+
+#include <algorithm>
+
+#include "tools/oracle/pairs.h"
+#include "tools/oracle/verdict/match.h"
+
+namespace strata::oracle::verdict {
+
+std::string Formed::sentence() const {
+    if (!is_chosen) return "";
+    return use.is_divided
+               ? "  colours are taken for straight and multiplied by their alpha: fewer pixels are wrong so\n"
+               : "  colours are taken for premultiplied: fewer pixels are wrong so\n";
+}
+
+namespace {
+
+// The number of pixels of a sample that are wrong under the closest definite hypothesis.
+std::size_t wrong_of(const SceneFragments& scene, const Formed& formed) {
+    constexpr std::size_t most = 400, most_structures = 1024;
+    const Colors colors = formed.colors();
+    const Families all = families(storage_of(colors.code()), {0, 0x1p-20}, Looseness::definite, formed.use.is_divided);
+    const Sample sample = sampled(scene, colors, most).with_few_structures(most_structures);
+    const auto closest = best_of(all, {}, sample, Wrong::some);
+    if (!closest) return sample.pixels().size();
+    const Compositor compositor{*closest};
+    StackMaker maker{scene.setting()};
+    return static_cast<std::size_t>(std::ranges::count_if(sample.pixels(), [&](const SampledPixel& pixel) {
+        return ties_that_hold(compositor, {}, pixel.list, pixel.value, maker).mask == 0;
+    }));
+}
+
+}  // namespace
+
+Formed formed(const SceneFragments& scene, const Target& target, bool is_stated) {
+    Formed as_it_is{.target = target};
+    if (target.alpha_form != AlphaForm::straight) return as_it_is;
+    auto multiplied = premultiplied(target);
+    if (!multiplied) return as_it_is;
+    Formed divided{.target = *std::move(multiplied), .use = {.is_divided = true}};
+    if (is_stated) return divided;
+    divided.is_chosen = as_it_is.is_chosen = true;
+    return wrong_of(scene, as_it_is) < wrong_of(scene, divided) ? as_it_is : divided;
+}
+
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,26 @@
+// tools/oracle/verdict/form.h - decides whether the colours of a picture file are straight or premultiplied.
+//
+// Rule     PNG, TGA, BMP and TIFF have straight colours by definition, but many programs store premultiplied ones in
+//          them. If alpha makes a difference, both forms are compared with a sample of the scene's pixels, and the one
+//          with fewer wrong pixels is used.
+// Tests    tests/tools/oracle/verdict/alpha_test.cpp
+#pragma once
+#include <string>
+
+#include "tools/oracle/picture.h"
+#include "tools/oracle/verdict/sample.h"
+
+namespace strata::oracle::verdict {
+
+struct Formed {
+    Target target{};  // premultiplied
+    ChannelUse use{};
+    bool is_chosen = false;  // alpha makes a difference, and no option states the form
+    [[nodiscard]] Colors colors() const { return Colors{target, use}; }
+    [[nodiscard]] std::string sentence() const;  // "" if the form was not chosen
+};
+
+// `is_stated`: an option states the target's form; no other form is tried.
+[[nodiscard]] Formed formed(const SceneFragments& scene, const Target& target, bool is_stated);
+
+}  // namespace strata::oracle::verdict
