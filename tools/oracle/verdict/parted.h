@@ -13,11 +13,17 @@ using Rules = std::vector<Rule>;
 struct PartedPixel {
     const SampledPixel* sampled = nullptr;
     StackedPixel right{};  // under the right structure
+    // For each hypothesis of Parted::noted: how the right structure reaches the pixel.
+    enum class Reached : std::uint8_t { no, as_given, at_edge };
+    std::vector<Reached> reached{};
 };
 
 // The sampled pixels that are wrong under the closest account of the right structure, and the others.
 struct Parted {
     std::vector<PartedPixel> wrong{}, right{};
+    // True if no account of the right structure is known: then rules need not change the pixels of `wrong`.
+    bool has_no_account = false;
+    std::vector<Hypothesis> noted{};
 };
 
 [[nodiscard]] Parted parted(const Sample& sample, const Hypothesis& closest);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "tools/oracle/verdict/parted.h"
 #include "tools/oracle/verdict/pricing.h"
@@ -10,16 +11,24 @@ namespace strata::oracle::verdict {
 
 namespace {
 
+PartedPixel::Reached how_reached(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
+    const Stack* const found = reaching(compositor, pixel, steps);
+    if (found == nullptr) return PartedPixel::Reached::no;
+    return is_as_given(pixel, *found) ? PartedPixel::Reached::as_given : PartedPixel::Reached::at_edge;
+}
+
 // True if one of the hypotheses holds for all pixels under the rules; for codes, most pixels must not need another
 // rasterizer. Right pixels that the rules do not change remain right.
-bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, const Setting& setting) {
+bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, bool is_noted,
+              const Setting& setting) {
+    using Reached = PartedPixel::Reached;
     struct Left {
-        const Compositor* compositor = nullptr;
+        std::size_t number = 0;  // index in `wide`
         std::size_t at_edges = 0;
     };
     StackMaker maker{setting, setting.work->share()};
     std::vector<Left> left;
-    for (const Compositor& compositor : wide) left.push_back({&compositor});
+    for (std::size_t i = 0; i < wide.size(); ++i) left.push_back({i});
     if (wide.empty()) return false;
     const bool has_codes = verdict::has_codes(wide[0].hypothesis().result.storage);
     const std::size_t all = parts.wrong.size() + parts.right.size(), most_at_edges = has_codes ? all / 3 : all;
@@ -31,12 +40,13 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
             if (maker.steps().is_over()) return false;
             const bool stays = is_unchanged(made, pixel);
             if (pixels == &parts.right && stays) continue;
-            if (stays && !pixel.right.stacks.empty() && may_stay-- == 0) return false;
+            if (stays && !parts.has_no_account && may_stay-- == 0) return false;
+            const bool is_known = is_noted && stays && made.stacks == pixel.right.stacks;
             std::erase_if(left, [&](Left& l) {
-                const Stack* const found = reaching(*l.compositor, made, maker.steps());
-                if (found == nullptr) return true;
-                l.at_edges += is_as_given(made, *found) ? 0 : 1;
-                return l.at_edges > most_at_edges;
+                const Reached how =
+                    is_known ? pixel.reached[l.number] : how_reached(wide[l.number], made, maker.steps());
+                l.at_edges += how == Reached::at_edge ? 1 : 0;
+                return how == Reached::no || l.at_edges > most_at_edges;
             });
             if (left.empty()) return false;
         }
@@ -46,9 +56,10 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
 std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts, const std::vector<Hypothesis>& wide,
                              const Setting& setting) {
     const std::vector<Compositor> compositors(wide.begin(), wide.end());
+    const bool is_noted = parts.noted == wide;
     std::vector<std::uint8_t> lives(all.size());
-    setting.work->for_each(all.size(),
-                           [&](std::size_t i) { lives[i] = survives(all[i], parts, compositors, setting) ? 1 : 0; });
+    setting.work->for_each(
+        all.size(), [&](std::size_t i) { lives[i] = survives(all[i], parts, compositors, is_noted, setting) ? 1 : 0; });
     std::vector<Rules> left;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (lives[i] != 0) left.push_back(all[i]);
@@ -290,29 +301,22 @@ std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate
 
 namespace {
 
-// Sorts the pixels with the most information first: those with one structure, and of these the ones that the fewest
-// hypotheses reach.
-void put_telling_first(std::vector<PartedPixel>& pixels, const std::vector<Hypothesis>& each, const Setting& setting) {
+// Notes how the right structure reaches the pixels under each hypothesis, and sorts the pixels with the most
+// information first: those with one structure, and of these the ones that the fewest hypotheses reach.
+void put_telling_first(Parted& parts, const std::vector<Hypothesis>& each, const Setting& setting) {
     const std::vector<Compositor> compositors(each.begin(), each.end());
-    struct Told {
-        bool is_at_edge = false, has_ties = false;
-        std::size_t hypotheses = 0;
-        auto operator<=>(const Told&) const = default;
-    };
-    std::vector<std::pair<Told, PartedPixel>> all;
-    for (PartedPixel& pixel : pixels) {
-        const PixelList& list = pixel.sampled->list;
-        all.push_back({{list.edge != nullptr, verdict::has_ties(list.visible)}, std::move(pixel)});
-    }
-    setting.work->for_each(all.size(), [&](std::size_t i) {
+    parts.noted = each;
+    setting.work->for_each(parts.wrong.size(), [&](std::size_t i) {
+        PartedPixel& pixel = parts.wrong[i];
         StackMaker maker{setting};
-        const StackedPixel right = stacked({}, *all[i].second.sampled, maker);
-        all[i].first.hypotheses = static_cast<std::size_t>(std::ranges::count_if(
-            compositors, [&](const Compositor& c) { return reaching(c, right, maker.steps()) != nullptr; }));
+        pixel.right = stacked({}, *pixel.sampled, maker);
+        for (const Compositor& c : compositors) pixel.reached.push_back(how_reached(c, pixel.right, maker.steps()));
     });
-    std::ranges::stable_sort(all, {}, &std::pair<Told, PartedPixel>::first);
-    pixels.clear();
-    for (auto& [told, pixel] : all) pixels.push_back(std::move(pixel));
+    std::ranges::stable_sort(parts.wrong, {}, [](const PartedPixel& pixel) {
+        const PixelList& list = pixel.sampled->list;
+        const auto missed = std::ranges::count(pixel.reached, PartedPixel::Reached::no);
+        return std::tuple{list.edge != nullptr, verdict::has_ties(list.visible), -missed};
+    });
 }
 
 }  // namespace
@@ -320,13 +324,14 @@ void put_telling_first(std::vector<PartedPixel>& pixels, const std::vector<Hypot
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
                                 const Sample& sample) {
     constexpr std::size_t most_tried = 8;  // each is checked with every hypothesis
-    Parted parts;
-    for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({&pixel, {}});
+    Parted parts{.has_no_account = true};
+    for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({.sampled = &pixel});
     std::vector<Hypothesis> each;
     for (const HypothesisFamily& family : narrow)
         std::ranges::copy_if(family.members, std::back_inserter(each),
                              [](const Hypothesis& h) { return h.slack == 0; });
-    put_telling_first(parts.wrong, each, scene.setting());
+    put_telling_first(parts, each, scene.setting());
+    if (scene.setting().work->is_spent()) return {};
     const std::vector<Rules> all = singles(rules_for(facts_of(scene, sample)));
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
     const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());

@@ -134,11 +134,19 @@ Sample deepest(const Sample& sample, std::size_t most) {
     return some;
 }
 
+// True if the intervals are at most two codes wide, as after another order of the same blends.
+bool is_narrow(const Checked& right) {
+    return has_codes(right.account.hypothesis.result.storage) && right.possible <= 2;
+}
+
 // Finds mistakes that explain the picture in fewer bits than a right account with wide intervals. If there are any,
 // fitting these intervals is no evidence that the picture is right.
 std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
                                  const Checked& right, const Sample& even) {
-    constexpr std::size_t most = 512, most_structures = 4096;
+    // Another order of the same blends can change a value by two codes. Intervals so narrow fit few mistakes, and few
+    // pixels of one structure are enough to find these.
+    const bool is_few = is_narrow(right);
+    const std::size_t most = is_few ? 128 : 512, most_structures = is_few ? 128 : 4096;
     constexpr double share = 0.95, least_bits = 64;
     if (leaves_little_open(right)) return {};
     const Sample deep = deepest(even, most).with_few_structures(most_structures);
@@ -206,13 +214,10 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     Verdict verdict{.width = scene.width()};
     const auto is_right = [&](Checked&& right, const Sample& even) {
         verdict.right = std::move(right);
-        // Another order of the same blends can change a value by two codes; such intervals are too narrow for a
-        // mistake.
-        const bool is_narrow = has_codes(storage) && verdict.right.possible <= 2;
-        work.allow((is_narrow ? limits.mistakes : limits.narrower) + of_fragments);
+        work.allow(limits.narrower + of_fragments);
         verdict.explanations = told_better(scene, candidate, all, verdict.right, even);
         verdict.is_stopped = work.is_cut_short();
-        verdict.is_right = verdict.explanations.empty() && (is_narrow || !verdict.is_stopped);
+        verdict.is_right = verdict.explanations.empty() && !verdict.is_stopped;
         if (verdict.explanations.empty()) {
             find_alike(scene, candidate, verdict);
             verdict.alpha = check_alpha(scene, candidate, verdict.right.account.hypothesis);

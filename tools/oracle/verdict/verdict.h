@@ -32,8 +32,8 @@ struct Verdict {
     bool is_stopped = false;  // the search ended before all mistakes were tried
     std::string telling{};    // command of a scene that distinguishes the explanations, if one is known
 
-    // True if rounding by more than two codes explains every pixel, but the search ended before all mistakes that may
-    // explain the picture better were tried.
+    // True if rounding explains every pixel, but the search ended before all mistakes that may explain the picture
+    // better were tried.
     [[nodiscard]] bool is_undecided() const noexcept {
         return !is_right && explanations.empty() && right.is_whole() && alpha.state != AlphaState::wrong;
     }

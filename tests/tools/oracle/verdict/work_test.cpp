@@ -95,3 +95,16 @@ TEST_CASE("a picture with wide intervals has no verdict if the search is stopped
     CHECK(to_text(stopped, opened.scene.list).starts_with("not decided: "));
     CHECK(to_json(stopped, opened.scene.list).find("\"undecided\"") != std::string::npos);
 }
+
+TEST_CASE("a picture with intervals of two codes is not decided either if the search is stopped") {
+    const OpenedScene opened{"random:seed=3,triangles=400", 32, 24};
+    const oracle::Target picture = *opened.picture("dual", pipeline::Format::rgba8);
+    const Verdict whole = counted(opened, picture).verdict;
+    CHECK(whole.is_right);
+    CHECK_FALSE(whole.is_stopped);
+    REQUIRE(whole.right.possible == 2);
+    const Verdict stopped = counted(opened, picture, nothing).verdict;
+    CHECK(stopped.is_stopped);
+    CHECK_FALSE(stopped.is_right);
+    CHECK(stopped.is_undecided());
+}
