@@ -152,11 +152,13 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
 }
 
 std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
-                                   const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely) {
+                                   const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely,
+                                   int most_rejected) {
     constexpr int most_tries = 3;  // of accounts that need pixels at edges
     constexpr std::size_t most_added = 200;
     std::optional<Checked> best;
-    for (int helped = 0; helped < most_tries;) {
+    int rejected = 0;
+    for (int helped = 0; helped < most_tries && rejected < most_rejected;) {
         const auto hypothesis = best_of(all, rules, sample, Wrong::none, helped == 0 ? likely : std::nullopt);
         if (!hypothesis || (best && *hypothesis == best->account.hypothesis)) break;
         Sample examples{scene.setting()};
@@ -165,6 +167,8 @@ std::optional<Checked> account_for(const Families& all, const std::vector<Rule>&
         if (found.is_whole()) {
             ++helped;
             if (!best || found.bits < best->bits) best = std::move(found);
+        } else {
+            ++rejected;
         }
         if (is_done) break;
         const Sample some = examples.thinned(most_added);

@@ -5,6 +5,7 @@
 //          picture.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
+#include <limits>
 #include <optional>
 
 #include "tools/oracle/verdict/account.h"
@@ -53,9 +54,11 @@ enum class Wrong : std::uint8_t { some, none };
                                 Wrong allowed, Sample& examples);
 
 // The best account of the whole picture with these rules, if one holds for every pixel. `likely` is tried first. Pixels
-// that contradict an account are added to the sample.
+// that contradict an account are added to the sample; after `most_rejected` hypotheses that are contradicted the rules
+// are given up.
 [[nodiscard]] std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules,
                                                  const SceneFragments& scene, const Colors& candidate, Sample& sample,
-                                                 const std::optional<Hypothesis>& likely = {});
+                                                 const std::optional<Hypothesis>& likely = {},
+                                                 int most_rejected = std::numeric_limits<int>::max());
 
 }  // namespace strata::oracle::verdict

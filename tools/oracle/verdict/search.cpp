@@ -236,7 +236,8 @@ double most_open(const Checked& account) {
 // The accounts that hold for the whole picture; of rules that differ only in their numbers, only the first.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
-                           const Sample& sample, std::size_t most_tried) {
+                           const Sample& sample, std::size_t most_tried,
+                           int most_rejected = std::numeric_limits<int>::max()) {
     constexpr std::size_t most_told = 12, least_decided = 4, few_sampled = 400;
     std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
@@ -253,7 +254,7 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         if (own_families.empty()) continue;
         Sample own = sample.thinned(few_sampled);
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
-        auto one = account_for(own_families, rules, scene, candidate, own, likely);
+        auto one = account_for(own_families, rules, scene, candidate, own, likely, most_rejected);
         // An explanation must change several pixels that the right structure does not reach: among so many rules, some
         // fit a few pixels by chance.
         if (one && one->changed - one->undecided >= least_decided && one->bits <= most_open(*one))
@@ -322,7 +323,7 @@ void put_telling_first(Parted& parts, const std::vector<Hypothesis>& each, const
 }  // namespace
 
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
-                                const Sample& sample) {
+                                const Sample& sample, int most_rejected) {
     constexpr std::size_t most_tried = 8;  // each is checked with every hypothesis
     Parted parts{.has_no_account = true};
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({.sampled = &pixel});
@@ -336,7 +337,7 @@ std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candi
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
     const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());
     if (left.empty()) return {};
-    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried);
+    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried, most_rejected);
     drop_roomy(found, std::numeric_limits<double>::max());
     return found;
 }

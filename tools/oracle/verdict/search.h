@@ -19,9 +19,10 @@ namespace strata::oracle::verdict {
                                           int most_rules, const Region& region = {});
 
 // The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
-// the sample, including those that a wider hypothesis would call right.
+// the sample, including those that a wider hypothesis would call right. `most_rejected`: of hypotheses, for each rule
+// (match.h).
 [[nodiscard]] std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate,
-                                              const Families& narrow, const Sample& sample);
+                                              const Families& narrow, const Sample& sample, int most_rejected);
 
 // The rules that explain the most wrong pixels of a sample, the best first.
 [[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample);
