@@ -40,8 +40,9 @@ pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProf
 
 std::function<void(pipeline::Region&)> body_of(const Algorithm& algorithm, const ListingInputs& inputs) {
     if (algorithm.body) return algorithm.body;
-    return [&algorithm, inputs](pipeline::Region& region) {
-        if (algorithm.resolve_loop != nullptr && algorithm.resolve_loop(region)) return;
+    const bool has_tail = inputs.options.tail.value_or(Tail::none) != Tail::none;
+    return [&algorithm, inputs, has_tail](pipeline::Region& region) {
+        if (algorithm.resolve_loop != nullptr && !has_tail && algorithm.resolve_loop(region)) return;
         if (algorithm.run_with != nullptr) return algorithm.run_with(region, inputs);
         algorithm.run(region);
     };

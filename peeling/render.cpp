@@ -34,7 +34,8 @@ constexpr std::uint64_t sorted_bytes = 4;
 }  // namespace
 
 bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept {
-    return algorithm.resolve_loop != nullptr && !options.keep_layers && options.background[3] == 1.0f;
+    const bool has_tail = options.algorithm.tail.value_or(Tail::none) != Tail::none;
+    return algorithm.resolve_loop != nullptr && !has_tail && !options.keep_layers && options.background[3] == 1.0f;
 }
 
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {

@@ -15,6 +15,7 @@
 
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/dual_resolve.h"
+#include "peeling/programs/fixed_passes/tail.h"
 #include "peeling/programs/min_max.h"
 
 namespace strata::peeling::listing::dual {
@@ -82,9 +83,27 @@ void trace_peel(Region& region, const DualTargets& t) {
         });
 }
 
-}  // namespace
+// One more pass draws the fragments that are left between the two ends into the tail (fixed_passes/tail.h), over the
+// layers behind them.
+Target draw_tail(Region& region, const ListingInputs& inputs, const DualTargets& t) {
+    TailTargets tail{region, *inputs.options.tail, inputs, t.back};
+    PassState state = tail.state();
+    state.reads = {t.min_max, region.opaque_depth()};
+    const DepthCompare compare = region.frame().depth_compare();
+    state.needs.code = false;
+    state.needs.reference = !compare.is_plain();
+    static_cast<void>(
+        region.draw(state, region.frame().second_list(), [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            tail.write(in, out);
+            PeelLanes side;
+            classify(compare, in, own.color(0), own.depth(1), side);
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                out.alive[i] &= side.is_near[i] | side.is_between[i] | side.is_far[i];
+        }));
+    return tail.resolve();
+}
 
-void run(Region& region) {
+void run(Region& region, const ListingInputs& inputs) {
     const auto rg = Format::rg32f;
     DualTargets t{region.make(rg),
                   region.make(rg),
@@ -116,8 +135,13 @@ void run(Region& region) {
         if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::yes))) break;
     }
     layers.end();
-    publish_over(region, t.front, FrontAlpha::covers, t.back);
+    const bool has_tail = inputs.options.tail.value_or(Tail::none) != Tail::none;
+    publish_over(region, t.front, FrontAlpha::covers, has_tail ? draw_tail(region, inputs, t) : t.back);
 }
+
+void run_plain(Region& region) { run(region, {}); }
+
+}  // namespace
 
 std::vector<Algorithm> entries() {
     return {Algorithm{.name = "dual",
@@ -132,7 +156,8 @@ std::vector<Algorithm> entries() {
                       .makes_layers = true,
                       .takes_both_ends = true,
                       .geometry_passes = [](int layers) { return 1 + std::max(1, (layers + 1) / 2); },
-                      .run = run,
+                      .run = run_plain,
+                      .run_with = run,
                       .resolve_loop = dual_resolve,
                       .features = {float_targets, fragment_programs},
                       .render_targets = 3}};

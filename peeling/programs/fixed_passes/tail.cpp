@@ -9,10 +9,14 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-TailTargets::TailTargets(Region& region, Tail tail, const ListingInputs& inputs)
-    : region_{region}, tail_{tail}, inputs_{inputs}, color_{region.make_color()} {
+TailTargets::TailTargets(Region& region, Tail tail, const ListingInputs& inputs, Target behind)
+    : region_{region},
+      tail_{tail},
+      inputs_{inputs},
+      behind_{behind.exists() ? behind : region.opaque_color()},
+      color_{region.make_color()} {
     region.set_name(color_, "tail");
-    region.copy(region.opaque_color(), color_);
+    copy_color(region, behind_, color_);
     if (tail == Tail::none || tail == Tail::blend) return;
     const bool wide = region.frame().color_format == Format::rgba32f;
     sums_ = region.make(wide ? Format::rgba32f : Format::rgba16f);
@@ -63,7 +67,7 @@ Target TailTargets::resolve() {
     if (tail_ == Tail::none || tail_ == Tail::blend) return color_;
     PassState state;
     state.color[0] = color_;
-    state.reads = {sums_, other_, region_.opaque_color()};
+    state.reads = {sums_, other_, behind_};
     static_cast<void>(region_.full_screen(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
         const ColorLanes& sums = own.color(0);
         if (tail_ == Tail::average)

@@ -150,3 +150,44 @@ TEST_CASE("front_to_back that stops early composites the tail of the remaining f
               return core_over_tail(scene.pixels[p], split_model(scene.pixels[p], 1, false), Tail::blend);
           }) == "");
 }
+
+namespace {
+
+// After `peels` peels of two layers each: those in front over the rest, and that over the layers behind it. Without
+// ties.
+Color3 between_ends(const GivenPixel& pixel, std::size_t peels, Tail kind) {
+    std::vector<GivenFragment> sorted = visible(pixel), tail;
+    std::ranges::sort(sorted, {}, &GivenFragment::depth);
+    const std::size_t front = std::min(peels, (sorted.size() + 1) / 2), back = std::min(peels, sorted.size() / 2);
+    Color3 color = behind(pixel);
+    for (std::size_t i = 0; i < back; ++i) color = over(layer_of(sorted[sorted.size() - 1 - i]), color);
+    for (const GivenFragment& f : visible(pixel)) {
+        const auto number =
+            static_cast<std::size_t>(std::ranges::find(sorted, f.depth, &GivenFragment::depth) - sorted.begin());
+        if (number >= front && number < sorted.size() - back) tail.push_back(f);
+    }
+    RealLayer all;
+    for (std::size_t i = 0; i < front; ++i) all = joined(all, layer_of(sorted[i]));
+    return over(all, tail_color(tail, color, kind));
+}
+
+}  // namespace
+
+TEST_CASE("dual that stops early composites the tail between its ends over the layers behind it") {
+    const FragmentScene scene = eighths_scene(34, 6, false);
+    for (const int passes : {1, 2, 3, 9})  // the first finds the ends
+        for (const Tail tail : {Tail::none, Tail::blend, Tail::average, Tail::weighted}) {
+            RenderOptions options = eighths_options(scene);
+            options.max_passes = passes;
+            options.algorithm.tail = tail;
+            bool are_alike = true;
+            const RenderResult result = rendered_alike(scene, "dual", options, are_alike);
+            INFO(passes << " passes, tail " << static_cast<int>(tail));
+            const auto expected = [&](std::size_t p) {
+                return between_ends(scene.pixels[p], static_cast<std::size_t>(passes - 1), tail);
+            };
+            const bool is_exact = tail == Tail::none || tail == Tail::blend;
+            CHECK(first_unlike(result.frame.color, expected, is_exact ? 0 : 60 * 0x1p-24) == "");
+            CHECK(are_alike);
+        }
+}

@@ -46,7 +46,9 @@ void add_algorithm_options(CLI::App& app, AlgorithmOptions& options) {
          "a whole number from 1 to 8"},
         from_one_to(peeling::most_nodes));
     add_choice(app, options.tail, "--tail", tails,
-               "fragments beyond those in order (default: blend for atomic_loop, average for hybrid_transparency)");
+               "fragments beyond those in order, of atomic_loop (default blend), hybrid_transparency (default "
+               "average), and of "
+               "front_to_back and dual that end early (default none)");
     add_option(
         app, options.pixel_nodes,
         {"--pixel-nodes", "N", "fragments that linked_list keeps a pixel (default 0: all)", "a whole number from 0"},
