@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "peeling/truth/real_error.h"
+#include "pipeline/frame/counters.h"
 #include "tools/lab/cost/cost_card.h"
 #include "tools/lab/cost/cost_plan.h"
 #include "tools/strata/render/run.h"
