@@ -48,7 +48,7 @@ class ColorPlanes {
         is_flat_ = varying == 0;
         is_grey_ = colorful == 0;
         has_w_ = !is_flat_ && w_ != Corners{1.0f, 1.0f, 1.0f};
-        find_planes(triangle.weights.is_exact());
+        find_planes(triangle.weights.filter_reach());
     }
 
     // True if the whole triangle has one colour, flat(c).
@@ -74,8 +74,8 @@ class ColorPlanes {
 
     // The FilterPlane of each channel. Products with 1 / w are in binary32, as for every attribute
     // (rasterizer/reference/attributes.md 1.1); slopes and errors of all four channels are computed at once.
-    HWY_INLINE void find_planes(bool is_exact) {
-        inverse_w_ = FilterPlane{plane_of(w_), is_exact};
+    HWY_INLINE void find_planes(double reach) {
+        inverse_w_ = FilterPlane{plane_of(w_), reach};
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t c = 0; c < 4; ++c) product_[i][c] = value_[i][c] * w_[i];
         for (std::size_t c = 0; c < 4; ++c) {
@@ -85,7 +85,7 @@ class ColorPlanes {
             d2_[c] = w2 - w0;
             error_[c] = 0.0;
         }
-        for (std::size_t c = 0; is_exact && c < 4; ++c) error_[c] = FilterPlane{plane_of(corners(c)), true}.error;
+        for (std::size_t c = 0; reach > 0.0 && c < 4; ++c) error_[c] = FilterPlane{plane_of(corners(c)), reach}.error;
     }
 
     HWY_INLINE static RationalPlane plane_of(const Corners& v) { return {{v[0], v[1], v[2]}}; }

@@ -59,6 +59,20 @@ struct SamplePoint {
     friend bool operator==(const SamplePoint&, const SamplePoint&) = default;
 };
 
+// Where the values of a fragment that programs read are evaluated, named as GLSL's qualifiers: at the sample, as its
+// coverage and stored depth always are, at the pixel's centre, or at its centroid
+// (rasterizer/reference/coverage.md 12.3).
+enum class Interpolation : std::uint8_t { sample, centre, centroid };
+
+// Which samples a fragment covers beside its geometry, of ARB_multisample (pipeline/reference/fragment-stages.md 13.6).
+struct SampleCoverage {
+    bool by_alpha = false;         // SAMPLE_ALPHA_TO_COVERAGE
+    std::optional<float> value{};  // SAMPLE_COVERAGE: the share of samples
+    bool is_inverted = false;      // its complement
+    std::uint8_t mask = 0xff;      // bit s: sample s
+    friend bool operator==(const SampleCoverage&, const SampleCoverage&) = default;
+};
+
 struct RasterState {
     // The viewport rectangle, which is also the extent of the surface: fragments outside it do not exist.
     Rect viewport;
@@ -71,6 +85,12 @@ struct RasterState {
     // The point of every pixel at which coverage, depth, colours and coordinates are evaluated, for one sample of
     // several. Empty: one sample per pixel, at its centre (coverage.md 12).
     std::optional<SamplePoint> sample;
+    // Not `sample` only with a sample. The centroid also takes the points of all samples of a pixel.
+    Interpolation interpolation = Interpolation::sample;
+    std::array<SamplePoint, 8> samples{};
+    // Not the default only with a sample, whose number it takes.
+    SampleCoverage sample_coverage{};
+    int sample_count = 0, sample_number = 0;  // of a pixel; of this frame
     // ARB_depth_clamp: no clipping at near and far; depth is clamped just before the test.
     bool depth_clamp = false;
     // NV2A's NEARFAR: drops a triangle if all three z are in front of the depth range or all behind it, also with depth

@@ -56,6 +56,19 @@ void check(const RasterState& state) {
         its.within("sample.x", state.sample->x, 0, 15);
         its.within("sample.y", state.sample->y, 0, 15);
     }
+    its.listed("interpolation", state.interpolation);
+    if (state.interpolation != Interpolation::sample && !state.sample)
+        its.fail(FieldName{"interpolation"}, "sample in a frame without a sample",
+                 static_cast<int>(state.interpolation));
+    const SampleCoverage& coverage = state.sample_coverage;
+    if (coverage.value && !(*coverage.value >= 0 && *coverage.value <= 1))
+        its.fail(FieldName{"sample_coverage.value"}, "a number from 0 to 1", *coverage.value);
+    const bool is_centroid = state.interpolation == Interpolation::centroid;
+    its.within("sample_count", state.sample_count, is_centroid ? 1 : 0, static_cast<int>(state.samples.size()));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(state.sample_count); ++i) {
+        its.within({"samples.x", i}, state.samples[i].x, 0, 15);
+        its.within({"samples.y", i}, state.samples[i].y, 0, 15);
+    }
     its.finite("depth_near", state.depth_near);
     its.finite("depth_far", state.depth_far);
     its.finite("w_scale", state.w_scale);

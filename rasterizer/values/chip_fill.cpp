@@ -91,8 +91,8 @@ bool FragmentValues::fill_chip_depth(const DrawnTriangle& triangle, int first, F
         const RationalPlane plane{z, 1.0, z_units_};
         if (plane.is_constant()) return false;
         const DepthLanes out{to_code_, &batch.shader_z[f], nullptr, &weights.b1[f], &weights.b2[f]};
-        if (kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
-                           batch.count - first, out))
+        if (kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.filter_reach()}, &batch.x[f],
+                           &batch.y[f], batch.count - first, out))
             return false;
     } else if (needs_plane_weights_ || needs_.reference) {
         fill_weights(triangle, first, batch, weights);

@@ -37,7 +37,7 @@ void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3
         dividend.v[i] = double{u[i]} * double{inverse_w[i]};
         divisor.v[i] = double{inverse_w[i]};
     }
-    const FilterPlane over{dividend, lanes.is_exact}, under{divisor, lanes.is_exact};
+    const FilterPlane over{dividend, lanes.reach}, under{divisor, lanes.reach};
     const bool divides = has_w(inverse_w);
     for (int i = 0; i < lanes.count; ++i) {
         const double b1 = lanes.weight1[i], b2 = lanes.weight2[i];
@@ -142,7 +142,7 @@ void float32_plane_depth(const SetupTriangle& t, const RasterRules& rules, const
 }
 
 void plane_depth(const SetupTriangle& t, const TriangleLanes& lanes, double* out) noexcept {
-    const FilterPlane plane{RationalPlane{t.z}, lanes.is_exact};
+    const FilterPlane plane{RationalPlane{t.z}, lanes.reach};
     for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
 }
 

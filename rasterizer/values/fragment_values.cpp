@@ -121,7 +121,7 @@ TriangleLanes FragmentValues::lanes(const DrawnTriangle& triangle, const Triangl
                                     const FragmentBatch& batch, const WeightLanes& weights) const noexcept {
     const auto f = static_cast<std::size_t>(first);
     return {&edges,         rules_.subpixel_bits, &batch.x[f],         &batch.y[f],
-            &weights.b1[f], &weights.b2[f],       batch.count - first, triangle.weights.is_exact()};
+            &weights.b1[f], &weights.b2[f],       batch.count - first, triangle.weights.filter_reach()};
 }
 
 void FragmentValues::fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
@@ -153,8 +153,8 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
     const DepthLanes out{to_code_, needs_.shader_z ? &batch.shader_z[f] : nullptr,
                          needs_.code ? &batch.code[f] : nullptr, needs_attributes_ ? &weights.b1[f] : nullptr,
                          needs_attributes_ ? &weights.b2[f] : nullptr};
-    return !kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
-                           batch.count - first, out);
+    return !kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.filter_reach()}, &batch.x[f],
+                           &batch.y[f], batch.count - first, out);
 }
 
 // depth[0] belongs to fragment `first`.

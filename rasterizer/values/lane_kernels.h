@@ -190,7 +190,7 @@ inline bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noex
     Lanes<float> inverse_w;
     bool unsure = false;
     const auto round_all = [&](const RationalPlane& plane, float* out) {
-        const FilterPlane filter{plane, lanes.is_exact};
+        const FilterPlane filter{plane, lanes.reach};
         unsure |= round(filter, lanes.weight1, lanes.weight2, lanes.count, out);
     };
     for (std::size_t k = 0; k < a.constant_count; ++k) std::fill_n(a.constant[k].out, lanes.count, a.constant[k].value);

@@ -72,8 +72,8 @@ template <bool exact>
 HWY_INLINE bool attributes_of(const AttributeLanes& a, const TriangleLanes& lanes) {
     const F64 d;
     FilterPlane planes[attribute_count + 1];
-    for (std::size_t k = 0; k < a.count; ++k) planes[k] = FilterPlane{a.plane[k], exact};
-    planes[a.count] = FilterPlane{a.inverse_w, exact};
+    for (std::size_t k = 0; k < a.count; ++k) planes[k] = FilterPlane{a.plane[k], lanes.reach};
+    planes[a.count] = FilterPlane{a.inverse_w, lanes.reach};
     auto unsure = hn::Zero(U32{});
     const auto value = [&](const FilterPlane& plane, const Weights& b) HWY_ATTR {
         const V64 v = plane_at(plane, b);
@@ -99,7 +99,7 @@ void fill(float value, int count, float* out) {
 bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noexcept {
     for (std::size_t k = 0; k < a.constant_count; ++k) fill(a.constant[k].value, lanes.count, a.constant[k].out);
     if (a.count == 0) return false;
-    return lanes.is_exact ? attributes_of<true>(a, lanes) : attributes_of<false>(a, lanes);
+    return lanes.reach > 0.0 ? attributes_of<true>(a, lanes) : attributes_of<false>(a, lanes);
 }
 
 template <bool unsnapped, bool by_rows>

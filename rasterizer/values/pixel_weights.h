@@ -28,8 +28,9 @@ struct PixelWeights {
     };
 
     Kind kind = Kind::unsnapped;
-    double r;     // 1 / A, of the snapped or unsnapped corners
-    double area;  // A of the snapped corners; not set for unsnapped ones
+    double r;            // 1 / A, of the snapped or unsnapped corners
+    double area;         // A of the snapped corners; not set for unsnapped ones
+    double reach = 1.0;  // the greatest |b1| + |b2| of the pixels that are asked, at least 1: more outside the triangle
     EdgePlane e1, e2;
     double x0, y0, x1, y1, x2, y2;  // unsnapped corner 0, and corners 1 and 2 relative to it
 
@@ -52,7 +53,8 @@ struct PixelWeights {
         snap(geometry, triangle);
     }
     PixelWeights(EdgesAlone, const TriangleGroup& group, std::size_t k) noexcept : r{1.0} { snap(group, k); }
-    [[nodiscard]] bool is_exact() const noexcept { return kind != Kind::unsnapped; }
+    // For the filter of plane.h.
+    [[nodiscard]] double filter_reach() const noexcept { return kind != Kind::unsnapped ? reach : 0.0; }
 
   private:
     void snap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {

@@ -89,7 +89,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
         for (int i = 0; i < padded(count); ++i) out[i] = value;
         return 0;
     }
-    const FilterPlane filter{plane, lanes.is_exact};
+    const FilterPlane filter{plane, lanes.reach};
     const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
     // The first loop only finds whether any lane is undecided; almost always none is.
     if (!unsure) return 0;  // always so for inexact planes: their filter has no error
@@ -105,12 +105,12 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRoun
         for (int i = 0; i < padded(count); ++i) out[i] = code;
         return 0;
     }
-    const FilterPlane filter{plane, lanes.is_exact};
+    const FilterPlane filter{plane, lanes.reach};
     const double* __restrict b1 = lanes.weight1;
     const double* __restrict b2 = lanes.weight2;
     const ToCode to_code{static_cast<double>(rounding.max)};
     const double half = rounding.half;
-    const double error = lanes.is_exact ? filter.error + 0x1p-47 : 0.0;  // adding 1/2 rounds once more
+    const double error = lanes.reach > 0.0 ? filter.error + 0x1p-47 : 0.0;  // adding 1/2 rounds once more
     std::uint32_t unsure = 0;
     for (int i = 0; i < padded(count); ++i) {
         const RoundedEnds ends = rounded_ends(filter.at(b1[i], b2[i]) + half, error, to_code);

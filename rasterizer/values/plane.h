@@ -7,10 +7,11 @@
 // Numbers  Filter: b_i = e_i r with r = 1/A, v = w0 + (b1 (w1 - w0) + b2 (w2 - w0)), w_i = v_i N / D, all in binary64.
 //          With u = 2^-53 and M = max |w_i|: w_i is within 2u M; a difference within 6u M and at most 2M; b_i within 4u
 //          b_i (rounded e, A, 1/A, product) plus, for A > 2^53, 4u absolute (e is stepped along the span in binary64);
-//          b1 + b2 <= 1. So the products are within 4u 2M + u 2M + 6u M + 8u 2M = 32u M, their sum adds 2u M, the last
-//          sum with w0's own error 3u M, together less than 40u M; terms of second order stay below u M. The filter
-//          uses 64u M = 2^-47 M, plus 2^-1000 for underflow. If V - error and V + error round to the same value, V does
-//          too; otherwise exact_float and exact_code decide.
+//          b1 + b2 <= 1 in the triangle. So the products are within 4u 2M + u 2M + 6u M + 8u 2M = 32u M, their sum adds
+//          2u M, the last sum with w0's own error 3u M, together less than 40u M; terms of second order stay below u M.
+//          The filter uses 64u M = 2^-47 M, plus 2^-1000 for underflow. Outside the triangle every term grows at most
+//          with the greatest |b1| + |b2|, and so does the filter (`reach`). If V - error and V + error round to the
+//          same value, V does too; otherwise exact_float and exact_code decide.
 // Tests    tests/rasterizer/values/plane_test.cpp
 #pragma once
 #include <algorithm>
@@ -69,7 +70,9 @@ struct TriangleLanes {
     const double* weight1;  // b1 and b2
     const double* weight2;
     int count;
-    bool is_exact;  // the weights are those of the snapped triangle; otherwise the binary64 value is the plane's value
+    // The greatest |b1| + |b2|, at least 1, if the weights are those of the snapped triangle; 0: the binary64 value is
+    // the plane's value.
+    double reach;
 
     [[nodiscard]] EdgeValues edge_values(int i) const noexcept {
         return edges->at(pixel_centre(x[i], y[i], subpixel_bits));
@@ -81,7 +84,7 @@ struct FilterPlane {
     double w0 = 0.0, d1 = 0.0, d2 = 0.0, error = 0.0;
 
     FilterPlane() = default;
-    FilterPlane(const RationalPlane& plane, bool is_exact) noexcept {
+    FilterPlane(const RationalPlane& plane, double reach) noexcept {
         const double n = plane.numerator, d = plane.denominator;
         const double scale = n == d ? 1.0 : n / d;  // 1, N or 1 / D: rounded at most once
         w0 = plane.v[0] * scale;
@@ -89,7 +92,7 @@ struct FilterPlane {
         d1 = w1 - w0;
         d2 = w2 - w0;
         const auto size = [](double w) { return w < 0.0 ? -w : w; };
-        error = is_exact ? 0x1p-47 * std::max({size(w0), size(w1), size(w2)}) + 0x1p-1000 : 0.0;
+        error = reach * (0x1p-47 * std::max({size(w0), size(w1), size(w2)}) + 0x1p-1000);
     }
     [[nodiscard]] double at(double b1, double b2) const noexcept { return w0 + (b1 * d1 + b2 * d2); }
 };

@@ -67,7 +67,7 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
-    return FilterPlane{plane, triangle.weights.is_exact()};
+    return FilterPlane{plane, triangle.weights.filter_reach()};
 }
 
 // Replaces the covered values that the filter could not decide by the exact ones.

@@ -16,7 +16,7 @@ namespace {
     return chosen_simd() >= Simd::avx2 && geometry.state.depth_order == DepthOrder::less &&
            !geometry.state.window_positions && geometry.rules.plane_rule == PlaneRule::exact &&
            geometry.rules.coverage == CoverageRule::snapped_edges && geometry.rules.subpixel_bits <= 8 &&
-           region.width() <= max_row_pixels;
+           region.width() <= max_row_pixels && geometry.state.interpolation == Interpolation::sample;
 }
 
 }  // namespace

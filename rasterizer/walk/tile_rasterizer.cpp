@@ -2,13 +2,24 @@
 // one of three walks: small triangles as bit masks, large ones by spans, float spans.
 #include "rasterizer/walk/tile_rasterizer.h"
 
+#include <memory>
 #include <optional>
 
 #include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/triangle_walk.h"
 #include "rasterizer/values/fragment_values.h"
+#include "rasterizer/walk/pixel_shading.h"
 
 namespace strata::rasterizer {
+
+namespace {
+
+[[nodiscard]] bool is_shaded_apart(const Geometry& geometry) noexcept {
+    return geometry.state.interpolation != Interpolation::sample;
+}
+
+}  // namespace
+
 // One call of draw: its constants, and the batch being filled.
 class TileRasterizer::Pass {
   public:
@@ -20,9 +31,11 @@ class TileRasterizer::Pass {
           sink_{sink},
           kernels_{lane_kernels()},
           small_{small_kernels()},
-          values_{geometry, depth, needs},
+          values_{geometry, depth, is_shaded_apart(geometry) ? PixelShading::of_sample(needs) : needs},
           has_colors_{needs.color},
-          rules_{group_rules(geometry, owner.region_)} {}
+          rules_{group_rules(geometry, owner.region_)} {
+        if (is_shaded_apart(geometry)) shading_ = std::make_unique<PixelShading>(geometry, depth, needs);
+    }
 
     void draw(std::span<const std::uint32_t> triangles) {
         flush();  // the claims of an earlier draw do not apply to this one
@@ -139,7 +152,10 @@ class TileRasterizer::Pass {
 
     void fill(const DrawnTriangle& triangle) {
         if (batch_.count == first_) return;
-        owner_.exact_fallbacks_ += static_cast<std::uint64_t>(values_.fill(triangle, first_, batch_, owner_.weights_));
+        int fallbacks = values_.fill(triangle, first_, batch_, owner_.weights_);
+        if (shading_ != nullptr && batch_.count > first_)
+            fallbacks += shading_->fill(triangle.index, first_, batch_, owner_.weights_);
+        owner_.exact_fallbacks_ += static_cast<std::uint64_t>(fallbacks);
         first_ = batch_.count;
     }
 
@@ -150,6 +166,7 @@ class TileRasterizer::Pass {
     const LaneKernels& kernels_;
     const SmallKernels& small_;
     FragmentValues values_;
+    std::unique_ptr<PixelShading> shading_;  // null: all values are those of the sample
     bool has_colors_;
     GroupRules rules_;
     TriangleGroup group_;

@@ -1,0 +1,52 @@
+// rasterizer/walk/pixel_shading.h - the values of a sample's fragments that are evaluated once a pixel, at its centre
+// or centroid.
+//
+// Rule     Coverage, the stored depth and its clip are those of the sample; all else that a program reads is evaluated
+//          at the pixel's centre, or at its centroid: the centre if the triangle covers every sample of the pixel, else
+//          the first sample that it covers. Beyond the triangle its planes go on.
+// Source   rasterizer/reference/coverage.md 12.3.
+// Tests    tests/rasterizer/walk/pixel_shading_test.cpp
+#pragma once
+#include <vector>
+
+#include "rasterizer/values/fragment_values.h"
+
+namespace strata::rasterizer {
+
+class PixelShading {
+  public:
+    // The geometry's state has a sample and an interpolation other than `sample`; the path does not replace depth.
+    PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
+
+    // What the sample itself has of these needs.
+    [[nodiscard]] static FragmentNeeds of_sample(const FragmentNeeds& needs) noexcept;
+
+    // Fragments [first, batch.count) are those of triangle `index`, already filled with the values of the sample.
+    // Returns the number of exact fallbacks.
+    [[nodiscard]] int fill(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights);
+
+  private:
+    // A point of the pixel, a geometry of the triangle that is filled, moved to that point, and its values.
+    struct Point {
+        Geometry one;
+        FragmentValues values;
+        SubpixelPoint moved;  // from the corners of the sample to those of the point
+    };
+
+    [[nodiscard]] Point point_at(SamplePoint point, const DepthRequest& depth) const;
+    void take(std::uint32_t index, Point& point) const;
+    [[nodiscard]] int fill_at(Point& point, int first, FragmentBatch& batch, WeightLanes& weights);
+    [[nodiscard]] int fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights);
+    // The point of fragment `i`: 0 for the centre, 1 + s for sample s.
+    [[nodiscard]] std::size_t centroid_of(const FragmentBatch& batch, std::size_t i) const noexcept;
+    void copy_values(const FragmentBatch& from, std::size_t i, FragmentBatch& to, std::size_t k) const noexcept;
+
+    const Geometry& geometry_;
+    FragmentNeeds needs_;
+    std::vector<Point> points_;         // the centre, then for the centroid the samples
+    std::vector<TriangleEdges> edges_;  // of the current triangle at each sample
+    FragmentBatch few_;                 // fragments of one point
+    WeightLanes few_weights_{};
+};
+
+}  // namespace strata::rasterizer

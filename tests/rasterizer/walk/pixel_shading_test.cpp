@@ -1,0 +1,137 @@
+// Tests values at a pixel's centre and centroid, also far outside slivers, against exact planes in rationals; coverage
+// and codes against those of the sample's own frame.
+#include "rasterizer/walk/pixel_shading.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "rasterizer/base/simd.h"
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/scene.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+constexpr std::array<SamplePoint, 4> four_points{{{6, 2}, {14, 6}, {2, 10}, {10, 14}}};
+constexpr int shaded_width = 24, shaded_height = 20;
+
+[[nodiscard]] RasterState shaded_state(std::size_t sample, Interpolation interpolation) {
+    RasterState state = scene_state(shaded_width, shaded_height);
+    state.cull = CullFace::none;
+    state.sample = four_points[sample];
+    state.interpolation = interpolation;
+    if (interpolation != Interpolation::centroid) return state;
+    state.sample_count = 4;
+    std::copy(four_points.begin(), four_points.end(), state.samples.begin());
+    return state;
+}
+
+// Every third triangle becomes a sliver, some thinner than a subpixel is wide.
+[[nodiscard]] TriangleSoup soup_with_slivers(SoupKind kind) {
+    TriangleSoup soup = random_soup(2031, 60, kind);
+    for (std::size_t t = 0; t < 60; t += 3) {
+        const auto &a = soup.vertices[3 * t], &b = soup.vertices[3 * t + 1];
+        ClipVertex& c = soup.vertices[3 * t + 2];
+        c.w = a.w;
+        c.x = (a.x / a.w * 0.5f + b.x / b.w * 0.5f) * c.w + 0.0008f;
+        c.y = (a.y / a.w * 0.5f + b.y / b.w * 0.5f) * c.w;
+    }
+    return soup;
+}
+
+struct ShadedPoint {
+    std::array<Rational, 3> weight;
+    bool is_covered = true;
+};
+// The weights of point `at` of pixel (x, y), and whether it belongs to the triangle.
+[[nodiscard]] ShadedPoint shaded_point(const std::array<SubpixelPoint, 3>& p, int x, int y, SamplePoint at, int bits) {
+    const int unit = 1 << bits;
+    const SubpixelPoint q{x * unit + at.x * unit / 16, y * unit + at.y * unit / 16};
+    const Integer area = doubled_area(p[0], p[1], p[2]);
+    ShadedPoint point;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const SubpixelPoint a = p[(i + 1) % 3], b = p[(i + 2) % 3];
+        const Integer side = area > 0 ? doubled_area(a, b, q) : Integer{-doubled_area(a, b, q)};
+        const int dx = area > 0 ? b.x - a.x : a.x - b.x, dy = area > 0 ? b.y - a.y : a.y - b.y;
+        point.is_covered &= side > 0 || (side == 0 && (dy < 0 || (dy == 0 && dx > 0)));
+        point.weight[i] = Rational{side} / Rational{abs(area)};
+    }
+    return point;
+}
+
+// The centre if all samples are covered, else the first that is.
+[[nodiscard]] SamplePoint model_centroid(const std::array<SubpixelPoint, 3>& p, int x, int y, int bits) {
+    std::vector<SamplePoint> covered;
+    for (const SamplePoint& at : four_points)
+        if (shaded_point(p, x, y, at, bits).is_covered) covered.push_back(at);
+    return covered.size() == four_points.size() ? SamplePoint{} : covered.front();
+}
+
+// Red by the rule of perspective: both planes rounded once, then their quotient.
+[[nodiscard]] float model_red(const SetupTriangle& t, const std::array<Rational, 3>& weight) {
+    std::array<float, 3> over_w{};
+    for (std::size_t i = 0; i < 3; ++i) over_w[i] = t.attribute[i][0] * t.inverse_w[i];
+    const float dividend = nearest_float(plane_value(weight, over_w));
+    const bool is_flat = t.inverse_w == std::array{1.0f, 1.0f, 1.0f};
+    return is_flat ? dividend : dividend / nearest_float(plane_value(weight, t.inverse_w));
+}
+
+struct ShadingFaults {
+    std::uint64_t coverage = 0, codes = 0, depths = 0, colors = 0, fragments = 0, outside = 0, far_outside = 0;
+};
+
+void compare_with_planes(SoupKind kind, std::size_t sample, Interpolation interpolation, int bits,
+                         ShadingFaults& faults) {
+    const auto soup = soup_with_slivers(kind);
+    const RasterRules rules{.subpixel_bits = bits};
+    RasterState plain = shaded_state(sample, Interpolation::sample), unsampled = plain;
+    unsampled.sample.reset();
+    const Geometry centre = set_up(soup, unsampled, rules, 1);
+    std::map<std::array<int, 3>, Fragment> own;
+    for (const Fragment& f : draw(set_up(soup, plain, rules, 1)).fragments)
+        own[{static_cast<int>(f.primitive), f.x, f.y}] = f;
+    std::map<int, SetupTriangle> triangles;
+    for (std::size_t t = 0; t < centre.triangles.size(); ++t)
+        triangles[static_cast<int>(centre.triangles[t].primitive)] = centre.triangle(t);
+    const auto drawn = draw(set_up(soup, shaded_state(sample, interpolation), rules, 1)).fragments;
+    faults.coverage += drawn.size() == own.size() ? 0 : 1;
+    for (const Fragment& f : drawn) {
+        const auto found = own.find({static_cast<int>(f.primitive), f.x, f.y});
+        const auto triangle = triangles.find(static_cast<int>(f.primitive));
+        if (found == own.end()) ++faults.coverage;
+        if (found == own.end() || triangle == triangles.end()) continue;  // drawn at no centre: its corners are unknown
+        const SetupTriangle& t = triangle->second;
+        const SamplePoint at =
+            interpolation == Interpolation::centroid ? model_centroid(t.p, f.x, f.y, bits) : SamplePoint{};
+        const ShadedPoint point = shaded_point(t.p, f.x, f.y, at, bits);
+        ++faults.fragments;
+        faults.outside += point.is_covered ? 0 : 1;
+        faults.far_outside += abs(point.weight[2]) > 25 ? 1 : 0;
+        faults.codes += f.code != found->second.code ? 1 : 0;
+        faults.depths += f.shader_z != nearest_float(plane_value(point.weight, t.z)) ? 1 : 0;
+        faults.colors += f.color[0] != model_red(t, point.weight) ? 1 : 0;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("values at centre and centroid are those of exact planes and codes those of the sample") {
+    for (const Interpolation interpolation : {Interpolation::centre, Interpolation::centroid})
+        for (const strata::Simd simd : strata::available_simd()) {
+            const strata::SimdScope scope{simd};
+            ShadingFaults faults;
+            for (const int bits : {4, 8})
+                for (const std::size_t sample : {0u, 3u})
+                    for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective})
+                        compare_with_planes(kind, sample, interpolation, bits, faults);
+            CHECK(faults.coverage == 0);
+            CHECK(faults.codes == 0);
+            CHECK(faults.depths == 0);
+            CHECK(faults.colors == 0);
+            CHECK(faults.fragments > 5000);
+            CHECK((faults.outside > 300) == (interpolation == Interpolation::centre));
+            CHECK((faults.far_outside > 0) == (interpolation == Interpolation::centre));
+            if (interpolation == Interpolation::centroid) CHECK(faults.outside == 0);
+        }
+}
