@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/require.h"
 
 namespace strata::peeling {
@@ -79,6 +80,36 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     if (depth.reference)
         if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
     return check(profile, depth.path);
+}
+
+Verdict check_order(const RenderOptions& options, DepthFormat format, bool casts_shadows) {
+    if (options.raster.depth_order == rasterizer::DepthOrder::less) {
+        if (options.raster.depth_near > options.raster.depth_far)
+            return Refusal{"peeling with LESS over a reversed depth range", "",
+                           "use a depth range with near below far, or --depth-order greater"};
+        return std::nullopt;
+    }
+    if (format != DepthFormat::d32f)
+        return Refusal{"peeling with GREATER over fixed-point depth", "",
+                       "use --depth-format d32f, where reversed depth gains anything"};
+    if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
+        return Refusal{"reversed depth together with depths that are compared between codes", "",
+                       "use --compare-epsilon in ulp"};
+    if (casts_shadows)
+        return Refusal{"reversed depth together with a light that casts shadows", "", "use --depth-order less"};
+    return std::nullopt;
+}
+
+Verdict check_shading(const DeviceProfile& profile, const Algorithm& algorithm, const rasterizer::DepthRequest& depth,
+                      rasterizer::Interpolation interpolation) {
+    if (interpolation == rasterizer::Interpolation::sample) return std::nullopt;
+    if (auto lacking = check_interpolation(profile, interpolation)) return lacking;
+    if (depth.path == rasterizer::DepthPath::depth_replace)
+        return Refusal{"shading once a pixel of a program that replaces depth", "", "use --shading sample"};
+    if (algorithm.compares_own_codes)
+        return Refusal{"shading once a pixel of " + algorithm.name + ", which compares its own stored depths", "",
+                       "use --shading sample, or front_to_back, dual, dual_independent or depth_units"};
+    return std::nullopt;
 }
 
 bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept {

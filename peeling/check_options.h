@@ -16,6 +16,15 @@ void check_options(const RenderOptions& options);
 [[nodiscard]] pipeline::Verdict check_depth(const pipeline::DeviceProfile& profile,
                                             const rasterizer::DepthRequest& depth);
 
+// Reversed depth needs float codes (rasterizer/rules/depth_key.h); a light's shadow map would need both orders.
+[[nodiscard]] pipeline::Verdict check_order(const RenderOptions& options, pipeline::DepthFormat format,
+                                            bool casts_shadows);
+
+// Programs that run once a pixel: what is not known there, and algorithms that compare what each sample stores.
+[[nodiscard]] pipeline::Verdict check_shading(const pipeline::DeviceProfile& profile, const Algorithm& algorithm,
+                                              const rasterizer::DepthRequest& depth,
+                                              rasterizer::Interpolation interpolation);
+
 // True if a w buffer, which stores w, is compared with another path's depth, which has another scale, or the reverse.
 [[nodiscard]] bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept;
 

@@ -75,16 +75,6 @@ struct Passes {
         options.window_origin = e.moved_window;
         return keyed(Machine{list, machine.view, machine.profile}.fragments(options, algorithm), algorithm.key);
     }
-
-  private:
-    // An algorithm that peels by the shader's float depth names its layers by the ordered bits of that float, but
-    // captures contain the stored code.
-    [[nodiscard]] static FrameFragments keyed(FrameFragments fragments, DepthKey key) {
-        if (key == DepthKey::stored_code) return fragments;
-        for (CapturedFragment& f : fragments.all) f.code = ordered_code(f.shader_z);
-        for (std::uint32_t& opaque : fragments.opaque) opaque = ordered_code(std::bit_cast<float>(opaque));
-        return fragments;
-    }
 };
 
 const Algorithm& unsorted_algorithm() {
@@ -167,6 +157,13 @@ Advice advice_for(const Experiment& e, rasterizer::OffsetUnit unit, const std::v
 }
 
 }  // namespace
+
+FrameFragments keyed(FrameFragments fragments, DepthKey key) {
+    if (key == DepthKey::stored_code) return fragments;
+    for (CapturedFragment& f : fragments.all) f.code = ordered_code(f.shader_z);
+    for (std::uint32_t& opaque : fragments.opaque) opaque = ordered_code(std::bit_cast<float>(opaque));
+    return fragments;
+}
 
 Measurement measure(const DrawList& list, const View& view, const DeviceProfile& profile, const Experiment& e) {
     const Machine machine{list, view, profile};

@@ -25,6 +25,8 @@ struct View;
 
 namespace strata::peeling {
 
+struct FrameFragments;  // peeling/render.h
+
 struct Experiment {
     // Size, format, alpha, the remedy, and what later passes draw (second list, vertex path, clamp). The experiment
     // sets depth_path, reference_path, max_passes and audit itself.
@@ -61,6 +63,10 @@ struct Measurement {
     pipeline::Image picture, truth;
     double seconds = 0;  // duration of the peel's passes
 };
+
+// The fragments with their keys as codes: an algorithm that peels by the program's float depth names its layers by the
+// ordered bits of that float, but captures contain the stored code.
+[[nodiscard]] FrameFragments keyed(FrameFragments fragments, pipeline::DepthKey key);
 
 // If the profile lacks a required feature, the result has a refusal; no exception is thrown.
 [[nodiscard]] Measurement measure(const pipeline::DrawList& list, const pipeline::View& view,

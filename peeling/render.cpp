@@ -70,15 +70,22 @@ struct Renderer::State {
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
         const bool counts_nodes = algorithm.shares_nodes && options.algorithm.frame_nodes > 0;
-        return algorithm.whole_frame || counts_across || counts_nodes || options.counters ? Execution::literal
-                                                                                          : options.execution;
+        const bool is_group = instruments.samples.group != nullptr;
+        const bool covers_apart = options.raster.sample_coverage != rasterizer::SampleCoverage{};
+        return algorithm.whole_frame || covers_apart || counts_across || counts_nodes || options.counters || is_group
+                   ? Execution::literal
+                   : options.execution;
     }
 
     // Adds reasons that the executor does not know. An algorithm of one pass gains nothing from a record.
     void note_path(const Algorithm& algorithm, const Instruments& instruments, Work& work) const {
         if (work.path == Path::tiled && !algorithm.draws_again()) work.why.clear();
         if (work.path != Path::literal) return;
-        if (options.counters)
+        if (instruments.samples.group != nullptr)
+            work.why = "loads of another sample need all samples step by step";
+        else if (options.raster.sample_coverage != rasterizer::SampleCoverage{})
+            work.why = "sample coverage and alpha to coverage are applied in every pass";
+        else if (options.counters)
             work.why = "--counters counts in literal execution";
         else if (options.execution == Execution::literal)
             work.why = "--execution literal";
@@ -132,6 +139,10 @@ struct Renderer::State {
             f.depth.path == rasterizer::DepthPath::depth_replace &&
             f.depth.reference == rasterizer::DepthPath::perspective_rq)
             return static_cast<int>(2 * std::min(f.transparent->geometry.triangles.size(), most - 1) + 2);
+        return double_limit(f);
+    }
+
+    [[nodiscard]] int double_limit(const Frame& f) {
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -156,6 +167,7 @@ struct Renderer::State {
         f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = quantizes();
+        f.compares_at_pixel = shades_pixels();
         f.depth = depth_of(algorithm);
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
@@ -202,9 +214,10 @@ struct Renderer::State {
         if (options.back_format && !algorithm.takes_both_ends)
             return Refusal{"back of its own in " + algorithm.name + ", which composites at one end", "",
                            "use dual or dual_independent"};
-        if (auto lacking = check_order()) return lacking;
+        if (auto lacking = check_order(options, depth.format, lists.settings().list.light.has_value())) return lacking;
         if (options.raster.depth_clamp)
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
+        if (auto lacking = check_shading(profile, algorithm, request, options.raster.interpolation)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "",
                            "use dual or front_to_back"};
@@ -219,27 +232,8 @@ struct Renderer::State {
         return options.quantize_reference && profile.raster.hypothesis.quantize_reference;
     }
 
-    // Reversed depth needs float codes (rasterizer/rules/depth_key.h); a light's shadow map would need both orders.
-    [[nodiscard]] Verdict check_order() const {
-        if (!is_reversed()) {
-            if (options.raster.depth_near > options.raster.depth_far)
-                return Refusal{"peeling with LESS over a reversed depth range", "",
-                               "use a depth range with near below far, or --depth-order greater"};
-            return std::nullopt;
-        }
-        if (depth.format != DepthFormat::d32f)
-            return Refusal{"peeling with GREATER over fixed-point depth", "",
-                           "use --depth-format d32f, where reversed depth gains anything"};
-        if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
-            return Refusal{"reversed depth together with depths that are compared between codes", "",
-                           "use --compare-epsilon in ulp"};
-        if (lists.settings().list.light)
-            return Refusal{"reversed depth together with a light that casts shadows", "", "use --depth-order less"};
-        return std::nullopt;
-    }
-
-    [[nodiscard]] bool is_reversed() const noexcept {
-        return options.raster.depth_order == rasterizer::DepthOrder::greater;
+    [[nodiscard]] bool shades_pixels() const noexcept {
+        return options.raster.interpolation != rasterizer::Interpolation::sample;
     }
 
     [[nodiscard]] AsShown shown() const noexcept { return {options, profile}; }
@@ -255,6 +249,7 @@ struct Renderer::State {
                    const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
         Frame f = frame(algorithm);
         was_invariant = f.is_invariant();
+        if (instruments.samples.group != nullptr && !limits_passes()) f.max_passes = double_limit(f);
         if (traces != nullptr) {
             f.trace = true;
             f.trace_bytes = ~std::uint64_t{0};
@@ -343,9 +338,10 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
     return state_->render(algorithm, progress, instruments, nullptr);
 }
 
-RenderResult Renderer::render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces) {
+RenderResult Renderer::render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces,
+                                     const Instruments& instruments) {
     const SimdScope kernels{state_->options.simd};
-    return state_->render(algorithm, {}, {}, &traces);
+    return state_->render(algorithm, {}, instruments, &traces);
 }
 
 RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, const Instruments& instruments) {

@@ -71,7 +71,8 @@ class Renderer {
                                       const pipeline::Instruments& instruments = {});
 
     // Renders without an audit; `traces` receives the trace of every region.
-    [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
+    [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces,
+                                             const pipeline::Instruments& instruments = {});
 
     // One depth pass of the same triangles drawn as opaque (LESS, no colour), as a baseline for the cost of peeling.
     // The depths are in frame.depth.

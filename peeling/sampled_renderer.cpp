@@ -3,12 +3,16 @@
 #include "peeling/sampled_renderer.h"
 
 #include <algorithm>
+#include <exception>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "peeling/audit/pixel_audit.h"
+#include "peeling/audit/region_trace.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
+#include "pipeline/frame/sample_group.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/require.h"
 
@@ -38,6 +42,9 @@ void add_sample(const PassCount& one, PassCount& most) {
     most.full_screen = std::max(most.full_screen, one.full_screen);
     most.copies = std::max(most.copies, one.copies);
 }
+
+// More than any frame's fragments take.
+constexpr std::uint64_t joint_memory = std::uint64_t{1} << 44;
 
 // Combines the frames of the samples: images are resolved; counts are added, or their maximum is taken.
 class SampleSum {
@@ -106,13 +113,14 @@ struct SampledRenderer::State {
     View view;
     DeviceProfile profile;
     RenderOptions options;
-    int samples;
-    Resolve resolve = Resolve::box;
+    Multisampling sampling;
     std::vector<std::unique_ptr<Renderer>> renderers{};
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
+        const int samples = sampling.samples;
         if (auto lacking = check_multisampling(profile, samples)) return lacking;
-        if (resolve == Resolve::quincunx && (samples != 2 || profile.sample_positions != SamplePositions::nv20))
+        if (sampling.resolve == Resolve::quincunx &&
+            (samples != 2 || profile.sample_positions != SamplePositions::nv20))
             return Refusal{"Quincunx filter of " + std::to_string(samples) + " samples", "NV_multisample_filter_hint",
                            "use --profile geforce3 with --samples 2"};
         if (samples > 1 && algorithm.samples > 1)
@@ -121,19 +129,60 @@ struct SampledRenderer::State {
         return std::nullopt;
     }
 
+    // Calls `run` for each sample: one after the other, or, if one loads what another stores, all at once.
+    template <class Run>
+    [[nodiscard]] std::vector<RenderResult> each(const Run& run) {
+        std::vector<RenderResult> results(renderers.size());
+        for (std::size_t number = 0; number < renderers.size(); ++number) {
+            Renderer& own = renderer(number);
+            if (!sampling.is_joint()) results[number] = run(own, number, Instruments{});
+        }
+        if (sampling.is_joint()) run_jointly(results, run);
+        return results;
+    }
+
+    template <class Run>
+    void run_jointly(std::vector<RenderResult>& results, const Run& run) {
+        SampleGroup group{sampling.samples};
+        std::vector<std::exception_ptr> errors(results.size());
+        std::vector<std::thread> threads;
+        for (std::size_t number = 0; number < results.size(); ++number)
+            threads.emplace_back([&, number] {
+                Instruments joint;
+                joint.samples = {&group, static_cast<int>(number), sampling.loads, sampling.composites};
+                try {
+                    results[number] = run(*renderers[number], number, joint);
+                    if (results[number].outcome == Outcome::refused) group.abandon();
+                } catch (const SampleGroup::Abandoned&) {
+                } catch (...) {
+                    errors[number] = std::current_exception();
+                    group.abandon();
+                }
+            });
+        for (std::thread& thread : threads) thread.join();
+        for (const std::exception_ptr& error : errors)
+            if (error) std::rethrow_exception(error);
+    }
+
     Renderer& renderer(std::size_t number) {
         auto& renderer = renderers[number];
         if (renderer) return *renderer;
         RenderOptions own = options;
-        if (samples > 1) own.raster.sample = sample_points(profile.sample_positions, samples)[number];
+        if (sampling.samples > 1)
+            set_sample(own.raster, profile.sample_positions, sampling.samples, number);
+        else if (!own.raster.sample)
+            own.raster.interpolation = rasterizer::Interpolation::sample, own.raster.sample_coverage = {};
+        // No part of a joint frame could be run again alone for the audit.
+        if (sampling.is_joint()) own.threads = 1, own.fragment_memory = joint_memory;
         renderer = std::make_unique<Renderer>(list, view, profile, own);
         return *renderer;
     }
 };
 
 SampledRenderer::SampledRenderer(const DrawList& list, const View& view, const DeviceProfile& profile,
-                                 const RenderOptions& options, int samples, Resolve resolve)
-    : state_{new State{list, view, profile, options, samples, resolve}} {
+                                 const RenderOptions& options, const Multisampling& multisampling)
+    : state_{new State{list, view, profile, options, multisampling}} {
+    const int samples = multisampling.samples;
     if (samples != 1 && samples != 2 && samples != 4 && samples != 8)
         Requirements{"render options"}.fail(FieldName{"samples"}, "1, 2, 4 or 8", samples);
     state_->renderers.resize(static_cast<std::size_t>(samples));
@@ -145,6 +194,21 @@ SampledRenderer::~SampledRenderer() = default;
 
 Renderer& SampledRenderer::sample(std::size_t number) { return state_->renderer(number); }
 
+std::vector<RenderResult> SampledRenderer::render_traced(const Algorithm& algorithm,
+                                                         std::vector<std::vector<RegionTrace>>& traces) {
+    State& s = *state_;
+    if (auto lacking = s.refusal(algorithm)) {
+        std::vector<RenderResult> refused(1);
+        refused[0].outcome = Outcome::refused;
+        refused[0].refusal = std::move(lacking);
+        return refused;
+    }
+    traces.assign(s.renderers.size(), {});
+    return s.each([&](Renderer& renderer, std::size_t number, const Instruments& joint) {
+        return renderer.render_traced(algorithm, traces[number], joint);
+    });
+}
+
 RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress,
                                      std::vector<Image>* own_colors) {
     State& s = *state_;
@@ -154,20 +218,34 @@ RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::func
         refused.refusal = std::move(lacking);
         return refused;
     }
-    if (s.samples == 1) return s.renderer(0).render(algorithm, progress);
+    const int samples = s.sampling.samples;
+    if (samples == 1) return s.renderer(0).render(algorithm, progress);
     std::vector<Image> colors;
-    SampleSum sum{s.samples, s.profile, s.options.raster.depth_order == rasterizer::DepthOrder::greater};
-    for (std::size_t number = 0; number < s.renderers.size(); ++number) {
-        const auto share = [&](double own) { progress((static_cast<double>(number) + own) / s.samples); };
+    SampleSum sum{samples, s.profile, s.options.raster.depth_order == rasterizer::DepthOrder::greater};
+    const bool keeps_colors = own_colors != nullptr || s.sampling.resolve == Resolve::quincunx;
+    const auto add = [&](RenderResult&& one) {
+        if (keeps_colors) colors.push_back(one.frame.color);
+        sum.add(std::move(one));
+    };
+    if (s.sampling.is_joint()) {
+        std::vector<RenderResult> results = s.each([&](Renderer& renderer, std::size_t, const Instruments& joint) {
+            return renderer.render(algorithm, {}, joint);
+        });
+        for (RenderResult& one : results) {
+            if (one.outcome == Outcome::refused) return std::move(one);
+            add(std::move(one));
+        }
+    }
+    for (std::size_t number = 0; !s.sampling.is_joint() && number < s.renderers.size(); ++number) {
+        const auto share = [&](double own) { progress((static_cast<double>(number) + own) / samples); };
         RenderResult one =
             s.renderer(number).render(algorithm, progress ? std::function<void(double)>{share} : nullptr);
         if (one.outcome == Outcome::refused) return one;
-        if (own_colors != nullptr || s.resolve == Resolve::quincunx) colors.push_back(one.frame.color);
-        sum.add(std::move(one));
+        add(std::move(one));
     }
     RenderResult result = std::move(sum).result();
     const bool is_turned = s.profile.origin == Origin::lower_left;
-    if (s.resolve == Resolve::quincunx) result.frame.color = quincunx(colors[0], colors[1], is_turned);
+    if (s.sampling.resolve == Resolve::quincunx) result.frame.color = quincunx(colors[0], colors[1], is_turned);
     if (own_colors != nullptr) *own_colors = std::move(colors);
     return result;
 }

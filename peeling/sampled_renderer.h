@@ -1,10 +1,11 @@
 // peeling/sampled_renderer.h - renders a frame of one or several samples per pixel in one call.
 //
-// Rule     Sample shading: every sample is a frame of its own. Its fragments are evaluated at the sample's position and
-//          composited by the algorithm; then the samples are resolved. Counters, order errors, diagnostics and work are
-//          summed over the samples; passes, layers, the fragments of the deepest pixel and differences are the maximum
-//          of the samples. Layer k of the frame is resolved from layer k, from the same end, of every sample; a sample
-//          without such a layer has codes of 0. Depth is the nearest of the samples.
+// Rule     Every sample is a frame of its own, composited by the algorithm; then the samples are resolved. Sample
+//          shading: fragments are evaluated at the sample's position. Pixel shading (RasterState::interpolation): all
+//          but coverage and the stored depth is evaluated at the pixel's centre or centroid. Counters, order errors,
+//          diagnostics and work are summed over the samples; passes, layers, the fragments of the deepest pixel and
+//          differences are the maximum of the samples. Layer k of the frame is resolved from layer k, from the same
+//          end, of every sample; a sample without such a layer has codes of 0. Depth is the nearest of the samples.
 // Source   pipeline/reference/fragment-stages.md 13
 // Tests    tests/peeling/sampled_renderer_test.cpp
 #pragma once
@@ -14,17 +15,29 @@
 
 #include "peeling/render.h"
 #include "pipeline/formats/resolve.h"
+#include "pipeline/frame/sample_loads.h"
 
 namespace strata::peeling {
 
+// The samples of a pixel, and the ones that programs load. RenderOptions::raster says where programs are evaluated.
+struct Multisampling {
+    int samples = 1;  // 1, 2, 4 or 8
+    pipeline::Resolve resolve = pipeline::Resolve::box;
+    pipeline::LoadedSample loads = pipeline::LoadedSample::own;       // of geometry passes
+    pipeline::LoadedSample composites = pipeline::LoadedSample::own;  // of full-screen passes
+    // Loads of another sample need the frames of all samples together, in literal execution.
+    [[nodiscard]] bool is_joint() const noexcept {
+        return samples > 1 && (loads != pipeline::LoadedSample::own || composites != pipeline::LoadedSample::own);
+    }
+};
+
 class SampledRenderer {
   public:
-    // Throws InputError as Renderer does, and if `samples` is not 1, 2, 4 or 8. `list` must outlive this object.
+    // Throws InputError as Renderer does, and for another number of samples. `list` must outlive this object.
     SampledRenderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
-                    const RenderOptions& options, int samples, pipeline::Resolve resolve = pipeline::Resolve::box);
+                    const RenderOptions& options, const Multisampling& multisampling);
     SampledRenderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
-                    const RenderOptions& options, int samples,
-                    pipeline::Resolve resolve = pipeline::Resolve::box) = delete;
+                    const RenderOptions& options, const Multisampling& multisampling) = delete;
     ~SampledRenderer();
 
     // Renders and resolves. The result has a refusal where Renderer::render has one, if the profile lacks the number of
@@ -32,6 +45,10 @@ class SampledRenderer {
     // unless null, receives the picture of each sample.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       std::vector<pipeline::Image>* own_colors = nullptr);
+
+    // The frame of each sample without an audit, with its traces. Results with a refusal where it is refused.
+    [[nodiscard]] std::vector<RenderResult> render_traced(const Algorithm& algorithm,
+                                                          std::vector<std::vector<RegionTrace>>& traces);
 
     // The renderer of sample `number`, from 0 on. It keeps its prepared lists from frame to frame.
     [[nodiscard]] Renderer& sample(std::size_t number);

@@ -33,6 +33,8 @@ LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const ras
     state.viewport = {0, 0, light.size_px, light.size_px};
     state.scissor.reset();
     state.sample.reset();
+    state.interpolation = rasterizer::Interpolation::sample;
+    state.sample_coverage = {};
     state.clip_plane_count = 0;
     // The offset is applied to the map and not to the lookup; its factor moves surfaces at grazing angles to the light
     // by more.

@@ -212,6 +212,16 @@ Verdict check_multisampling(const DeviceProfile& profile, int samples) {
     return Refusal{"pictures of " + std::to_string(samples) + " samples per pixel", "ARB_multisample", way_out(has)};
 }
 
+Verdict check_interpolation(const DeviceProfile& profile, rasterizer::Interpolation interpolation) {
+    const auto is_known = [](const DeviceProfile& p) {
+        return p.raster.color == rasterizer::ColorInterpolation::exact_plane &&
+               p.raster.interpolation.texture_coordinates == rasterizer::CoordinateRule::exact_plane;
+    };
+    if (interpolation != rasterizer::Interpolation::centre || is_known(profile)) return std::nullopt;
+    return Refusal{"known colours at a pixel's centre outside the triangle", "",
+                   way_out(is_known) + ", or --interpolate centroid"};
+}
+
 Verdict check_texture_units(const DeviceProfile& profile, int units) {
     return check_limit(profile, &DeviceProfile::max_texture_units, units, std::to_string(units) + " texture units",
                        "ARB_multitexture");

@@ -16,6 +16,7 @@
 #include "pipeline/device/profile.h"
 #include "pipeline/device/state.h"
 #include "pipeline/formats/format.h"
+#include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
 
@@ -95,6 +96,8 @@ using Verdict = std::optional<Refusal>;
 // device may support only some of 2, 4 and 8.
 [[nodiscard]] Verdict check_samples(const DeviceProfile& profile, int samples);
 [[nodiscard]] Verdict check_multisampling(const DeviceProfile& profile, int samples);
+// Values at a pixel's centre where the triangle does not cover it: how chips with weights of few bits go on is unknown.
+[[nodiscard]] Verdict check_interpolation(const DeviceProfile& profile, rasterizer::Interpolation interpolation);
 [[nodiscard]] Verdict check_texture_units(const DeviceProfile& profile, int units);
 
 }  // namespace strata::pipeline

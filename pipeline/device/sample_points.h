@@ -3,6 +3,7 @@
 // Source   pipeline/reference/fragment-stages.md 13.1.
 // Tests    tests/pipeline/device/sample_points_test.cpp
 #pragma once
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -28,6 +29,18 @@ inline constexpr std::array<Point, 8> eight{{{9, 5}, {7, 11}, {13, 9}, {5, 3}, {
     if (samples == 4) return is_standard ? four : square;
     if (samples == 8 && is_standard) return eight;
     return {};
+}
+
+// Makes the state that of sample `number` of a pixel, with values evaluated as it says. The profile has so many
+// samples.
+inline void set_sample(rasterizer::RasterState& state, SamplePositions positions, int samples, std::size_t number) {
+    const auto points = sample_points(positions, samples);
+    state.sample = points[number];
+    const bool is_covered_apart = state.sample_coverage != rasterizer::SampleCoverage{};
+    if (state.interpolation != rasterizer::Interpolation::centroid && !is_covered_apart) return;
+    state.sample_count = samples;
+    state.sample_number = static_cast<int>(number);
+    std::copy(points.begin(), points.end(), state.samples.begin());
 }
 
 }  // namespace strata::pipeline

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region_scratch.h"
 
 namespace strata::pipeline {
@@ -46,6 +47,8 @@ Region::Region(const Frame& frame, const RegionArea& place, RegionStatistics& st
       source_{shared_, targets_, stages_},
       loop_{shared_, targets_} {
     scratch_->trace.start(frame.trace_bytes);
+    if (instruments.samples.group != nullptr)
+        instruments.samples.group->set_targets(instruments.samples.sample, targets_);
     const bool is_empty =
         frame.opaque == nullptr || (!shared_.is_frame() && frame.opaque->geometry.bin(place.tile).empty());
     if (!is_empty) draw_opaque();
@@ -91,6 +94,7 @@ PassState Region::altered(const PassState& state, PassKind kind) {
 
 void Region::end_pass(const PassState& state, PassKind kind, const Drawn& drawn) {
     stages_.close_cache();
+    stages_.meet_samples(state);
     if (const Alteration* a = shared_.alteration(); a != nullptr && a->drawn) a->drawn(kind, drawn.passed.own_);
     shared_.show({.step = kind == PassKind::geometry ? Step::geometry : Step::full_screen,
                   .state = &state,

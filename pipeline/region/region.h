@@ -133,6 +133,7 @@ template <FragmentProgram P>
 Drawn Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {
     const PassState state = altered(given, PassKind::geometry);
     stages_.begin_pass(state, PassKind::geometry);
+    stages_.meet_samples(state);
     if (state.selection.keeps == Keeps::everything || !source_.find_fragments(state, list))
         return draw_everything(state, list, program);
     return shared_.instruments.check_selections ? checked([&] { return draw_visits(state, program); },
@@ -177,6 +178,7 @@ template <FragmentProgram P>
 Drawn Region::full_screen(const PassState& given, P&& program) {
     const PassState state = altered(given, PassKind::full_screen);
     stages_.begin_pass(state, PassKind::full_screen);
+    stages_.meet_samples(state);
     stages_.open_cache(state);
     Drawn drawn;
     std::size_t next = 0;

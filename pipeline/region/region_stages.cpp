@@ -7,14 +7,17 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "pipeline/device/check.h"
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/narrow.h"
+#include "pipeline/formats/resolve.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "pipeline/fragments/tile_cache.h"
 #include "pipeline/frame/check_pass.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
+#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
@@ -154,7 +157,13 @@ void Stages::load(const PassState& state, const FragmentBatch& batch) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = targets_.at(state.reads[r]);
         shared_.count(of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count)));
-        load_target(from, r, batch);
+        switch (loaded_sample()) {
+            case LoadedSample::own: load_target(from, r, batch); break;
+            case LoadedSample::zero:
+                load_target(shared_.instruments.samples.group->targets(0).at(state.reads[r]), r, batch);
+                break;
+            case LoadedSample::resolved: load_resolved(state.reads[r], r, batch); break;
+        }
         if (shared_.instruments.once_more == Effect::loads) load_target(from, r, batch);
     }
 }
@@ -163,12 +172,15 @@ void Stages::load(const PassState& state, const FragmentBatch& batch) {
 void Stages::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
     if (is_depth(from.format()))
         return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &shared_.scratch.loads.depth_[read]);
-    const FormatInfo format = info(from.format());
     from.gather(batch.pixel, batch.count, 0, shared_.scratch.codes);
+    decode_loaded(info(from.format()), read, batch.count);
+}
+
+void Stages::decode_loaded(const FormatInfo& format, std::size_t read, int count) {
     for (std::size_t c = 0; c < 4; ++c) {
         Lanes<float>& values = shared_.scratch.loads.color_[read][c];
         const auto each = [&](auto value) {
-            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
                 values[i] = value(shared_.scratch.codes[c][i]);
         };
         const UnormRounding unorm = shared_.profile().unorm_rounding;
@@ -179,10 +191,60 @@ void Stages::load_target(TargetStorage& from, std::size_t read, const FragmentBa
         else if (is_there && format.type == ChannelType::half && half == HalfRounding::no_infinity)
             each([&](std::uint32_t code) { return half_value(static_cast<std::uint16_t>(code), half); });
         else if (is_there)
-            decode(format.type, shared_.scratch.codes[c], values, batch.count);
+            decode(format.type, shared_.scratch.codes[c], values, count);
         else
-            std::fill_n(values.begin(), batch.count, c == 3 ? 1.0f : 0.0f);
+            std::fill_n(values.begin(), count, c == 3 ? 1.0f : 0.0f);
     }
+}
+
+// The emulator's own passes, which are not counted, look at their own sample.
+LoadedSample Stages::loaded_sample() const noexcept {
+    const SampleLoads& samples = shared_.instruments.samples;
+    if (samples.group == nullptr || !shared_.statistics.counts) return LoadedSample::own;
+    return kind_ == PassKind::geometry ? samples.geometry : samples.full_screen;
+}
+
+// Before the first load nobody may write, and after the last one everybody may: this is called at both ends of a pass.
+void Stages::meet_samples(const PassState& state) const {
+    if (loaded_sample() == LoadedSample::own || std::ranges::none_of(state.reads, &Target::exists)) return;
+    if (state.ordered_rmw)
+        throw Refused{shared_.profile(),
+                      {"loads of another sample from a target that the pass writes", "", "use --load-sample own"}};
+    shared_.instruments.samples.group->meet();
+}
+
+// By the rules of a picture's resolve: the nearest depth, which has the least code or key, and the mean of colours.
+void Stages::load_resolved(Target target, std::size_t read, const FragmentBatch& batch) {
+    const SampleGroup& group = *shared_.instruments.samples.group;
+    const DeviceProfile& profile = shared_.profile();
+    const Format format = targets_.at(target).format();
+    if (is_depth(format)) {
+        Lanes<std::uint32_t>& nearest = shared_.scratch.loads.depth_[read];
+        std::fill_n(nearest.begin(), batch.count, ~0u);
+        Lanes<std::uint32_t> code;
+        for (int s = 0; s < group.samples(); ++s) {
+            gather_codes(codes_in(group.targets(s).at(target).depth_plane(0)), lanes_of(batch), &code);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                nearest[i] = std::min(nearest[i], code[i]);
+        }
+        return;
+    }
+    ColorResolve resolve{group.samples(), profile.resolve, profile.color_rounding()};
+    Image sample{format, batch.count, 1};
+    ColorCodes& codes = shared_.scratch.codes;
+    const auto for_each_code = [&](Image& image, const auto& visit) {
+        const auto channels = static_cast<std::size_t>(image.channels());
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+            for (std::size_t c = 0; c < channels; ++c) visit(image.codes[i * channels + c], codes[c][i]);
+    };
+    for (int s = 0; s < group.samples(); ++s) {
+        group.targets(s).at(target).gather(batch.pixel, batch.count, 0, codes);
+        for_each_code(sample, [](std::uint32_t& stored, std::uint32_t code) { stored = code; });
+        resolve.add(sample);
+    }
+    Image mean = std::move(resolve).picture();
+    for_each_code(mean, [](std::uint32_t stored, std::uint32_t& code) { code = stored; });
+    decode_loaded(info(format), read, batch.count);
 }
 
 void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& out,
@@ -204,6 +266,7 @@ void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& 
 // The alpha test compares 8-bit codes unless target 0 is a float format and the profile decides by the target
 // (fragment-stages.md 3).
 void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
+    cover_sample(state, batch, out);
     if (state.alpha.enabled) {
         const std::uint64_t before = alive_count(out, batch.count);
         const ChannelType type =

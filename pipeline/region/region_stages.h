@@ -13,6 +13,7 @@
 
 #include "pipeline/frame/alteration.h"
 #include "pipeline/frame/observer.h"
+#include "pipeline/frame/sample_loads.h"
 #include "pipeline/stages/target_storage.h"
 #include "pipeline/vertices/prepare.h"
 
@@ -30,6 +31,8 @@ class Stages {
     ~Stages();
 
     void begin_pass(const PassState& state, PassKind kind);
+    // Waits for the frames of the other samples, if the pass loads from them.
+    void meet_samples(const PassState& state) const;
     void begin_look() noexcept { kind_ = PassKind::full_screen; }  // for Region::trace_pixels, which is not a pass
     // Sets what is known about the depth test of this pass, and whether its colours use textures and shadow.
     void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
@@ -57,7 +60,13 @@ class Stages {
               const Lanes<std::uint32_t>& alive, int sample = 0) const;
 
   private:
+    // The sample that the loads of the current pass read.
+    [[nodiscard]] LoadedSample loaded_sample() const noexcept;
+    void load_resolved(Target target, std::size_t read, const FragmentBatch& batch);
+    void decode_loaded(const FormatInfo& format, std::size_t read, int count);
     void load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
+    // SAMPLE_ALPHA_TO_COVERAGE, SAMPLE_COVERAGE and the sample mask (pipeline/reference/fragment-stages.md 13.6).
+    void cover_sample(const PassState& state, const FragmentBatch& batch, Outputs& out);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                        Drawn& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,

@@ -13,6 +13,27 @@
 
 namespace strata::pipeline {
 
+// The frame is one sample's, and the emulator's own passes cover all.
+void Stages::cover_sample(const PassState& state, const FragmentBatch& batch, Outputs& out) {
+    const rasterizer::RasterState& raster = shared_.frame.transparent->geometry.state;
+    const rasterizer::SampleCoverage& coverage = raster.sample_coverage;
+    if (kind_ != PassKind::geometry || !shared_.statistics.counts || coverage == rasterizer::SampleCoverage{}) return;
+    // The samples of the least numbers, of a share of all to nearest; NaN has none.
+    const auto is_covered = [&](float share) {
+        const float limited = share > 0.0f ? std::min(share, 1.0f) : 0.0f;
+        const auto samples = static_cast<float>(raster.sample_count);
+        return raster.sample_number < static_cast<int>(limited * samples + 0.5f);
+    };
+    const bool is_masked = (coverage.mask >> raster.sample_number & 1u) == 0;
+    const bool is_outside = coverage.value && is_covered(*coverage.value) == coverage.is_inverted;
+    const bool has_alpha = state.color[0].exists() && info(targets_.at(state.color[0]).format()).channels == 4;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        const bool is_in =
+            !is_masked && !is_outside && (!coverage.by_alpha || !has_alpha || is_covered(out.color[0][3][i]));
+        out.alive[i] &= is_in ? ~0u : 0u;
+    }
+}
+
 // The units test one after the other, without a write; a fragment is killed by the first that fails (fragment-stages.md
 // 4).
 void Stages::test_depth_units(const PassState& state, const FragmentBatch& batch, int sample,

@@ -34,7 +34,7 @@ struct Sampled {
 [[nodiscard]] Sampled sampled(const TriangleScene& scene, const Machine& machine, const RenderOptions& options,
                               int samples) {
     Sampled drawn;
-    SampledRenderer renderer{scene.list, scene.view, *find_profile(machine.profile), options, samples};
+    SampledRenderer renderer{scene.list, scene.view, *find_profile(machine.profile), options, {.samples = samples}};
     drawn.result = renderer.render(*find_algorithm(machine.algorithm), {}, &drawn.colors);
     return drawn;
 }
@@ -152,8 +152,8 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
     const TriangleScene scene = random_triangles(1206, 20);
     const auto& algorithm = *find_algorithm("depth_units");
     using strata::pipeline::Resolve;
-    SampledRenderer renderer{scene.list,        scene.view, *find_profile("geforce3"),
-                             sampled_options(), 2,          Resolve::quincunx};
+    SampledRenderer renderer{
+        scene.list, scene.view, *find_profile("geforce3"), sampled_options(), {2, Resolve::quincunx}};
     std::vector<Image> colors;
     const RenderResult result = renderer.render(algorithm, {}, &colors);
     REQUIRE(colors.size() == 2);
@@ -168,8 +168,8 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
         }
     CHECK(wrong == 0);
     const auto refusal_of = [&](const char* profile, int samples) {
-        SampledRenderer other{scene.list,        scene.view, *find_profile(profile),
-                              sampled_options(), samples,    Resolve::quincunx};
+        SampledRenderer other{
+            scene.list, scene.view, *find_profile(profile), sampled_options(), {samples, Resolve::quincunx}};
         const RenderResult refused = other.render(algorithm);
         return refused.refusal ? refused.refusal->sentence(*find_profile(profile)) : "";
     };

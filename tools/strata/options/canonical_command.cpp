@@ -147,6 +147,17 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     add_view(words, options);
     add_machine(words, options.render);
     if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
+    if (options.shades_pixels) add(words, "--shading", "pixel");
+    if (options.interpolate == rasterizer::Interpolation::centroid) add(words, "--interpolate", "centroid");
+    if (options.load_sample != pipeline::LoadedSample::own)
+        add(words, "--load-sample", name_of(loaded_samples, options.load_sample));
+    if (options.composite_sample != pipeline::LoadedSample::own)
+        add(words, "--composite-sample", name_of(loaded_samples, options.composite_sample));
+    const rasterizer::SampleCoverage& coverage = options.render.raster.sample_coverage;
+    if (coverage.by_alpha) words.emplace_back("--alpha-to-coverage");
+    if (coverage.value) add(words, "--sample-coverage", fmt::format("{}", *coverage.value));
+    if (coverage.is_inverted) words.emplace_back("--sample-coverage-invert");
+    if (coverage.mask != 0xff) add(words, "--sample-mask", fmt::format("{}", coverage.mask));
     if (options.resolve != pipeline::Resolve::box) add(words, "--resolve", name_of(resolves, options.resolve));
     if (options.sample) add(words, "--sample", fmt::format("{}", *options.sample));
     add_order(words, options.render);

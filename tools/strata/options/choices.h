@@ -3,6 +3,7 @@
 #include "pipeline/device/profile_fields.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/frame/frame.h"
+#include "pipeline/frame/sample_loads.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/simd.h"
 #include "tools/strata/options/option.h"
@@ -68,6 +69,12 @@ inline const std::vector<Choice<pipeline::Origin>> origins{{"upper-left", pipeli
 // Samples are counted per pixel; tile sizes are pixels per side.
 inline const std::vector<Choice<pipeline::Resolve>> resolves{{"box", pipeline::Resolve::box},
                                                              {"quincunx", pipeline::Resolve::quincunx}};
+inline const std::vector<Choice<bool>> shadings{{"sample", false}, {"pixel", true}};
+inline const std::vector<Choice<rasterizer::Interpolation>> interpolations{
+    {"centre", rasterizer::Interpolation::centre}, {"centroid", rasterizer::Interpolation::centroid}};
+inline const std::vector<Choice<pipeline::LoadedSample>> loaded_samples{{"own", pipeline::LoadedSample::own},
+                                                                        {"0", pipeline::LoadedSample::zero},
+                                                                        {"resolved", pipeline::LoadedSample::resolved}};
 inline const std::vector<Choice<int>> sample_counts{{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}};
 inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
 

@@ -66,13 +66,43 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
         ->type_name("NAME[,NAME...]|all");
 }
 
+std::optional<std::uint8_t> to_mask(std::string_view text) {
+    const auto number = to_count(text);
+    return number && *number <= 255 ? std::optional{static_cast<std::uint8_t>(*number)} : std::nullopt;
+}
+
 void add_sample_options(CLI::App& app, RunOptions& options) {
     add_choice(app, options.samples, "--samples", sample_counts,
-               "samples per pixel, where the profile has them, each shaded by itself (default 1)");
+               "samples per pixel, where the profile has them (default 1)");
+    add_choice(
+        app, options.shades_pixels, "--shading", shadings,
+        "how often colours and programs are evaluated: once a sample, at its point, or once a pixel; coverage and "
+        "stored depth are always a sample's (default sample)");
+    add_choice(app, options.interpolate, "--interpolate", interpolations,
+               "where --shading pixel evaluates: at the pixel's centre, even outside the triangle, or at its centroid, "
+               "the first covered sample of a pixel that is covered in part (default centre)");
     add_option(app, options.sample,
                {"--sample", "N", "one of the samples alone, by its number from 0, instead of all of them resolved",
                 "a whole number from 0"},
                to_count);
+    add_choice(
+        app, options.load_sample, "--load-sample", loaded_samples,
+        "the sample that the programs of geometry passes load of earlier passes, as a peel loads depths: its own, "
+        "sample 0, or all resolved (default own)");
+    add_choice(app, options.composite_sample, "--composite-sample", loaded_samples,
+               "the same of full-screen passes, as a composite loads layers (default own)");
+    app.add_flag("--alpha-to-coverage", options.render.raster.sample_coverage.by_alpha,
+                 "a fragment of a transparent pass covers the share of samples that its alpha is");
+    add_option(app, options.render.raster.sample_coverage.value,
+               {"--sample-coverage", "SHARE", "transparent passes cover this share of the samples, as glSampleCoverage",
+                "a number from 0 to 1"},
+               to_share);
+    app.add_flag("--sample-coverage-invert", options.render.raster.sample_coverage.is_inverted,
+                 "the samples that --sample-coverage leaves out, instead");
+    add_option(app, options.render.raster.sample_coverage.mask,
+               {"--sample-mask", "BITS", "the samples that transparent passes cover, bit s for sample s (default 255)",
+                "a whole number from 0 to 255"},
+               to_mask);
     add_choice(app, options.resolve, "--resolve", resolves,
                "the mean of a pixel's samples, or GeForce3's Quincunx of two (default box)");
 }
@@ -83,6 +113,23 @@ void check_samples(const RunOptions& options) {
         throw CLI::ValidationError("--sample", "expected a number from 0 to " + last + " with --samples " +
                                                    std::to_string(options.samples) + ", found " +
                                                    std::to_string(*options.sample));
+    const bool loads_others =
+        options.load_sample != pipeline::LoadedSample::own || options.composite_sample != pipeline::LoadedSample::own;
+    if (loads_others && (options.samples == 1 || options.sample))
+        throw CLI::ValidationError("--load-sample and --composite-sample go with all samples of a picture of several");
+    const rasterizer::SampleCoverage& coverage = options.render.raster.sample_coverage;
+    if (coverage != rasterizer::SampleCoverage{} && options.samples == 1)
+        throw CLI::ValidationError(
+            "--alpha-to-coverage, --sample-coverage and --sample-mask go with --samples 2, 4 or 8");
+    if (coverage.is_inverted && !coverage.value)
+        throw CLI::ValidationError("--sample-coverage-invert goes with --sample-coverage");
+    // A pack's state does not have them.
+    if (!options.resolves && (options.shades_pixels || coverage != rasterizer::SampleCoverage{}))
+        throw CLI::ValidationError("--shading pixel and coverage of samples go with render, layers and diagnose");
+    if (options.shades_pixels && options.samples == 1)
+        throw CLI::ValidationError("--shading pixel goes with --samples 2, 4 or 8");
+    if (options.interpolate && !options.shades_pixels)
+        throw CLI::ValidationError("--interpolate goes with --shading pixel");
     if (options.resolve != pipeline::Resolve::box && (options.sample || !options.resolves))
         throw CLI::ValidationError("--resolve goes with all samples of a picture");
     if (options.samples > 1 && !options.sample && !options.resolves)
@@ -192,6 +239,8 @@ void complete(RunOptions& options) {
     if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     check_samples(options);
+    if (options.shades_pixels)
+        options.render.raster.interpolation = options.interpolate.value_or(rasterizer::Interpolation::centre);
     if (options.orbit && !options.camera.empty()) {
         throw CLI::ValidationError("--orbit excludes --camera");
     }

@@ -8,6 +8,7 @@
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/render_options.h"
 #include "pipeline/formats/resolve.h"
+#include "pipeline/frame/sample_loads.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/camera.h"
 #include "scenes/files/image_io.h"
@@ -35,8 +36,12 @@ struct RunOptions {
     bool takes_own_view = false;         // no view option is given, and the scene contains a view
     scenes::ClipConvention view_convention;  // of the view that the scene contains
     peeling::RenderOptions render;
-    int samples = 1;            // --samples: 1, 2, 4 or 8 per pixel, each shaded separately
-    std::optional<int> sample;  // --sample: render only the frame of this sample
+    int samples = 1;                                                        // --samples: 1, 2, 4 or 8 a pixel
+    std::optional<int> sample;                                              // --sample: the frame of this one alone
+    bool shades_pixels = false;                                             // --shading pixel
+    std::optional<rasterizer::Interpolation> interpolate;                   // --interpolate: centre or centroid
+    pipeline::LoadedSample load_sample = pipeline::LoadedSample::own;       // --load-sample: of geometry passes
+    pipeline::LoadedSample composite_sample = pipeline::LoadedSample::own;  // --composite-sample: of full-screen ones
     pipeline::Resolve resolve = pipeline::Resolve::box;
     bool resolves = false;  // the command accepts frames of all samples
     // --execution tiled: replay without a record of fragments, whatever --fragment-memory is.

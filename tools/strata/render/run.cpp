@@ -75,12 +75,12 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
                 "transparent, --alpha MATERIAL=0.5 one material");
 }
 
-// The position of the sample that --sample names.
-rasterizer::SamplePoint sample_point(const RunOptions& options, const pipeline::DeviceProfile& profile) {
+// For --sample.
+void take_sample(RunOptions& options, const pipeline::DeviceProfile& profile) {
     if (const auto lacking = pipeline::check_multisampling(profile, options.samples))
         throw CLI::ValidationError("--samples", lacking->sentence(profile));
-    return pipeline::sample_points(profile.sample_positions,
-                                   options.samples)[static_cast<std::size_t>(*options.sample)];
+    pipeline::set_sample(options.render.raster, profile.sample_positions, options.samples,
+                         static_cast<std::size_t>(*options.sample));
 }
 
 pipeline::Rgba premultiplied(const pipeline::Rgba& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
@@ -112,7 +112,7 @@ Session open_session(RunOptions& options) {
         say_warning(fmt::format("{}: nothing shows the values of {}; what depends on them is a guess", options.profile,
                                 fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
-    if (options.sample && options.samples > 1) options.render.raster.sample = sample_point(options, session.profile);
+    if (options.sample && options.samples > 1) take_sample(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -218,7 +218,10 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer is used for all algorithms, so geometry is transformed and set up once.
     peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
-                                      options.sample ? 1 : options.samples, options.resolve);
+                                      {.samples = options.sample ? 1 : options.samples,
+                                       .resolve = options.resolve,
+                                       .loads = options.load_sample,
+                                       .composites = options.composite_sample});
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::tell_when_interrupted(undone(options, runs.size()));

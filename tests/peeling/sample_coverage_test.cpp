@@ -1,0 +1,84 @@
+// Tests alpha to coverage, sample coverage and sample mask against pictures put together from samples drawn without
+// them, and queries against counts.
+#include <catch2/catch.hpp>
+
+#include "peeling/sampled_renderer.h"
+#include "tests/peeling/rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::find_algorithm;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::peeling::SampledRenderer;
+using strata::pipeline::find_profile;
+using strata::pipeline::Image;
+using strata::rasterizer::SampleCoverage;
+
+// One triangle over the whole view, of one alpha.
+[[nodiscard]] strata::pipeline::DrawList glass_of(float alpha) {
+    strata::pipeline::DrawList list;
+    list.materials = {
+        {.name = "glass", .alpha_mode = strata::pipeline::AlphaMode::blend, .double_sided = true, .unlit = true}};
+    strata::pipeline::Mesh mesh;
+    mesh.positions = {{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}};
+    mesh.colors.assign(3, {1, 1, 1, alpha});
+    mesh.indices = {0, 1, 2};
+    list.meshes = {mesh};
+    list.instances = {{}};
+    return list;
+}
+
+// The number of samples of the middle pixel that something was drawn to, by their numbers.
+[[nodiscard]] std::vector<int> covered_samples(float alpha, int samples, const SampleCoverage& coverage) {
+    const strata::pipeline::DrawList list = glass_of(alpha);
+    RenderOptions options;
+    options.width = options.height = 4;
+    options.threads = 1;
+    options.raster.sample_coverage = coverage;
+    SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = samples}};
+    std::vector<Image> colors;
+    const RenderResult result = renderer.render(*find_algorithm("front_to_back"), {}, &colors);
+    CHECK(result.outcome == strata::peeling::Outcome::done);
+    std::vector<int> covered;
+    for (std::size_t s = 0; s < colors.size(); ++s)
+        if (colors[s].codes[colors[s].index(1, 1)] != 0) covered.push_back(static_cast<int>(s));
+    return covered;
+}
+
+[[nodiscard]] std::vector<int> first_samples(int count) {
+    std::vector<int> samples;
+    for (int s = 0; s < count; ++s) samples.push_back(s);
+    return samples;
+}
+
+}  // namespace
+
+TEST_CASE("alpha to coverage covers the first samples of the share that alpha is") {
+    for (const int samples : {2, 4, 8})
+        for (int step = 1; step <= 32; ++step) {
+            const float alpha = static_cast<float>(step) / 32.0f;
+            // In thirty-seconds: floor(alpha n + 1/2).
+            CHECK(covered_samples(alpha, samples, {.by_alpha = true}) == first_samples((step * samples + 16) / 32));
+            CHECK(covered_samples(alpha, samples, {}) == first_samples(samples));
+        }
+}
+
+TEST_CASE("sample coverage and mask leave out the samples that they do not name") {
+    CHECK(covered_samples(0.5f, 4, {.value = 0.5f}) == std::vector{0, 1});
+    CHECK(covered_samples(0.5f, 4, {.value = 0.5f, .is_inverted = true}) == std::vector{2, 3});
+    CHECK(covered_samples(0.5f, 4, {.value = 0.0f}).empty());
+    CHECK(covered_samples(0.5f, 4, {.mask = 0b1010}) == std::vector{1, 3});
+    CHECK(covered_samples(0.5f, 4, {.value = 0.5f, .mask = 0b1010}) == std::vector{1});
+    CHECK(covered_samples(0.5f, 4, {.by_alpha = true, .mask = 0b1110}) == std::vector{1});
+}
+
+TEST_CASE("a sample that is masked out makes a peel end after one pass") {
+    const strata::pipeline::DrawList list = glass_of(0.5f);
+    RenderOptions options;
+    options.width = options.height = 4;
+    options.raster.sample_coverage.mask = 0;
+    SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = 4}};
+    CHECK(renderer.render(*find_algorithm("front_to_back")).frame.passes.geometry == 1);
+}

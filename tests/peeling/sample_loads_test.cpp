@@ -1,0 +1,143 @@
+// Tests pixel shading and loads of other samples against a model that peels one pixel's samples with plain numbers: the
+// captured fragments of every sample, and nothing of the pipeline.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "peeling/audit/region_trace.h"
+#include "peeling/sampled_renderer.h"
+#include "pipeline/device/sample_points.h"
+#include "tests/peeling/rendering.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::find_algorithm;
+using strata::peeling::FrameFragments;
+using strata::peeling::Multisampling;
+using strata::peeling::Outcome;
+using strata::peeling::RegionTrace;
+using strata::peeling::Renderer;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::peeling::SampledRenderer;
+using strata::pipeline::find_profile;
+using strata::pipeline::Image;
+using strata::pipeline::LoadedSample;
+using strata::rasterizer::Interpolation;
+
+constexpr std::size_t model_samples = 4;
+constexpr int model_size = 24;
+
+[[nodiscard]] RenderOptions model_options(Interpolation interpolation) {
+    RenderOptions options;
+    options.width = options.height = model_size;
+    options.threads = 1;
+    options.depth = strata::pipeline::DepthFormat::d24;
+    options.raster.interpolation = interpolation;
+    return options;
+}
+
+// One fragment at one sample.
+struct ModelFragment {
+    std::uint32_t code = 0;      // as the sample stores it
+    std::uint32_t compared = 0;  // as the program compares it: the code of the pixel's depth
+};
+struct ModelPixel {
+    std::array<std::vector<ModelFragment>, model_samples> fragments;
+    std::array<std::uint32_t, model_samples> opaque{};
+};
+
+[[nodiscard]] FrameFragments captured(const TriangleScene& scene, RenderOptions options, std::size_t sample) {
+    const auto& profile = *find_profile("geforce8_dx101");
+    strata::pipeline::set_sample(options.raster, profile.sample_positions, model_samples, sample);
+    Renderer renderer{scene.list, scene.view, profile, options};
+    return renderer.fragments(*find_algorithm("front_to_back"));
+}
+
+// The code that a program compares is that of the depth at the pixel; d24 codes of binary32 depths, to nearest.
+[[nodiscard]] std::uint32_t d24_code(float z) {
+    const double limited = z > 0 ? (z < 1 ? double{z} : 1.0) : 0.0;
+    return static_cast<std::uint32_t>(limited * 16777215.0 + 0.5);
+}
+
+[[nodiscard]] std::vector<ModelPixel> model_pixels(const TriangleScene& scene, const RenderOptions& options) {
+    std::vector<ModelPixel> pixels(model_size * model_size);
+    for (std::size_t s = 0; s < model_samples; ++s) {
+        const FrameFragments found = captured(scene, options, s);
+        for (const auto& f : found.all) pixels[f.pixel].fragments[s].push_back({f.code, d24_code(f.shader_z)});
+        for (std::size_t p = 0; p < pixels.size(); ++p) pixels[p].opaque[s] = found.opaque[p];
+    }
+    return pixels;
+}
+
+// What each sample composites, in order: stored codes.
+using Sequences = std::array<std::vector<std::uint32_t>, model_samples>;
+
+template <class Value>
+[[nodiscard]] Value loaded(LoadedSample rule, const std::array<Value, model_samples>& stored, std::size_t own) {
+    if (rule == LoadedSample::own) return stored[own];
+    return rule == LoadedSample::zero ? stored[0] : *std::min_element(stored.begin(), stored.end());
+}
+
+// Pass after pass: the nearest fragment by the sample's code among those whose compared code is beyond the loaded one.
+[[nodiscard]] Sequences peeled_front_to_back(const ModelPixel& pixel, LoadedSample rule, int passes) {
+    Sequences sequences;
+    std::array<std::uint32_t, model_samples> peeled{};
+    for (int pass = 0; pass < passes; ++pass) {
+        std::array<std::uint32_t, model_samples> nearest = pixel.opaque;
+        for (std::size_t s = 0; s < model_samples; ++s) {
+            for (const ModelFragment& f : pixel.fragments[s])
+                if (pass == 0 || f.compared > loaded(rule, peeled, s)) nearest[s] = std::min(nearest[s], f.code);
+            if (nearest[s] < pixel.opaque[s]) sequences[s].push_back(nearest[s]);
+        }
+        peeled = nearest;
+    }
+    return sequences;
+}
+
+[[nodiscard]] std::vector<Sequences> traced(const std::vector<std::vector<RegionTrace>>& traces) {
+    std::vector<Sequences> sequences(model_size * model_size);
+    for (std::size_t s = 0; s < traces.size(); ++s)
+        for (const RegionTrace& region : traces[s])
+            for (const auto& entry : region.entries) {
+                const auto width = static_cast<std::uint32_t>(region.rect.width());
+                const auto x = static_cast<std::uint32_t>(region.rect.x0) + entry.pixel % width;
+                const auto y = static_cast<std::uint32_t>(region.rect.y0) + entry.pixel / width;
+                sequences[y * model_size + x][s].push_back(entry.key);
+            }
+    return sequences;
+}
+
+}  // namespace
+
+TEST_CASE("front to back under every load rule composites at each sample what a model of its fragments does") {
+    const TriangleScene scene = random_triangles(4501, 30);
+    for (const Interpolation interpolation : {Interpolation::sample, Interpolation::centre, Interpolation::centroid}) {
+        const RenderOptions options = model_options(interpolation);
+        const std::vector<ModelPixel> pixels = model_pixels(scene, options);
+        for (const LoadedSample rule : {LoadedSample::own, LoadedSample::zero, LoadedSample::resolved}) {
+            SampledRenderer renderer{
+                scene.list, scene.view, *find_profile("geforce8_dx101"), options, {.samples = 4, .loads = rule}};
+            std::vector<std::vector<RegionTrace>> traces;
+            const auto results = renderer.render_traced(*find_algorithm("front_to_back"), traces);
+            REQUIRE(results.size() == model_samples);
+            const std::vector<Sequences> drawn = traced(traces);
+            std::uint64_t wrong = 0, composited = 0, unlike = 0;
+            for (std::size_t p = 0; p < pixels.size(); ++p) {
+                const Sequences right = peeled_front_to_back(pixels[p], LoadedSample::own, 40);
+                for (std::size_t s = 0; s < model_samples; ++s) {
+                    const int passes = results[s].frame.passes.geometry;
+                    const auto model = peeled_front_to_back(pixels[p], rule, passes)[s];
+                    wrong += model == drawn[p][s] ? 0 : 1;
+                    composited += model.size();
+                    unlike += model == right[s] ? 0 : 1;
+                }
+            }
+            INFO(static_cast<int>(interpolation) << ' ' << static_cast<int>(rule) << ' ' << composited);
+            CHECK(wrong == 0);
+            CHECK(composited > 1000);
+            if (rule != LoadedSample::own) CHECK(unlike > 100);
+        }
+    }
+}
