@@ -17,6 +17,7 @@ struct Options {
     std::string pack, output, driver = "llvmpipe", mistakes;
     std::vector<std::string> algorithms;
     int threads = 2, max_passes = 200, samples = 1, sample = -1;
+    std::string interpolation = "sample";
     bool list = false, picture_only = false;
 };
 
@@ -55,8 +56,11 @@ int run(const Options& options) {
     const HeadlessContext context(options.driver, options.threads);
     if (options.samples > 1) {
         check_sampled(options, pack, algorithms);
-        set_samples(options.samples, options.sample);
-        way.interpolation = "smooth sample";
+        const bool is_once = options.interpolation != "sample";
+        set_samples(options.samples, options.sample, is_once ? Shading::pixel : Shading::sample);
+        way.interpolation = !is_once                            ? "smooth sample"
+                            : options.interpolation == "centre" ? "smooth"
+                                                                : "smooth centroid";
     }
     set_window(pack.size, way, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     const GpuScene scene(pack.mesh, pack.size, way);
@@ -86,8 +90,12 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
         ->check(CLI::IsMember(driver_names()));
     app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
-    app.add_option("--samples", o.samples, "samples per pixel, each shaded by itself (default 1)")
-        ->check(CLI::Range(1, 32));
+    app.add_option("--samples", o.samples, "samples per pixel (default 1)")->check(CLI::Range(1, 32));
+    app.add_option(
+           "--interpolate", o.interpolation,
+           "where geometry passes run their programs: once a sample, or once a pixel at its centre or centroid, "
+           "where they load sample 0 (default sample)")
+        ->check(CLI::IsMember({"sample", "centre", "centroid"}));
     app.add_option("--sample", o.sample, "what is written is this sample (default: the resolved picture)")
         ->check(CLI::Range(0, 31));
     app.add_option("--mistake", o.mistakes, "be wrong: names with commas between");

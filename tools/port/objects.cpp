@@ -25,6 +25,7 @@ constexpr auto as_written = R"(#version 330 core
 
 struct Sampling {
     int samples = 1, shown = 0;
+    Shading shading = Shading::sample;
 };
 Sampling& sampling() {
     static Sampling chosen;
@@ -32,11 +33,15 @@ Sampling& sampling() {
 }
 GLenum texture_target() { return sampling().samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
 
-// Programs are written for one sample: with several, each fetches and interpolates its own.
-constexpr auto sampled_head = R"(#extension GL_ARB_sample_shading : require
-#define sampler2D sampler2DMS
-#define texelFetch(source, texel, level) texelFetch(source, texel, gl_SampleID)
-)";
+// Programs are written for one sample: with several, each fetches and interpolates its own, or, once a pixel, fetches
+// sample 0. A program that names its sample runs once for each.
+std::string sampled_head(bool is_once_a_pixel) {
+    return fmt::format(
+        "#extension GL_ARB_sample_shading : require\n"
+        "#define sampler2D sampler2DMS\n"
+        "#define texelFetch(source, texel, level) texelFetch(source, texel, {})\n",
+        is_once_a_pixel ? "0" : "gl_SampleID");
+}
 
 // While it lives, textures and programs have one sample, and what the copy sets is kept for the caller.
 class OneSample {
@@ -119,9 +124,9 @@ const Format* find_format(const std::string& name) {
     return nullptr;
 }
 
-void set_samples(int samples, int shown) {
-    sampling() = {samples, shown};
-    if (samples == 1) return;
+void set_samples(int samples, int shown, Shading shading) {
+    sampling() = {samples, shown, shading};
+    if (samples == 1 || shading == Shading::pixel) return;
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
 }
@@ -168,7 +173,9 @@ Handle make_stencil_framebuffer(GLuint depth_stencil) {
 }
 
 Handle make_program(const ProgramText& text) {
-    const std::string head = as_written + (sampling().samples > 1 ? std::string{sampled_head} : "") + text.head;
+    const bool is_once_a_pixel = sampling().shading == Shading::pixel && !text.is_full_screen;
+    const std::string head =
+        as_written + (sampling().samples > 1 ? sampled_head(is_once_a_pixel) : std::string{}) + text.head;
     const Handle stages[] = {compile(GL_VERTEX_SHADER, head + text.vertex),
                              compile(GL_FRAGMENT_SHADER, head + text.fragment)};
     const GLuint name = glCreateProgram();
@@ -187,7 +194,8 @@ Handle make_program(const ProgramText& text) {
 Handle make_full_screen_program(const std::string& fragment, const std::vector<std::string>& samplers) {
     constexpr auto vertex =
         "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }";
-    return make_program({.head = "", .vertex = vertex, .fragment = fragment, .samplers = samplers});
+    return make_program(
+        {.head = "", .vertex = vertex, .fragment = fragment, .samplers = samplers, .is_full_screen = true});
 }
 
 void draw_full_screen(const Handle& program) {

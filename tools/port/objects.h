@@ -73,9 +73,13 @@ class Handle {
     void (*destroy_)(GLuint) = nullptr;
 };
 
-// From now on every texture and program has `samples` samples per pixel, shaded one by one. read_back() returns sample
-// `shown`, or for -1 the resolve of all. Formats are then rgba8, floats and d32f. With 1 nothing changes.
-void set_samples(int samples, int shown);
+// How often geometry passes run their program: once a sample, which loads its own, or once a pixel, which loads sample
+// 0. Full-screen passes always run once a sample.
+enum class Shading : std::uint8_t { sample, pixel };
+
+// From now on every texture and program has `samples` samples per pixel. read_back() returns sample `shown`, or for -1
+// the resolve of all. Formats are then rgba8, floats and d32f. With 1 nothing changes.
+void set_samples(int samples, int shown, Shading shading = Shading::sample);
 [[nodiscard]] int samples_shown();
 
 // A two-dimensional texture without mipmaps, with nearest filtering and undefined contents.
@@ -96,6 +100,7 @@ struct ProgramText {
     std::string head, vertex, fragment;
     std::vector<std::string> samplers;
     bool units_set = true;
+    bool is_full_screen = false;
 };
 [[nodiscard]] Handle make_program(const ProgramText& text);
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Compares llvmpipe's pictures with 4 samples per pixel, each shaded separately, with the profile llvmpipe.
+"""Compares llvmpipe's pictures with 4 samples per pixel with the profile llvmpipe.
 
     sampled.py --build build/release [--quick] [--driver llvmpipe_sse]
 
-Ten scenes in three sizes: every target after every pass of each sample, by front_to_back, dual and weighted_average, and the resolved
-pictures. Prints a table of the differences. Exit status 1 if there are any.
+Ten scenes in three sizes: every target after every pass of each sample shaded separately, by front_to_back, dual and weighted_average, and the
+resolved pictures; and the resolved pictures of programs that run once a pixel, at its centre or centroid, and load sample 0. Prints a table of
+the differences. Exit status 1 if there are any.
 """
 import argparse
 import pathlib
@@ -40,15 +41,23 @@ def end_alike(pack, candidate):
             result["passes"].pop()
 
 
-def resolved(build, folder, words, profile, driver):
+SHADINGS = {
+    "sample": [],
+    "centre": ["--shading", "pixel", "--load-sample", 0],
+    "centroid": ["--shading", "pixel", "--interpolate", "centroid", "--load-sample", 0],
+}
+
+
+def resolved(build, folder, words, profile, driver, shading):
     """The number of algorithms whose resolved picture differs between the driver and `strata render` with the profile."""
     pack = packs.Pack(build, folder / "first", [*words, "--samples", SAMPLES, "--sample", 0], profile, ALGORITHMS)
     candidate = folder / "resolved"
-    packs.run([build / "strata_port", pack.folder, "-o", candidate, "--driver", driver, "--algorithm", ",".join(ALGORITHMS), "--samples", SAMPLES])
+    packs.run([build / "strata_port", pack.folder, "-o", candidate, "--driver", driver, "--algorithm", ",".join(ALGORITHMS), "--samples", SAMPLES,
+               "--interpolate", shading, "--picture-only"])
     wrong = 0
     for name in pack.results:
         picture = folder / f"{name}.exr"
-        packs.run([build / "strata", "render", *words, "--samples", SAMPLES, "--profile", profile, "--algorithm", name, "--no-audit", "-q", "-o", picture])
+        packs.run([build / "strata", "render", *words, "--samples", SAMPLES, *SHADINGS[shading], "--profile", profile, "--algorithm", name, "--no-audit", "-q", "-o", picture])
         said = packs.run([build / "strata", "compare", picture, candidate / name / "picture.npy", "--exact"], allowed=(0, 1))
         wrong += not said.startswith("equal")
     return wrong
@@ -69,7 +78,10 @@ def measure(build, words, profile, driver):
                 found[key] = found.get(key, 0) + value
             shutil.rmtree(candidate)
             shutil.rmtree(pack.folder)
-        found["resolved"] = resolved(build, folder, words, profile, driver)
+        for shading in SHADINGS:
+            found[f"resolved, {shading}"] = resolved(build, folder, words, profile, driver, shading)
+            shutil.rmtree(folder / "first")
+            shutil.rmtree(folder / "resolved")
     return found
 
 
@@ -80,7 +92,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="two scenes in one size")
     options = parser.parse_args()
     scenes = dict(list(SCENES.items())[:2]) if options.quick else SCENES
-    keys = ["targets", "targets that differ", "pixels", "coverage", "depth", "order", "colour", *ALGORITHMS, "resolved"]
+    keys = ["targets", "targets that differ", "pixels", "coverage", "depth", "order", "colour", *ALGORITHMS, *(f"resolved, {shading}" for shading in SHADINGS)]
     print("| scene | " + " | ".join(keys) + " |")
     wrong = 0
     with tempfile.TemporaryDirectory() as folder:
