@@ -16,7 +16,7 @@ CommandResult run_alone(const Folder& folder, const std::string& words) {
     return shell(folder, "./strata " + words);
 }
 
-const std::vector<std::string> experiments{"cost",  "invariance",     "hard-cases", "reproduce",
+const std::vector<std::string> experiments{"cost",  "invariance",     "hard-cases", "reproduce", "multisampling",
                                            "bench", "hardware-check", "probe",      "infer"};
 
 }  // namespace

@@ -7,6 +7,7 @@ namespace strata::tools {
 
 [[nodiscard]] Command add_cost(CLI::App& root);
 [[nodiscard]] Command add_invariance(CLI::App& root);
+[[nodiscard]] Command add_multisampling(CLI::App& root);
 [[nodiscard]] Command add_hard_cases(CLI::App& root);
 [[nodiscard]] Command add_reproduce(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);

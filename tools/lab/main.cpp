@@ -8,6 +8,7 @@ int main(int count, char** words) {
     return run_program(count, words,
                        {{"cost", add_cost},
                         {"invariance", add_invariance},
+                        {"multisampling", add_multisampling},
                         {"hard-cases", add_hard_cases},
                         {"reproduce", add_reproduce},
                         {"bench", add_bench},

@@ -21,6 +21,8 @@ struct Experiment {
 constexpr std::array experiments{
     Experiment{"cost", "measure what each choice costs in accuracy and in time"},
     Experiment{"invariance", "peel with two depths that ought to be equal, and measure what goes wrong"},
+    Experiment{"multisampling",
+               "count what peels lose at the samples of a pixel, by where programs run and what they load"},
     Experiment{"hard-cases",
                "run every algorithm on scenes that are hard for rasterizers and peels, and judge the outcome"},
     Experiment{"reproduce", "a paper's figures and tables next to our own: one page, CSV and pictures"},

@@ -144,6 +144,7 @@ constexpr std::array listed{
     Listed{"Check a port", "reduce", add_reduce},
     Listed{"Experiments", "cost"},
     Listed{"Experiments", "invariance"},
+    Listed{"Experiments", "multisampling"},
     Listed{"Experiments", "hard-cases"},
     Listed{"Experiments", "reproduce"},
     Listed{"Experiments", "bench"},

@@ -29,7 +29,7 @@ NEEDS = {
     "render": SMALL + ["--no-audit"], "layers": SMALL + ["--no-audit", "-o", "out.exr"], "passes": SMALL + OUT,
     "explain": SMALL + ["--pixel", "1,1"], "bench": SMALL + ["--repeat", "1", "--warm-up", "0", "--algorithm", "depth"],
     "effects": SMALL + ["--repeat", "1"], "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
-    "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "hardware-check": ["."], "scene": SMALL[:1],
+    "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "multisampling": SMALL, "hardware-check": ["."], "scene": SMALL[:1],
     "digest": ["none.png"], "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
     "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"],
     "probe": OUT, "infer": ["none"], "list": ["scenes"], "algorithms": [], "scenes": [], "info": ["none.png"],

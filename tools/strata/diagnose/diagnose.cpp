@@ -24,6 +24,7 @@
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
+#include "tools/strata/diagnose/diagnose_samples.h"
 #include "tools/strata/diagnose/diagnosis_page.h"
 #include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/messages.h"
@@ -218,7 +219,21 @@ void find_telling_scene(oracle::Diagnosis& found) {
     found.telling = oracle::distinguishing_scene(mistakes);
 }
 
+// A picture of all samples.
+int diagnose_resolved(DiagnoseOptions options) {
+    if (!options.report.empty()) throw CLI::ValidationError("--report goes with one sample: --sample N");
+    choose_algorithm(options.run);
+    complete(options.run);
+    if (options.run.algorithms.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
+    const oracle::Picture candidate = read_candidate(options, options.run.algorithms[0]->name);
+    options.run.render.width = candidate.targets[0].width;
+    options.run.render.height = candidate.targets[0].height;
+    const Session session = open_session(options.run);
+    return diagnose_samples(options.run, session, candidate, options.json);
+}
+
 int diagnose_one(const DiagnoseOptions& options) {
+    if (options.run.samples > 1 && !options.run.sample) return diagnose_resolved(options);
     Progress machines("wrong machines");
     const auto opened = open_case(options, Tried::options_too, shown_by(machines));
     Progress pairs("pairs of mistakes");
@@ -315,6 +330,7 @@ Command add_diagnose(CLI::App& root) {
     auto* app = root.add_subcommand("diagnose", "show which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
     add_picture_options(*app, options->run);
+    options->run.resolves = true;
     app->get_option("SCENE")->required(false);  // not needed with --list
     app->add_option(
            "CANDIDATE", options->candidate,
