@@ -126,11 +126,8 @@ std::size_t PixelShading::centroid_of(const FragmentBatch& batch, std::size_t i)
     return covered == edges_.size() ? 0 : 1 + first;
 }
 
-void PixelShading::copy_values(const FragmentBatch& from, std::size_t i, FragmentBatch& to,
-                               std::size_t k) const noexcept {
-    if (needs_.shader_z) to.shader_z[k] = from.shader_z[i];
-    if (needs_.reference) to.reference_code[k] = from.reference_code[i], to.reference_z[k] = from.reference_z[i];
-    if (needs_.facing) to.front_facing[k] = from.front_facing[i];
+void PixelShading::copy_attributes(const FragmentBatch& from, std::size_t i, FragmentBatch& to,
+                                   std::size_t k) const noexcept {
     for (std::size_t c = 0; needs_.color && c < to.color.size(); ++c) to.color[c][k] = from.color[c][i];
     for (std::size_t c = 0; needs_.texcoord && c < to.texcoord.size(); ++c) to.texcoord[c][k] = from.texcoord[c][i];
     for (std::size_t u = 0; needs_.units != 0 && u < to.unit.size(); ++u)
@@ -150,9 +147,9 @@ int PixelShading::fill_at_centroids(std::uint32_t index, int first, FragmentBatc
         at[i] = static_cast<std::uint8_t>(centroid_of(batch, i));
         is_inside &= at[i] == 0;
     }
-    if (is_inside) return fill_at(points_[0], first, batch, weights);
-    int fallbacks = 0;
-    for (std::size_t p = 0; p < points_.size(); ++p) {
+    // The depth is that of the centre everywhere.
+    int fallbacks = fill_at(points_[0], first, batch, weights);
+    for (std::size_t p = 1; !is_inside && p < points_.size(); ++p) {
         Lanes<std::uint16_t> lane;
         few_.count = 0;
         few_.material = batch.material;
@@ -165,7 +162,7 @@ int PixelShading::fill_at_centroids(std::uint32_t index, int first, FragmentBatc
         }
         if (few_.count == 0) continue;
         fallbacks += fill_at(points_[p], 0, few_, few_weights_);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(few_.count); ++k) copy_values(few_, k, batch, lane[k]);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(few_.count); ++k) copy_attributes(few_, k, batch, lane[k]);
     }
     return fallbacks;
 }

@@ -2,8 +2,8 @@
 // or centroid.
 //
 // Rule     Coverage, the stored depth and its clip are those of the sample; all else that a program reads is evaluated
-//          at the pixel's centre, or at its centroid: the centre if the triangle covers every sample of the pixel, else
-//          the first sample that it covers. Beyond the triangle its planes go on.
+//          at the pixel's centre. Colours and coordinates may be at its centroid: the centre if the triangle covers
+//          every sample of the pixel, else the first sample that it covers. Beyond the triangle its planes go on.
 // Source   rasterizer/reference/coverage.md 12.3.
 // Tests    tests/rasterizer/walk/pixel_shading_test.cpp
 #pragma once
@@ -39,7 +39,7 @@ class PixelShading {
     [[nodiscard]] int fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights);
     // The point of fragment `i`: 0 for the centre, 1 + s for sample s.
     [[nodiscard]] std::size_t centroid_of(const FragmentBatch& batch, std::size_t i) const noexcept;
-    void copy_values(const FragmentBatch& from, std::size_t i, FragmentBatch& to, std::size_t k) const noexcept;
+    void copy_attributes(const FragmentBatch& from, std::size_t i, FragmentBatch& to, std::size_t k) const noexcept;
 
     const Geometry& geometry_;
     FragmentNeeds needs_;

@@ -43,8 +43,8 @@ def end_alike(pack, candidate):
 
 SHADINGS = {
     "sample": [],
-    "centre": ["--shading", "pixel", "--load-sample", 0],
-    "centroid": ["--shading", "pixel", "--interpolate", "centroid", "--load-sample", 0],
+    "centre": ["--shading", "pixel", "--load-sample", 0, "--max-passes", 200],
+    "centroid": ["--shading", "pixel", "--interpolate", "centroid", "--load-sample", 0, "--max-passes", 200],
 }
 
 

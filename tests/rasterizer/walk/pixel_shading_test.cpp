@@ -109,7 +109,8 @@ void compare_with_planes(SoupKind kind, std::size_t sample, Interpolation interp
         faults.outside += point.is_covered ? 0 : 1;
         faults.far_outside += abs(point.weight[2]) > 25 ? 1 : 0;
         faults.codes += f.code != found->second.code ? 1 : 0;
-        faults.depths += f.shader_z != nearest_float(plane_value(point.weight, t.z)) ? 1 : 0;
+        const ShadedPoint centre_point = shaded_point(t.p, f.x, f.y, {}, bits);
+        faults.depths += f.shader_z != nearest_float(plane_value(centre_point.weight, t.z)) ? 1 : 0;
         faults.colors += f.color[0] != model_red(t, point.weight) ? 1 : 0;
     }
 }
