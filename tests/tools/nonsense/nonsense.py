@@ -43,6 +43,7 @@ ACCEPTED = {
     ("*", "--alpha", "-0"): "zero",
     ("*", "--compare-epsilon", "-0"): "zero",
     ("*", "--overestimation", "-0"): "zero",
+    ("*", "--moment-bias", "-0"): "zero",
     ("bench", "--warm-up", "-0"): "zero",
     ("bench", "--json", "-"): "standard output, in the old spelling",
 }
