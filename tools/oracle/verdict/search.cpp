@@ -233,11 +233,18 @@ double most_open(const Checked& account) {
     return of_changed * static_cast<double>(account.changed) + pixels + edges;
 }
 
+// True if the account needs less than half of the bits of the right structure's account, and many pixels contradict the
+// right structure under its hypothesis.
+bool is_much_closer(const Checked& account, double right_bits) {
+    constexpr std::uint64_t many = 64;
+    const std::uint64_t decided = account.changed - account.undecided;
+    return 2 * account.bits < right_bits && decided >= many && 10 * account.undecided <= account.changed;
+}
+
 // The accounts that hold for the whole picture; of rules that differ only in their numbers, only the first.
 std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                            const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
-                           const Sample& sample, std::size_t most_tried,
-                           int most_rejected = std::numeric_limits<int>::max()) {
+                           const Sample& sample, std::size_t most_tried, const AgainstRight& against = {}) {
     constexpr std::size_t most_told = 12, least_decided = 4, few_sampled = 400;
     std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
@@ -254,10 +261,11 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
         if (own_families.empty()) continue;
         Sample own = sample.thinned(few_sampled);
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
-        auto one = account_for(own_families, rules, scene, candidate, own, likely, most_rejected);
+        auto one = account_for(own_families, rules, scene, candidate, own, likely, against.most_rejected);
         // An explanation must change several pixels that the right structure does not reach: among so many rules, some
         // fit a few pixels by chance.
-        if (one && one->changed - one->undecided >= least_decided && one->bits <= most_open(*one))
+        if (one && one->changed - one->undecided >= least_decided &&
+            (one->bits <= most_open(*one) || is_much_closer(*one, against.bits)))
             found.push_back(*std::move(one));
     }
     return found;
@@ -323,7 +331,7 @@ void put_telling_first(Parted& parts, const std::vector<Hypothesis>& each, const
 }  // namespace
 
 std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
-                                const Sample& sample, int most_rejected) {
+                                const Sample& sample, const AgainstRight& against) {
     constexpr std::size_t most_tried = 8;  // each is checked with every hypothesis
     Parted parts{.has_no_account = true};
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({.sampled = &pixel});
@@ -337,7 +345,7 @@ std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candi
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
     const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());
     if (left.empty()) return {};
-    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried, most_rejected);
+    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried, against);
     drop_roomy(found, std::numeric_limits<double>::max());
     return found;
 }

@@ -6,6 +6,8 @@
 //          the pixels that they explain, minus a share of the right ones that contradict them.
 // Tests    tests/tools/oracle/verdict/search_test.cpp
 #pragma once
+#include <limits>
+
 #include "tools/oracle/verdict/match.h"
 #include "tools/oracle/verdict/rules.h"
 
@@ -19,10 +21,14 @@ namespace strata::oracle::verdict {
                                           int most_rules, const Region& region = {});
 
 // The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
-// the sample, including those that a wider hypothesis would call right. `most_rejected`: of hypotheses, for each rule
-// (match.h).
+// the sample, including those that a wider hypothesis would call right.
+struct AgainstRight {
+    double bits = 0;                                      // of the account of the right structure
+    int most_rejected = std::numeric_limits<int>::max();  // hypotheses of each rule (match.h)
+};
 [[nodiscard]] std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate,
-                                              const Families& narrow, const Sample& sample, int most_rejected);
+                                              const Families& narrow, const Sample& sample,
+                                              const AgainstRight& against);
 
 // The rules that explain the most wrong pixels of a sample, the best first.
 [[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample);

@@ -1,7 +1,6 @@
 #include "tools/oracle/verdict/verdict.h"
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
 
 #include "rasterizer/base/parallel.h"
@@ -148,12 +147,13 @@ std::vector<Checked> told_better(const SceneFragments& scene, const Colors& cand
     // pixels and hypotheses are enough to find these.
     const bool is_few = is_narrow(right);
     const std::size_t most = is_few ? 128 : 512, most_structures = is_few ? 512 : 4096;
-    const int most_rejected = is_few ? 3 : std::numeric_limits<int>::max();
+    AgainstRight against{.bits = right.bits};
+    if (is_few) against.most_rejected = 3;
     constexpr double share = 0.95, least_bits = 64;
     if (leaves_little_open(right)) return {};
     const Sample deep = deepest(even, most).with_few_structures(most_structures);
     const Families narrow = narrower(all.definite, right.account.hypothesis, deep);
-    std::vector<Checked> better = search_all(scene, candidate, narrow, deep, most_rejected);
+    std::vector<Checked> better = search_all(scene, candidate, narrow, deep, against);
     std::erase_if(better, [&](const Checked& c) { return c.bits + least_bits > share * right.bits; });
     return better;
 }
