@@ -179,19 +179,36 @@ DeviceProfile swiftshader() {
     return p;
 }
 
+// The class of devices that the Direct3D 11.3 functional specification describes (devices.md 8). Where it leaves a
+// choice, the value is that of geforce8_dx101.
+DeviceProfile direct3d11() {
+    DeviceProfile p = geforce8_dx101();
+    p.name = "direct3d11";
+    p.description = "no one device: the rules of Direct3D 11.3, with unordered access and ordered views";
+    p.half_rounding = HalfRounding::toward_zero;
+    p.has_d16 = true;
+    p.has_unclamped_depth_clear = false;
+    p.has_ordered_rmw = true;
+    p.has_unordered_access = true;
+    p.max_viewport_px = 16384;
+    return p;
+}
+
 // The index of a profile in ProfileField::source.
 int source_column(std::string_view name) {
     if (name == "geforce3") return 0;
     if (name == "geforce8" || name == "geforce8_dx101") return 1;
     if (name == "swiftshader") return 4;
+    if (name == "direct3d11") return 5;
     return name == "ideal" ? 2 : 3;
 }
 
 }  // namespace
 
 const std::vector<DeviceProfile>& builtin_profiles() {
-    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(),     geforce8_dx101(), ideal(),
-                                                     llvmpipe(), llvmpipe_sse(), softpipe(),       swiftshader()};
+    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(),    geforce8_dx101(),
+                                                     ideal(),    llvmpipe(),    llvmpipe_sse(),
+                                                     softpipe(), swiftshader(), direct3d11()};
     return profiles;
 }
 

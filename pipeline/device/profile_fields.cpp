@@ -10,8 +10,9 @@ namespace strata::pipeline {
 namespace {
 
 using Names = std::span<const std::string_view>;
-// The last entry is for swiftshader; if omitted, that of geforce8_dx101 applies.
-using Sources = std::array<std::string_view, 5>;
+// The last two entries are for swiftshader and direct3d11. If omitted, the source of geforce8_dx101 applies: it is
+// Direct3D 11.3 itself wherever that states the value.
+using Sources = std::array<std::string_view, 6>;
 using Profile = DeviceProfile;
 using Rules = rasterizer::RasterRules;
 using Hypothesis = rasterizer::DepthHypothesis;
@@ -44,7 +45,8 @@ constexpr ProfileField field_of(std::string_view key, FieldKind kind, const Sour
         at<member>(p) = static_cast<std::remove_reference_t<decltype(at<member>(p))>>(value);
     };
     field.source = source;
-    if (field.source.back().empty()) field.source.back() = "[A] as geforce8_dx101";
+    if (field.source[4].empty()) field.source[4] = "[A] as geforce8_dx101";
+    if (field.source[5].empty()) field.source[5] = field.source[1];
     return field;
 }
 
@@ -224,18 +226,23 @@ constexpr std::array fields{
                                         "[S] coverage.md 1.1: D3D 11.3 3.3.1", ours,
                                         "[M] mesa-rasterizers.md 1.1: measured under GL_UPPER_LEFT",
                                         "[M] swiftshader-rasterizer.md 1.3: either, for y_axis is clip"}),
-    choice<&Profile::alpha_test>("alpha_test", {"[M] chip-fragment.md 2: 16 of 16 pictures",
-                                                "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
-    choice<&Profile::blend_rounding>("blend_rounding", {"[M] chip-fragment.md 1.2: 1,673 of 1,673",
-                                                        "[A] fragment-stages.md 8.2: the contract that NV2A confirms",
-                                                        ours, unmeasured, "[M] swiftshader-rasterizer.md 3.2"}),
+    choice<&Profile::alpha_test>(
+        "alpha_test",
+        {"[M] chip-fragment.md 2: 16 of 16 pictures", "[S] fragment-stages.md 3: ARB_color_buffer_float", ours,
+         unmeasured, unmeasured, "[A] fragment-stages.md 3: a pixel shader discards by a comparison of its own"}),
+    choice<&Profile::blend_rounding>(
+        "blend_rounding",
+        {"[M] chip-fragment.md 1.2: 1,673 of 1,673", "[A] fragment-stages.md 8.2: the contract that NV2A confirms",
+         ours, unmeasured, "[M] swiftshader-rasterizer.md 3.2",
+         "[S] fragment-stages.md 8.2: D3D 11.3 17.5, within its tolerance"}),
     choice<&Profile::blend_storage>(
         "blend_storage",
         {"[M] chip-fragment.md 1.2: 1,673 of 1,673", "[A] fragment-stages.md 8.2: the contract that NV2A confirms",
          ours, "[M] mesa-rasterizers.md 3.5", "[M] swiftshader-rasterizer.md 3.2"}),
-    choice<&Profile::half_rounding>("half_rounding", {"[A] formats.md 3.2: no float targets",
-                                                      "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero",
-                                                      ours, unmeasured, "[M] swiftshader-rasterizer.md 3.3"}),
+    choice<&Profile::half_rounding>(
+        "half_rounding",
+        {"[A] formats.md 3.2: no float targets", "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero",
+         ours, unmeasured, "[M] swiftshader-rasterizer.md 3.3", "[S] formats.md 3.2: D3D 11.3 3.2.2, toward zero"}),
     choice<&Profile::unorm_rounding>(
         "unorm_rounding",
         {"[S] formats.md 2.1: D3D 11.3 3.2.3.6", "[S] formats.md 2.1: D3D 11.3 3.2.3.6", ours,
@@ -247,45 +254,53 @@ constexpr std::array fields{
     choice<&Profile::denormals>("denormals", {"[A] fragment-stages.md 9.1: no float targets",
                                               "[A] fragment-stages.md 9.1: flushed in and out, as the shader does",
                                               ours, unmeasured, "[M] swiftshader-rasterizer.md 3.4"}),
-    choice<&Profile::texture_filter>(
-        "texture_filter",
-        {"[A] texturing.md 3.2: one rounding to 8 bits", "[A] texturing.md 3.1: binary32 in a fixed order", ours,
-         "[M] texturing.md 3.4: 0 of 32,768 lookups differ", unmeasured}),
+    choice<&Profile::texture_filter>("texture_filter", {"[A] texturing.md 3.2: one rounding to 8 bits",
+                                                        "[A] texturing.md 3.1: binary32 in a fixed order", ours,
+                                                        "[M] texturing.md 3.4: 0 of 32,768 lookups differ", unmeasured,
+                                                        "[A] texturing.md 3.1: binary32 in a fixed order"}),
     choice<&Profile::depth24>("depth24", {"[M] chip-depth.md 1.3: codes", "[S] depth.md 2.1: D3D 11.3 17.10", ours,
                                           unmeasured, "[M] swiftshader-rasterizer.md 2.5"}),
-    boolean<&Profile::has_d16>(
-        "has_d16", {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours, opengl, webgl}),
-    boolean<&Profile::has_d24>("has_d24", {"[M] devices.md 5: Z24S8", "[M] devices.md 5: Z24S8", ours, opengl, webgl}),
-    boolean<&Profile::has_d32f>("has_d32f", {"[M] devices.md 5: no such format",
-                                             "[M] devices.md 5: Z32F among G80's depth formats", ours, opengl, webgl}),
-    boolean<&Profile::has_d16f>("has_d16f", {"[M] chip-float-depth.md 3.2: 98 pictures",
-                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl, webgl}),
-    boolean<&Profile::has_d24f>("has_d24f", {"[M] chip-float-depth.md 3.3: 98 pictures",
-                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl, webgl}),
+    boolean<&Profile::has_d16>("has_d16", {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours,
+                                           opengl, webgl, "[S] devices.md 5: DXGI_FORMAT_D16_UNORM"}),
+    boolean<&Profile::has_d24>("has_d24", {"[M] devices.md 5: Z24S8", "[M] devices.md 5: Z24S8", ours, opengl, webgl,
+                                           "[S] devices.md 5: DXGI_FORMAT_D24_UNORM_S8_UINT"}),
+    boolean<&Profile::has_d32f>(
+        "has_d32f", {"[M] devices.md 5: no such format", "[M] devices.md 5: Z32F among G80's depth formats", ours,
+                     opengl, webgl, "[S] devices.md 5: DXGI_FORMAT_D32_FLOAT"}),
+    boolean<&Profile::has_d16f>(
+        "has_d16f", {"[M] chip-float-depth.md 3.2: 98 pictures", "[M] devices.md 5: not among G80's depth formats",
+                     ours, opengl, webgl, "[S] devices.md 5: no such format"}),
+    boolean<&Profile::has_d24f>(
+        "has_d24f", {"[M] chip-float-depth.md 3.3: 98 pictures", "[M] devices.md 5: not among G80's depth formats",
+                     ours, opengl, webgl, "[S] devices.md 5: no such format"}),
     boolean<&Profile::has_narrow_surfaces>(
         "has_narrow_surfaces", {"[M] chip-fragment.md 5", "[A] devices.md 5: none is emulated", ours, opengl, webgl}),
-    boolean<&Profile::has_float_targets>("has_float_targets",
-                                         {"[S] devices.md 5: NV30 had the first, without blending",
-                                          "[S] devices.md 5: Bavoil and Myers", ours, opengl, webgl}),
+    boolean<&Profile::has_float_targets>("has_float_targets", {"[S] devices.md 5: NV30 had the first, without blending",
+                                                               "[S] devices.md 5: Bavoil and Myers", ours, opengl,
+                                                               webgl, "[S] devices.md 5: R16G16B16A16_FLOAT blends"}),
     boolean<&Profile::has_unclamped_depth_clear>(
         "has_unclamped_depth_clear",
         {"[S] formats.md 5.5: NV_depth_buffer_float", "[S] formats.md 5.5: NV_depth_buffer_float", ours,
-         "[A] as geforce8_dx101", "[S] WebGL 1 6.7: clearDepth clamps"}),
+         "[A] as geforce8_dx101", "[S] WebGL 1 6.7: clearDepth clamps",
+         "[S] formats.md 5.5: ClearDepthStencilView clamps"}),
     boolean<&Profile::has_fragment_programs>(
-        "has_fragment_programs",
-        {"[S] devices.md 6: combiners and texture shaders", "[S] devices.md 6", ours, opengl, webgl}),
+        "has_fragment_programs", {"[S] devices.md 6: combiners and texture shaders", "[S] devices.md 6", ours, opengl,
+                                  webgl, "[S] devices.md 6: pixel shaders"}),
     boolean<&Profile::has_separate_alpha_blend>(
-        "has_separate_alpha_blend", {"[M] devices.md 6: one factor pair and one equation",
-                                     "[M] devices.md 6: register fields since NV30 and NV40", ours, opengl, webgl}),
+        "has_separate_alpha_blend",
+        {"[M] devices.md 6: one factor pair and one equation", "[M] devices.md 6: register fields since NV30 and NV40",
+         ours, opengl, webgl, "[S] devices.md 6: BlendOpAlpha"}),
     boolean<&Profile::has_independent_blend>(
         "has_independent_blend",
         {"[M] devices.md 6", "[M] devices.md 6: a shared equation; per target from GT215 (DirectX 10.1) on", ours,
-         opengl, webgl}),
-    boolean<&Profile::has_two_sided_stencil>("has_two_sided_stencil",
-                                             {"[S] devices.md 6: EXT_stencil_two_side came with NV30",
-                                              "[S] devices.md 6: STENCIL_TWO_SIDE_ENABLE", ours, opengl, webgl}),
+         opengl, webgl, "[S] devices.md 6: IndependentBlendEnable"}),
+    boolean<&Profile::has_two_sided_stencil>(
+        "has_two_sided_stencil",
+        {"[S] devices.md 6: EXT_stencil_two_side came with NV30", "[S] devices.md 6: STENCIL_TWO_SIDE_ENABLE", ours,
+         opengl, webgl, "[S] devices.md 6: FrontFace and BackFace"}),
     boolean<&Profile::has_depth_clamp>("has_depth_clamp", {"[M] chip-geometry.md 5.3: clamped when depth clamp is on",
-                                                           "[S] depth.md 5.3: NV_depth_clamp", ours, opengl, webgl}),
+                                                           "[S] depth.md 5.3: NV_depth_clamp", ours, opengl, webgl,
+                                                           "[S] depth.md 5.3: DepthClipEnable false"}),
     boolean<&Profile::has_depth_replace>(
         "has_depth_replace", {"[S] texture-shader.md 7: NV_texture_shader", "[S] devices.md 6: refused", ours,
                               "[A] as geforce8_dx101", webgl}),
@@ -294,7 +309,8 @@ constexpr std::array fields{
         {"[A] devices.md 6: an emulator extension", "[A] devices.md 6: an emulator extension", ours,
          "[A] devices.md 6: an emulator extension"}),
     boolean<&Profile::has_ordered_rmw>("has_ordered_rmw",
-                                       {"[A] devices.md 6", "[A] devices.md 6", ours, "[A] devices.md 6"}),
+                                       {"[A] devices.md 6", "[A] devices.md 6", ours, "[A] devices.md 6", unmeasured,
+                                        "[S] devices.md 6: rasterizer ordered views"}),
     boolean<&Profile::has_unordered_access>(
         "has_unordered_access",
         {"[S] devices.md 6: Direct3D 11", "[S] devices.md 6: Direct3D 11", ours,
@@ -314,18 +330,19 @@ constexpr std::array fields{
     integer<&Profile::max_texture_units>(
         "max_texture_units", {1, 32},
         {"[S] devices.md 7: four texture shader stages", "[A] devices.md 7: sixteen samplers of Direct3D 10", ours,
-         "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS", webgl}),
+         "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS", webgl, "[S] devices.md 7: sixteen samplers of a stage"}),
     integer<&Profile::max_viewport_px>(
         "max_viewport_px", {1, 16384},
         {"[A] coverage.md 1.3: never found documented", "[A] devices.md 7: the limit of Direct3D 10.0", ours,
-         "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS", webgl}),
+         "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS", webgl, "[S] devices.md 7: 16384 texels of a 2D texture"}),
     integer<&Profile::max_samples>(
         "max_samples", {1, 8},
         {"[A] devices.md 7: 4-sample multisampling", "[A] devices.md 7: 8-sample multisampling", ours,
-         "[M] Mesa 22.3: GL_MAX_SAMPLES", webgl}),
+         "[M] Mesa 22.3: GL_MAX_SAMPLES", webgl, "[S] devices.md 7: 4 and 8 samples are required"}),
     integer<&Profile::min_samples>("min_samples", {2, 8},
                                    {"[S] devices.md 7: CENTER_CORNER_2", "[A] devices.md 7: 2-sample multisampling",
-                                    ours, "[S] devices.md 7: 1 and 4 alone", "[A] devices.md 7: 1 and 4 alone"}),
+                                    ours, "[S] devices.md 7: 1 and 4 alone", "[A] devices.md 7: 1 and 4 alone",
+                                    "[A] devices.md 7: 2 samples are optional"}),
 };
 
 }  // namespace

@@ -24,9 +24,9 @@ struct ProfileField {
     // Read and write the field as such a number; the caller of `set` must have checked the range.
     int (*value)(const DeviceProfile&) = nullptr;
     void (*set)(DeviceProfile&, int) = nullptr;
-    // The sources for geforce3; for geforce8 and geforce8_dx101; for ideal; for Mesa's profiles; and for swiftshader.
-    // pipeline/reference/devices.md explains the marks.
-    std::array<std::string_view, 5> source;
+    // The sources for geforce3; for geforce8 and geforce8_dx101; for ideal; for Mesa's profiles; for swiftshader; and
+    // for direct3d11. devices.md explains the marks.
+    std::array<std::string_view, 6> source;
 };
 
 [[nodiscard]] std::span<const ProfileField> profile_fields();

@@ -51,8 +51,9 @@ struct Expectation {
             case Devices::independent_blending: return device != "geforce3" && device != "geforce8";
             case Devices::many_samples: return device != "geforce3" && !is_driver;
             case Devices::texture_shaders: return device == "geforce3" || device == "ideal";
-            case Devices::buffers: return device == "ideal" || device == "llvmpipe" || device == "llvmpipe_sse";
-            case Devices::ideal_alone: return device == "ideal";
+            case Devices::buffers:
+                return device == "ideal" || device == "llvmpipe" || device == "llvmpipe_sse" || device == "direct3d11";
+            case Devices::ideal_alone: return device == "ideal" || device == "direct3d11";
         }
         return false;
     }

@@ -34,10 +34,10 @@ std::string sentence(const Machine& machine) { return sentence(machine, options_
 
 const std::string no_float =
     "profile geforce3 has no float render targets that blend (ARB_color_buffer_float); "
-    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader";
+    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11";
 const std::string no_programs =
     "profile geforce3 has no fragment programs that discard after a compare (ARB_fragment_program); "
-    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader";
+    "use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11";
 
 }  // namespace
 
@@ -59,12 +59,14 @@ TEST_CASE("a rejected algorithm names the first missing feature with its extensi
         CHECK(sentence({profile, "dual_independent"}) ==
               "profile " + profile +
                   " has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal, llvmpipe, "
-                  "llvmpipe_sse, softpipe or swiftshader");
+                  "llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(sentence({"geforce3", "coherent_stencil"}) == no_programs);
     CHECK(sentence({"geforce8", "coherent_ideal"}) ==
-          "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
+          "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal or "
+          "direct3d11");
     CHECK(sentence({"llvmpipe", "stencil_routed_k_buffer"}) ==
-          "profile llvmpipe has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
+          "profile llvmpipe has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, ideal or "
+          "direct3d11");
 }
 
 TEST_CASE("depth replace is rejected by its extension where there are no texture shaders") {
@@ -81,7 +83,8 @@ TEST_CASE("depth formats that a device lacks are rejected for every algorithm") 
         return sentence(machine, options);
     };
     const std::string d16 =
-        " has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader";
+        " has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or "
+        "direct3d11";
     for (const std::string profile : {"geforce8", "geforce8_dx101"})
         for (const char* algorithm : {"unsorted", "front_to_back", "dual", "a_buffer"}) {
             CHECK(with_depth({profile, algorithm}, DepthFormat::d16) == "profile " + profile + d16);
@@ -94,7 +97,7 @@ TEST_CASE("depth formats that a device lacks are rejected for every algorithm") 
     }
     CHECK(with_depth({"geforce3", "unsorted"}, DepthFormat::d32f) ==
           "profile geforce3 has no float depth buffers (ARB_depth_buffer_float); use geforce8, geforce8_dx101, ideal, "
-          "llvmpipe, llvmpipe_sse, softpipe or swiftshader");
+          "llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11");
 }
 
 TEST_CASE("float colour on geforce3 is rejected") {
@@ -176,10 +179,11 @@ TEST_CASE("a viewport beyond the device's limit is rejected before memory of its
     CHECK(with_size({"geforce3", "unsorted"}, 4096, 1).empty());
     CHECK(with_size({"geforce3", "unsorted"}, 4097, 1) ==
           "profile geforce3 has no viewport of 4097 x 1 pixels; use geforce8, geforce8_dx101, ideal, llvmpipe, "
-          "llvmpipe_sse, softpipe or swiftshader");
+          "llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(with_size({"geforce8", "dual"}, 1, 8192).empty());
     CHECK(with_size({"geforce8", "dual"}, 3, 8193) ==
-          "profile geforce8 has no viewport of 3 x 8193 pixels; use ideal, llvmpipe, llvmpipe_sse or softpipe");
+          "profile geforce8 has no viewport of 3 x 8193 pixels; use ideal, llvmpipe, llvmpipe_sse, softpipe or "
+          "direct3d11");
     CHECK(with_size({"ideal", "unsorted"}, 16384, 1).empty());
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
          "you mean 'dual'?)"},
         {{"render", "teapot", "--profile", "geforce4"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-         "softpipe, swiftshader, or a JSON file, found "
+         "softpipe, swiftshader, direct3d11, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
          "strata: teapt: scene: expected a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in "
@@ -159,7 +159,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
         {{"invariance", "teapot", "-o", ""}, "strata: -o needs a folder"},
         {{"profiles", "ideel"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-         "softpipe, swiftshader, or a JSON file, found "
+         "softpipe, swiftshader, direct3d11, or a JSON file, found "
          "'ideel' "
          "(did you mean 'ideal'?)"},
     }));

@@ -171,7 +171,7 @@ TEST_CASE("a list prints one JSON document with --json") {
 
 TEST_CASE("the JSON that strata profiles prints is a valid profile for --profile and gives the same bits") {
     const auto name = GENERATE(as<std::string>{}, "geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
-                               "softpipe", "swiftshader");
+                               "softpipe", "swiftshader", "direct3d11");
     const Folder folder;
     CHECK(shell(folder, "strata profiles --json " + name + " > own.json").status == 0);
     const std::vector<std::string> words{"render",   "volume-beam:slices=4", "--size", "24x16", "--algorithm", "all",

@@ -34,7 +34,7 @@ TEST_CASE("independent blending is rejected with the feature and the extension a
     CHECK(checked_targets("geforce8", unequal) ==
           "profile geforce8 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal, "
           "llvmpipe, "
-          "llvmpipe_sse, softpipe or swiftshader");
+          "llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(checked_targets("geforce8_dx101", unequal).empty());
     CHECK(checked_targets("ideal", unequal).empty());
 }
@@ -51,7 +51,7 @@ TEST_CASE("targets that share a blend equation may differ in enable and write ma
 TEST_CASE("separate blending of alpha is rejected where there is one function for all channels") {
     CHECK(checked("geforce3", blend_mode::under) ==
           "profile geforce3 has no separate blend functions for alpha (EXT_blend_func_separate); use geforce8, "
-          "geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader");
+          "geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(checked("geforce3", blend_mode::over).empty());
     CHECK(checked("geforce8", blend_mode::under).empty());
     Blend off = blend_mode::under;
@@ -62,7 +62,7 @@ TEST_CASE("separate blending of alpha is rejected where there is one function fo
 TEST_CASE("more render targets than the device has are rejected") {
     CHECK(checked_targets("geforce3", {Blend{}, Blend{}}) ==
           "profile geforce3 has no 2 render targets in one pass (ARB_draw_buffers); use geforce8, geforce8_dx101, "
-          "ideal, llvmpipe, llvmpipe_sse, softpipe or swiftshader");
+          "ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(checked_targets("geforce8", std::vector<Blend>(8)).empty());
     CHECK(checked_targets("ideal", std::vector<Blend>(9)) ==
           "profile ideal has no 9 render targets in one pass (ARB_draw_buffers)");
@@ -73,10 +73,10 @@ TEST_CASE("each device accepts its own depth formats") {
     CHECK(checked("geforce3", Format::d24s8).empty());
     CHECK(checked("geforce3", Format::d32f) ==
           "profile geforce3 has no float depth buffers (ARB_depth_buffer_float); use geforce8, geforce8_dx101, ideal, "
-          "llvmpipe, llvmpipe_sse, softpipe or swiftshader");
+          "llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(checked("geforce8", Format::d16) ==
-          "profile geforce8 has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe or "
-          "swiftshader");
+          "profile geforce8 has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe, "
+          "swiftshader or direct3d11");
     CHECK(checked("geforce8", Format::d32f).empty());
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         CHECK(checked("ideal", format).empty());
@@ -95,7 +95,7 @@ TEST_CASE("two-sided stencil and unclamped depth clears are rejected where they 
     CHECK(checked("geforce3", StencilTest{true, true, {}, {}}) ==
           "profile geforce3 has no two-sided stencil (EXT_stencil_two_side); use geforce8, geforce8_dx101, ideal, "
           "llvmpipe, "
-          "llvmpipe_sse, softpipe or swiftshader");
+          "llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK(checked("geforce3", StencilTest{true, false, {}, {}}).empty());
     CHECK(checked("geforce3", StencilTest{false, true, {}, {}}).empty());
     DeviceProfile clamping = device("geforce8");
@@ -109,9 +109,10 @@ TEST_CASE("two-sided stencil and unclamped depth clears are rejected where they 
 TEST_CASE("sizes and samples and texture units beyond the device's are rejected with the number") {
     CHECK(sentence("geforce3", check_size(device("geforce3"), 4097, 10)) ==
           "profile geforce3 has no viewport of 4097 x 10 pixels; use geforce8, geforce8_dx101, ideal, llvmpipe, "
-          "llvmpipe_sse, softpipe or swiftshader");
+          "llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK_FALSE(check_size(device("geforce3"), 4096, 4096));
-    CHECK(check_size(device("geforce8"), 10, 8193)->way_out == "use ideal, llvmpipe, llvmpipe_sse or softpipe");
+    CHECK(check_size(device("geforce8"), 10, 8193)->way_out ==
+          "use ideal, llvmpipe, llvmpipe_sse, softpipe or direct3d11");
     CHECK(check_samples(device("geforce3"), 8));
     CHECK_FALSE(check_samples(device("geforce8"), 8));
     CHECK(check_texture_units(device("geforce3"), 5));

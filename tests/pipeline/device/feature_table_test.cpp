@@ -17,34 +17,35 @@ using namespace strata::pipeline;
 struct FeatureOfDevices {
     Feature feature;
     std::string_view words, extension,
-        owners;  // one letter per profile: 3, 8, 1 (dx101), i, l, s (llvmpipe_sse), p, w (swiftshader)
+        owners;  // one letter per profile: 3, 8, 1 (dx101), i, l, s (llvmpipe_sse), p, w (swiftshader), d (direct3d11)
 };
 
 constexpr FeatureOfDevices feature_table[] = {
-    {Feature::d16, "16-bit depth buffers", "", "3ilspw"},
-    {Feature::d24, "24-bit depth buffers", "", "381ilspw"},
-    {Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", "81ilspw"},
-    {Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float", "81ilspw"},
+    {Feature::d16, "16-bit depth buffers", "", "3ilspwd"},
+    {Feature::d24, "24-bit depth buffers", "", "381ilspwd"},
+    {Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", "81ilspwd"},
+    {Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float", "81ilspwd"},
     {Feature::unclamped_depth_clear, "unclamped depth clears", "NV_depth_buffer_float", "81ilsp"},
-    {Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program", "81ilspw"},
-    {Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate", "81ilspw"},
-    {Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend", "1ilspw"},
-    {Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side", "81ilspw"},
-    {Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", "381ilspw"},
+    {Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program", "81ilspwd"},
+    {Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate", "81ilspwd"},
+    {Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend", "1ilspwd"},
+    {Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side", "81ilspwd"},
+    {Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", "381ilspwd"},
     {Feature::depth_replace, "depth replace by texture shaders", "NV_texture_shader", "3i"},
-    {Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units", "381ilspw"},
-    {Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw", "i"},
+    {Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units", "381ilspwd"},
+    {Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw", "id"},
     {Feature::signed_blend, "signed blend equations", "", "3"},
     {Feature::d16f, "16-bit float depth buffers", "", "3"},
     {Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "", "3"},
     {Feature::d24f, "24-bit float depth buffers", "", "3"},
     {Feature::unordered_access, "buffers that a program writes and changes atomically",
-     "ARB_shader_storage_buffer_object", "ils"},
+     "ARB_shader_storage_buffer_object", "ilsd"},
 };
 
-constexpr std::array<std::string_view, 8> device_names{"geforce3", "geforce8",     "geforce8_dx101", "ideal",
-                                                       "llvmpipe", "llvmpipe_sse", "softpipe",       "swiftshader"};
-constexpr std::string_view device_marks = "381ilspw";
+constexpr std::array<std::string_view, 9> device_names{"geforce3", "geforce8",    "geforce8_dx101",
+                                                       "ideal",    "llvmpipe",    "llvmpipe_sse",
+                                                       "softpipe", "swiftshader", "direct3d11"};
+constexpr std::string_view device_marks = "381ilspwd";
 
 // "use a, b or c": the devices whose letter is in `owners`.
 [[nodiscard]] std::string way_to(std::string_view owners) {
@@ -91,10 +92,10 @@ TEST_CASE("each format of a target requires its own feature") {
             INFO(info(format).name << " on " << device_names[i]);
             CHECK(runs(device_names[i], format) == (owners.find(device_marks[i]) != std::string_view::npos));
         };
-        for (const Format format : {rgba8, s8, d24, d24s8}) takes(format, "381ilspw");
-        for (const Format format : {rgba16f, rgba32f, r16f, r32f, rg32f, d32f}) takes(format, "81ilspw");
+        for (const Format format : {rgba8, s8, d24, d24s8}) takes(format, "381ilspwd");
+        for (const Format format : {rgba16f, rgba32f, r16f, r32f, rg32f, d32f}) takes(format, "81ilspwd");
         for (const Format format : {x8r8g8b8, x1a7r8g8b8, r5g6b5, x1r5g5b5, d16f, d24f}) takes(format, "3");
-        takes(d16, "3ilspw");
+        takes(d16, "3ilspwd");
         CHECK(runs(device_names[i], DepthFormat::d16f) == (i == 0));
         CHECK(runs(device_names[i], DepthFormat::d24f) == (i == 0));
     }
@@ -133,7 +134,8 @@ TEST_CASE(
                               {"llvmpipe", 8, 32, 16384, 4},
                               {"llvmpipe_sse", 8, 32, 16384, 4},
                               {"softpipe", 8, 32, 16384, 1},
-                              {"swiftshader", 8, 32, 8192, 4}}) {
+                              {"swiftshader", 8, 32, 8192, 4},
+                              {"direct3d11", 8, 16, 16384, 8}}) {
         const DeviceProfile& p = device_named(row.device);
         INFO(row.device);
         const auto blends = [](int count) { return std::vector<Blend>(static_cast<std::size_t>(count)); };
@@ -150,10 +152,11 @@ TEST_CASE(
     }
     const DeviceProfile& geforce3 = device_named("geforce3");
     CHECK(check_texture_units(geforce3, 17)->sentence(geforce3) ==
-          "profile geforce3 has no 17 texture units (ARB_multitexture); use llvmpipe, llvmpipe_sse, softpipe or "
+          "profile geforce3 has no 17 texture units (ARB_multitexture); use llvmpipe, llvmpipe_sse, softpipe, "
           "swiftshader");
     CHECK(check_samples(geforce3, 8)->sentence(geforce3) ==
-          "profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
+          "profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, ideal or "
+          "direct3d11");
     CHECK(check_samples(geforce3, 16)->way_out.empty());
     CHECK(check_size(geforce3, 20000, 7)->feature == "viewport of 20000 x 7 pixels");
 }

@@ -10,11 +10,11 @@
 using namespace strata::pipeline;
 using namespace strata::rasterizer;
 
-TEST_CASE("the built-in profiles are three GeForces plus ideal plus three rasterizers of Mesa plus SwiftShader") {
+TEST_CASE("the built-in profiles are three GeForces plus ideal plus four software drivers plus Direct3D 11") {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles()) names.push_back(profile.name);
     CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
-                                            "llvmpipe_sse", "softpipe", "swiftshader"});
+                                            "llvmpipe_sse", "softpipe", "swiftshader", "direct3d11"});
     CHECK(find_profile("geforce4") == nullptr);
 }
 

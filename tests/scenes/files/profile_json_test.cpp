@@ -71,7 +71,7 @@ TEST_CASE("for an unknown key or name the nearest one is suggested") {
           "my.json: /denormals: expected one of flush, keep, found 'flsh' (did you mean 'flush'?)");
     CHECK(error_of(R"({"name": "mine", "base": "geforce9"})") ==
           "my.json: /base: expected one of geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-          "softpipe, swiftshader, found 'geforce9' (did "
+          "softpipe, swiftshader, direct3d11, found 'geforce9' (did "
           "you mean "
           "'geforce3'?)");
 }
@@ -190,7 +190,7 @@ TEST_CASE("a profile is loaded by name or from a file and for an unknown name th
     CHECK(load_profile(folder / "mine.json").max_samples == 2);
     CHECK_THROWS_WITH(load_profile("gefroce8"),
                       "--profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
-                      "softpipe, swiftshader, or a JSON file, "
+                      "softpipe, swiftshader, direct3d11, or a JSON file, "
                       "found 'gefroce8' (did you mean 'geforce8'?)");
     CHECK_THROWS_WITH(load_profile("missing.json"), Catch::Contains("missing.json"));
 }

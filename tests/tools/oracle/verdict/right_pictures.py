@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-PROFILES = ["geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader"]
+PROFILES = ["geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader", "direct3d11"]
 ALGORITHMS = ["dual", "front_to_back", "depth_units", "layer_peel", "dual_independent", "stencil_routed_k_buffer", "coherent_stencil",
               "shadow_map_depth_replace", "a_buffer", "coherent_ideal", "batched"]
 FORMATS = [["--color-format", "rgba8"], ["--color-format", "rgba16f"], ["--color-format", "rgba32f"],
