@@ -25,7 +25,7 @@ struct ProfileField {
     int (*value)(const DeviceProfile&) = nullptr;
     void (*set)(DeviceProfile&, int) = nullptr;
     // The sources for geforce3; for geforce8 and geforce8_dx101; for ideal; for Mesa's profiles; for swiftshader; and
-    // for direct3d11. devices.md explains the marks.
+    // for direct3d11. pipeline/reference/devices.md explains the marks.
     std::array<std::string_view, 6> source;
 };
 
