@@ -158,10 +158,10 @@ TEST_CASE("of several missing features the first is named and the ideal device m
         CHECK(has(device("ideal"), feature) == !nv2a.contains(feature));
 }
 
-TEST_CASE("an extension of the emulator is available on every profile and ordered read-modify-write on ideal only") {
+TEST_CASE("an extension of the emulator is available on every profile and ordered read-modify-write on ideal and direct3d11 only") {
     for (const DeviceProfile& profile : builtin_profiles()) {
         CHECK(has(profile, Feature::sequential_depth_units));
-        CHECK(has(profile, Feature::ordered_rmw) == (profile.name == "ideal"));
+        CHECK(has(profile, Feature::ordered_rmw) == (profile.name == "ideal" || profile.name == "direct3d11"));
     }
 }
 

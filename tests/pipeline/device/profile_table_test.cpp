@@ -220,7 +220,7 @@ const std::vector<NamesOfField> choice_names{
 }  // namespace
 
 TEST_CASE("every field of every built-in device has the value in the table of devices") {
-    REQUIRE(builtin_profiles().size() == 8);
+    REQUIRE(builtin_profiles().size() == 9);
     REQUIRE(std::size(device_table) == profile_fields().size());
     std::size_t at = 0;
     for (const FieldOfDevices& expected : device_table) {

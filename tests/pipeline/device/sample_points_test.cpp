@@ -72,11 +72,11 @@ TEST_CASE("numbers of samples that a device lacks are rejected by name") {
     CHECK(refusal_of("geforce3", 2).empty());
     CHECK(refusal_of("llvmpipe", 4).empty());
     CHECK(refusal_of("geforce3", 8) ==
-          "profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101 or "
-          "ideal");
+          "profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, "
+          "ideal or direct3d11");
     CHECK(refusal_of("llvmpipe", 2) ==
           "profile llvmpipe has no pictures of 2 samples per pixel (ARB_multisample); use geforce3, geforce8, "
-          "geforce8_dx101 or ideal");
+          "geforce8_dx101, ideal or direct3d11");
     CHECK(refusal_of("softpipe", 4).starts_with("profile softpipe has no pictures of 4 samples per pixel"));
     DeviceProfile own = *find_profile("softpipe");
     own.max_samples = 8, own.min_samples = 2;

@@ -381,7 +381,8 @@ TEST_CASE("a pass that the profile lacks throws Refused from every execution") {
             sentence = refused.what();
         }
         CHECK(sentence ==
-              "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
+              "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal or "
+              "direct3d11");
     }
 }
 
