@@ -1,13 +1,15 @@
-// peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: when a nearer fragment is drawn, blending copies
-// the nearest depth so far into the colour channels. Carr, Mech and Miller 2008, section 6;
+// peeling/algorithms/coherent_blend.cpp - coherent layer peeling, formulation B: one blended pass finds the nearest
+// depth and the minimum before it. Each fragment that passes the LESS test moves the previous minimum from alpha to rgb
+// and stores its own depth in alpha. Carr, Mech and Miller 2008, section 6;
 // peeling/reference/algorithms.md 11, erratum E16.
 //
 // Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs
 //            can read.
-// Passes     5 per iteration, and 1 that finds nothing left; ascending ceil(n/128) iterations, descending ceil(n/2). Of
-//            equal depths all are composited, the first submitted in front.
-// Invariant  the same as coherent_stencil, without its limit of 255 prefix minima. Alpha is the depth that the depth
-//            test stores.
+// Passes     5 per iteration, and a last one that finds no fragment. n layers submitted near to far take ceil(n/128)
+//            iterations, far to near ceil(n/2).
+// Ties       Fragments of equal depth are all composited, the first submitted in front.
+// Invariant  that of coherent_stencil, but the number of successive minima at a pixel (an 8-bit stencil counter there)
+//            has no limit. After every draw alpha equals the value in the depth buffer.
 #include "peeling/algorithms/entry.h"
 #include "peeling/loops/coherent.h"
 #include "peeling/programs/depth_float.h"
@@ -18,9 +20,9 @@ using namespace pipeline;
 
 namespace {
 
-// rgb = source 1 x destination alpha, the depth before this one; alpha = the new depth. With the printed factors (ZERO,
-// DST_ALPHA) rgb becomes the product of all previous depths: it is too small from the third update on, and the pixel
-// makes no more progress (E16).
+// rgb = 1 * destination alpha, which is the previous minimum; alpha = the new minimum. With the printed factors (ZERO,
+// DST_ALPHA) rgb becomes the product of all previous minima: it is too small from the third update on, and peeling
+// stalls at the pixel (E16).
 Blend shift(bool published) {
     using enum BlendFactor;
     const BlendTerm as_printed{BlendEquation::add, zero, dst_alpha}, resolved{BlendEquation::add, dst_alpha, zero};
@@ -46,7 +48,7 @@ Drawn find_nearest(CoherentPeel& peel) {
     });
 }
 
-// Writes the red channel as a depth, so that the later passes are those of coherent_stencil.
+// Copies the red channel into the depth target `previous`, which the later passes share with coherent_stencil.
 void find_previous(CoherentPeel& peel) {
     PassState state = find_state(peel.previous, CompareFunc::always);
     state.reads[0] = peel.shifted;
@@ -64,18 +66,20 @@ const FirstPasses passes{.geometry_passes = 1, .find_nearest = find_nearest, .fi
 void run(Region& region) { peel_coherently(region, passes); }
 
 std::vector<Algorithm> entries() {
-    return {Algorithm{.name = "coherent_blend",
-                      .listed = 110,
-                      .paper = "Carr, Mech and Miller 2008",
-                      .section = "section 6 (B)",
-                      .summary = "the same runs, with the depth before the nearest shifted into the colour by blending",
-                      .pass_formula = "1 + 5 an iteration",
-                      .ties = TiePolicy::first,
-                      .exact = true,
-                      .compares_own_codes = true,
-                      .has_published_form = true,
-                      .run = run,
-                      .features = {float_targets, fragment_programs, separate_alpha_blend}}};
+    return {Algorithm{
+        .name = "coherent_blend",
+        .listed = 110,
+        .paper = "Carr, Mech and Miller 2008",
+        .section = "section 6 (B)",
+        .summary =
+            "coherent_stencil with blending into a float target in place of the passes that find the previous minimum",
+        .pass_formula = "1 + 5 an iteration",
+        .ties = TiePolicy::first,
+        .exact = true,
+        .compares_own_codes = true,
+        .has_published_form = true,
+        .run = run,
+        .features = {float_targets, fragment_programs, separate_alpha_blend}}};
 }
 
 }  // namespace strata::peeling::listing::coherent_blend

@@ -1,4 +1,6 @@
-// pipeline/frame/captured_fragment.h - a single fragment of the transparent list, after MASK and before any test.
+// pipeline/frame/captured_fragment.h - a fragment of the transparent list as RegionShortcuts::capture returns it: it
+// has passed the alpha cutoff of its material (glTF's alphaMode MASK), and no alpha, stencil or depth test has been
+// applied.
 #pragma once
 #include <cstdint>
 
@@ -7,10 +9,10 @@
 namespace strata::pipeline {
 
 struct CapturedFragment {
-    std::uint32_t pixel = 0, primitive = 0;
-    std::uint32_t code = 0, exact_code = 0;
-    float shader_z = 0;
-    Rgba color{};
+    std::uint32_t pixel = 0, primitive = 0;  // the pixel's index in the frame, row-major; the triangle's in the list
+    std::uint32_t code = 0, exact_code = 0;  // the depth as the frame's buffer stores it; the same by DepthPath::exact
+    float shader_z = 0;                      // the depth that a fragment program reads, not quantized
+    Rgba color{};                            // interpolated
 };
 
 }  // namespace strata::pipeline

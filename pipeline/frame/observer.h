@@ -1,7 +1,8 @@
 // pipeline/frame/observer.h - reports the steps and stages of a run to a caller that explains them.
 //
-// Rule     A run with an observer is literal: it uses one region and one thread and executes every step in order. Steps
-//          are reported after they end, stages of a batch after its lanes have passed them. The emulator's own work
+// Rule     A run with an observer takes Path::literal (pipeline/frame/region_statistics.h): it uses one region and one
+//          thread and executes every step in order. Steps are reported after they end, the stages of a batch after each
+//          has processed all lanes. The emulator's own work
 //          (opaque priming) is reported as uncounted.
 // Tests    tests/tools/oracle/passes_test.cpp, explain_test.cpp
 #pragma once
@@ -20,18 +21,21 @@ enum class Step : std::uint8_t { clear, copy, geometry, full_screen, query, publ
 struct StepEvent {
     Step step{};
     const PassState* state =
-        nullptr;    // for passes; null for one that bypasses the stages (RegionShortcuts::count_passes)
+        nullptr;    // for passes; null for a pass that is counted but not executed (RegionShortcuts::count_passes)
     Target to{};    // for clear, copy and publish
     Target from{};  // for copy
-    const ClearValue* clear = nullptr;      // for clear
-    std::uint8_t sample_mask = 0xff;        // for clear
-    std::uint64_t passed = 0, tallied = 0;  // for passes; for a query `passed` is the queried count
-    bool answer = false;                    // for a query: whether the loop continues
+    const ClearValue* clear = nullptr;  // for clear
+    std::uint8_t sample_mask = 0xff;    // for clear
+    // For passes: the fragments that passed the tests, and the sum of Outputs::tally. For a query: `passed` is its
+    // count.
+    std::uint64_t passed = 0, tallied = 0;
+    bool answer = false;  // for a query: whether the loop continues
     bool is_counted = true;
     int iteration = 0;  // 0: before the first
 };
 
-// The stages of a batch in order; `written` is after the render targets.
+// The stages of a batch in order; `depth_units` are the tests of STRATA_depth_units, `written` is reported after the
+// render targets are updated.
 enum class Stage : std::uint8_t { shaded, program, alpha_test, depth_units, tests, written };
 
 struct StageEvent {
@@ -44,7 +48,7 @@ struct StageEvent {
     bool is_geometry = true, is_counted = true;
 };
 
-// Empty functions are not called. With `traced` the run keeps a trace, and each entry is reported when it is recorded.
+// Empty functions are not called. If `traced` is set, the run records a trace and calls it for each entry.
 struct Observer {
     std::function<void(Target target, std::string_view name)> named{};
     std::function<void(const Region& region, const StepEvent& event)> step{};

@@ -21,7 +21,7 @@ struct Decision {
     bool answer = false;
 };
 
-// One loop of a body: its queries and its passes, including those around it.
+// One loop of an algorithm's body: the decisions of its queries, and its passes.
 struct LoopStatistics {
     std::vector<Decision> decisions;
     int iterations = 0;
@@ -41,7 +41,8 @@ struct KeptLayer {
 // record. resolved: a whole loop was computed from the record, without passes.
 enum class Path : std::uint8_t { literal, tiled, recorded, resolved };
 
-// The path of a region, and why it did not take a faster one: as text, null if there is none.
+// The path of a region other than literal. why() is the reason, as text, why it did not take a faster one; null if it
+// took the fastest.
 struct PathTaken {
     bool rasterizes = false, reads_record = false, is_resolved = false;
     const char *why_rasterized = nullptr, *why_unresolved = nullptr;
@@ -52,11 +53,11 @@ struct PathTaken {
     [[nodiscard]] const char* why() const noexcept { return rasterizes ? why_rasterized : why_unresolved; }
 };
 
-// The passes and queries of a run as they were decided, if Instruments request them.
+// The state of every pass of a run and the number of its queries, if Instruments::log_passes requests them.
 struct PassRecord {
     PassState state;
-    rasterizer::FragmentNeeds needs;       // simulated values
-    rasterizer::FragmentNeeds called_for;  // values needed under Effects::needed
+    rasterizer::FragmentNeeds needs;       // the values that this run computes
+    rasterizer::FragmentNeeds called_for;  // those that it would compute under Effects::needed
     bool samples_textures = false;
     bool is_opaque_priming = false;
     int iteration = 0;  // 0: before the first
@@ -68,14 +69,16 @@ struct PassLog {
 };
 
 struct RegionStatistics {
-    Answers script;  // the frame's known answers; further ones are guessed from the region's counts
+    Answers script;  // input: the query results that are known for the whole frame; later queries are
+                     // answered from the region's own count
     std::vector<LoopStatistics> loops = std::vector<LoopStatistics>(1);  // one, unless the body begins further ones
     // The frame's geometry passes before each loop, if a limit counts them; otherwise those of the region.
     std::vector<int> passes_before;
     int iterations = 0;  // of all loops
     Target published;    // the final colour of the body
     std::vector<KeptLayer> layers;
-    std::size_t idle_layers = 0;  // number of layers at the end that were kept while idle: empty
+    std::size_t idle_layers =
+        0;  // number of last entries of `layers` that were kept after the loop became idle; they are empty
     std::vector<Diagnostic> diagnostics;
     PassLog pass_log;
     std::uint64_t fragments_drawn = 0;

@@ -6,8 +6,8 @@
 //          multiple of 1/256; its integer part is the first texel, its fraction the second one's weight. Repeat and
 //          mirrored repeat wrap the texel index, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp.
 //          NaN is treated as 0, values beyond +-2^31 as +-2^31.
-// Source   pipeline/reference/texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle). The results for NaN
-//          and the bound are assumed; floats beyond 2^31 are even integers, so wrapping is not affected.
+// Source   pipeline/reference/texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle). Assumed: NaN
+//          reads as 0, and coordinates are clamped to +-2^31.
 // Numbers  coordinate * size * 256: 24 + 15 significant bits, below 2^55: exact in binary64 and in 64-bit integers.
 // Tests    tests/pipeline/textures/texture_sample_test.cpp
 #pragma once
@@ -23,12 +23,12 @@ namespace strata::pipeline {
 
 enum class PointSnap : std::uint8_t { none, to_256ths };
 
-// Devices that filter in binary32 follow D3D's texture addressing.
+// All profiles that filter in binary32 snap nearest lookups to 1/256 texel (D3D 11.3 7.18.7).
 [[nodiscard]] constexpr PointSnap point_snap(TextureFilterPrecision precision) noexcept {
     return precision == TextureFilterPrecision::unorm8 ? PointSnap::none : PointSnap::to_256ths;
 }
 
-// One axis of a texture: its number of texels, and the wrap mode outside them.
+// One axis of a texture: its target, its wrap mode and its number of texels.
 struct TexelAxis {
     TextureTarget target = TextureTarget::two_d;
     TextureWrap wrap = TextureWrap::repeat;
@@ -112,7 +112,7 @@ inline void linear_texels(const TexelAxis& axis, const rasterizer::Lanes<float>&
     }
 }
 
-// Weights of the four texels (first or second column, first or second row) in units of 1/65536; their sum is 1.
+// Weights of the four texels (first or second column, first or second row) in units of 1/65536; they sum to 65536.
 struct BilinearWeights {
     std::int32_t w00, w10, w01, w11;
 };
@@ -121,7 +121,8 @@ struct BilinearWeights {
     return {(256 - s) * (256 - t), s * (256 - t), (256 - s) * t, s * t};
 }
 
-// ((t00 w00 + t10 w10) + t01 w01) + t11 w11, each operation rounded to binary32. The weights have 17 bits: exact.
+// ((t00 w00 + t10 w10) + t01 w01) + t11 w11, each operation rounded to binary32. The weights are at most
+// 65536, so their conversion to binary32 is exact.
 [[nodiscard]] constexpr float bilinear(const BilinearWeights& w, float t00, float t10, float t01, float t11) noexcept {
     const float upper = t00 * (static_cast<float>(w.w00) * 0x1p-16f) + t10 * (static_cast<float>(w.w10) * 0x1p-16f);
     const float with_left = upper + t01 * (static_cast<float>(w.w01) * 0x1p-16f);

@@ -68,7 +68,7 @@ TEST_CASE("a chain without an exact link is bit-identical to the picture of sequ
         }
 }
 
-TEST_CASE("a chain rejects a device whose planes are stepped or whose spans are floats") {
+TEST_CASE("render_chain rejects devices without exact planes and snapped edges and a guard band") {
     const DrawList list = random_chain_list(0, parts_of(0));
     for (const char* profile : {"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader"})
         CHECK_THROWS_WITH(
@@ -76,7 +76,8 @@ TEST_CASE("a chain rejects a device whose planes are stepped or whose spans are 
             Catch::Contains("expected exact planes, snapped edges and a guard band") && Catch::Contains(profile));
 }
 
-TEST_CASE("a chain without an exact link follows every depth path and format and snapping grid", "[slow]") {
+TEST_CASE("a chain without an exact link equals depth_units for every depth path and depth format and colour format",
+          "[slow]") {
     const DrawList list = random_chain_list(11, parts_of(11));
     RenderOptions options = chain_options();
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24})
@@ -109,7 +110,9 @@ TEST_CASE("exact blending alone on exact depths is bit-identical to the picture 
         }
 }
 
-TEST_CASE("links made exact one after the other end at the truth and every link changes some picture", "[slow]") {
+TEST_CASE(
+    "making the links exact one by one ends at the exact picture and every link but the transform changes a picture",
+    "[slow]") {
     RenderOptions options = chain_options();
     options.depth = DepthFormat::d16;
     const DeviceProfile& device = *find_profile("geforce3");
@@ -127,14 +130,15 @@ TEST_CASE("links made exact one after the other end at the truth and every link 
         CHECK(before == render_chain(scene, exact_chain));
         CHECK(exact_up_to(links.size()) == exact_chain);
     }
-    // geforce3's grid of 1/16 pixel hides binary32 errors of a clip position unless a corner is on its lines.
+    // The transform need not change a picture: its binary32 errors vanish when geforce3 snaps to 1/16 pixel, unless a
+    // vertex lies almost on a rounding boundary.
     for (std::size_t i = 1; i < links.size(); ++i) {
         INFO(links[i].name);
         CHECK(moved[i] > 0);
     }
 }
 
-TEST_CASE("the truth does not depend on the device") {
+TEST_CASE("the exact chain gives the same picture for every device and format") {
     const DrawList list = random_chain_list(40, {.transparent = 30, .opaque = 6, .has_texture = true});
     RenderOptions options = chain_options();
     const RealImage truth = render_chain({list, chain_view, *find_profile("geforce3"), options}, exact_chain);
@@ -144,7 +148,7 @@ TEST_CASE("the truth does not depend on the device") {
     CHECK(render_chain({list, chain_view, *find_profile("llvmpipe"), options}, exact_chain) == truth);
 }
 
-TEST_CASE("a scene with a light has no truth") {
+TEST_CASE("render_chain rejects a scene with a shadow light") {
     DrawList list = random_chain_list(41, {});
     list.light = ShadowLight{};
     const RenderOptions options = chain_options();

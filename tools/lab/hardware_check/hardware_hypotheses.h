@@ -1,9 +1,9 @@
-// tools/lab/hardware_check/hardware_hypotheses.h - scores alternatives for a profile's undetermined constants on the
-// captures.
+// tools/lab/hardware_check/hardware_hypotheses.h - compares captures of NV2A with alternative values of the
+// device profile's undetermined constants.
 //
-// Rule     A hypothesis is scored on the captures that its subject can affect: depth values of depth pictures, colours
-//          of the others, of the relevant suites. There is one table per subject; its first row is the profile "as
-//          given" on the same captures.
+// Rule     A hypothesis is one value of an undetermined constant. It is scored on the captures of those suites that
+//          depend on its subject (rasterizer::Subject): captures of depth compare depths, all others colours. There is
+//          one table per subject; its first row is the unmodified profile on the same captures.
 // Tests    tests/tools/hardware_check_test.cpp
 #pragma once
 #include <string>
@@ -13,6 +13,8 @@
 
 namespace strata::tools {
 
+// Returns one text table per subject: equal captures, captures within the bound of their suite, differing pixels and
+// the largest difference.
 [[nodiscard]] std::string hypothesis_scores(const std::vector<Capture>& captures,
                                             const pipeline::DeviceProfile& profile);
 

@@ -1,5 +1,5 @@
-// tools/oracle/verdict/color_rules.cpp - the rules (rule.h) that change the colours of layers, sum layers, or change
-// the background.
+// tools/oracle/verdict/color_rules.cpp - the parts of StackMaker that apply rules (rule.h: the possible mistakes of a
+// port) to the colours of layers, to sums of layers and to the background.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,11 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// The weight of a fragment's straight colour in a weighted average, by rule.n. 0 and 1: Bavoil and Myers 2008; 2: Mol*
-// 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, times alpha and not; 5: their equation 9
-// with window depths; 6: LearnOpenGL, Weighted, Blended.
 float within(float weight) noexcept { return std::min(std::max(weight, 0.01f), 3000.0f); }
 float power(float x, int n) noexcept { return n == 1 ? x : x * power(x, n - 1); }
+// The weight of a fragment's colour (not premultiplied) in RuleKind::averaged, by rule.n. 0 and 1: alpha, as Bavoil and
+// Myers 2008; 2: Mol* 5.6, wboit-write.glsl.js; 3 and 4: McGuire and Bavoil 2013, equation 10, with alpha once more and
+// without; 5: their equation 9 with window depths; 6: LearnOpenGL's chapter "Weighted, Blended".
 float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {
     const float near = 1 - f.shader_z;
     switch (n) {
@@ -35,7 +35,8 @@ Rgba with_each(const Rgba& color, float (*change)(float)) {
 
 }  // namespace
 
-// Composites all layers over nothing and makes the result one layer, whose alpha is applied again over the background.
+// composed_twice: replaces the layers by their composite over transparent black, as one layer that is not
+// premultiplied. Blending it over the background applies its alpha a second time.
 void StackMaker::combine_with_background(const Rule& rule) {
     if (items_.empty()) return;
     if (rule.kind == RuleKind::composed_twice) {
@@ -46,13 +47,13 @@ void StackMaker::combine_with_background(const Rule& rule) {
             sum[3] *= 1 - color[3];
         }
         sum[3] = 1 - sum[3];
-        // A port has rounded this sum, perhaps to 8-bit codes.
+        // The port may have stored this sum in an rgba8 target: one code of error is allowed.
         items_[0].layer = {.color = sum, .slack = 1.0f / 255};
         return keep(0, 1);
     }
 }
 
-// Combines all layers, or those behind the nearest n, into one.
+// Replaces all layers (rest_averaged: all but the nearest n) by their average or sum. Other kinds of rules are ignored.
 void StackMaker::combine(const Rule& rule) {
     combine_with_background(rule);
     const bool averages = rule.kind == RuleKind::averaged || rule.kind == RuleKind::rest_averaged;
@@ -79,7 +80,7 @@ void StackMaker::combine(const Rule& rule) {
     if (averages) {
         one.is_premultiplied = false;
         for (std::size_t c = 0; c < 3; ++c) one.color[c] = all_weights > 0 ? sum[c] / all_weights : 0;
-        float same = 1;  // transmittance of as many fragments with the mean alpha
+        float same = 1;  // (1 - mean alpha)^count
         for (float i = 0; i < count; ++i) same *= 1 - sum[3] / count;
         one.color[3] = 1 - (weights == 0 ? same : through);
     }
