@@ -139,7 +139,7 @@ struct DeviceProfile {
     }
 };
 
-// In the order geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader.
+// In the order geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader, direct3d11.
 [[nodiscard]] const std::vector<DeviceProfile>& builtin_profiles();
 
 // The same device drawing from another corner: its tie rule is unchanged in the image and therefore inverted in memory,
